@@ -1,0 +1,17 @@
+# The only file that knows the compiler. Every target of ours links palpate::options.
+add_library(palpate_options INTERFACE)
+add_library(palpate::options ALIAS palpate_options)
+
+target_compile_features(palpate_options INTERFACE cxx_std_20)
+target_include_directories(palpate_options INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_options(palpate_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Wimplicit-fallthrough -Wdouble-promotion
+  $<$<COMPILE_LANGUAGE:CXX>:-Wold-style-cast>
+  -ffp-contract=off)  # the same bits from every optimisation level; see docs/architecture.md
+if(PALPATE_WERROR)
+  target_compile_options(palpate_options INTERFACE -Werror)
+endif()
+if(PALPATE_SANITIZE)
+  target_compile_options(palpate_options INTERFACE -fsanitize=${PALPATE_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(palpate_options INTERFACE -fsanitize=${PALPATE_SANITIZE})
+endif()

@@ -1,0 +1,42 @@
+#include "common/process/node_main.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "common/error/error.h"
+#include "common/process/stop_flag.h"
+#include "common/scene/load_scene.h"
+
+namespace palpate {
+
+int node_main(int argc, char** argv, const char* name,
+              const std::function<int(const NodeOptions&, const Scene&)>& run) {
+  NodeOptions options;
+  CLI::App app{std::string(name) + ": one node of palpate"};
+  app.add_option("scene", options.scene_path, "scene file (TOML)")->required();
+  app.add_option("--set", options.settings, "table.key=value over the scene; may be repeated")->allow_extra_args(false);
+  app.add_option("--out", options.out, "folder for what this node leaves");
+  app.add_option("--domain", options.domain, "DDS domain, 0 to 100")->check(CLI::Range(0, 100));
+  app.add_option("--seconds", options.seconds, "simulated time after which to stop")->check(CLI::NonNegativeNumber);
+  app.add_option("--device", options.device, "driver instead of the scene's");
+  app.add_flag("--headless", options.headless, "frames to files instead of a window");
+  app.add_flag("--require-rt", options.require_rt, "fail without real-time rights");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? exit_ok : exit_mistake;
+  }
+  try {
+    install_stop_handlers();
+    return run(options, load_scene(options.scene_path, options.settings));
+  } catch (const InputError& error) {
+    for (const auto& line : error.complaints()) std::fprintf(stderr, "%s: %s\n", name, line.c_str());
+    return exit_mistake;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\n", name, error.what());
+    return exit_failed;
+  }
+}
+
+}  // namespace palpate

@@ -1,0 +1,29 @@
+#pragma once
+// What the main() of every node shares: its command line, and what becomes of an InputError.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "common/scene/scene.h"
+
+namespace palpate {
+
+/// The command line of palpate-physics, palpate-haptic and palpate-render:
+///   SCENE [--set table.key=value]... [--out DIR] [--domain N] [--seconds T] [--device DRIVER] [--headless] [--require-rt]
+struct NodeOptions {
+  std::string scene_path;
+  std::vector<std::string> settings;
+  std::string out;         // folder for what this node leaves; empty: nothing is written
+  int domain = 0;          // DDS domain
+  double seconds = 0;      // stop after this much simulated time; 0: until told
+  std::string device;      // driver instead of the scene's; empty: the scene's
+  bool headless = false;   // render: frames to files, no window
+  bool require_rt = false; // haptic: no real-time rights is fatal
+};
+
+/// Reads the command line and the scene, calls `run`, and turns InputError into one line each on stderr and exit 2,
+/// any other exception into one line and exit 1.
+int node_main(int argc, char** argv, const char* name, const std::function<int(const NodeOptions&, const Scene&)>& run);
+
+}  // namespace palpate

@@ -1,0 +1,50 @@
+#pragma once
+// An imported image: what `palpate import` writes and physics_node reads. HDF5 on disk, docs/volume_file.md.
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace palpate {
+
+/// One control point of a transfer function: from this intensity on, this colour (linear between points).
+struct TransferPoint { double intensity = 0; std::array<double, 4> rgba{}; };  // each 0..1
+
+struct Volume {
+  std::array<int, 3> size{};                    // cells along x, y, z
+  Eigen::Vector3d spacing = {0, 0, 0};          // of the cells [m], all > 0
+  std::optional<Eigen::Matrix3d> orientation;   // columns: patient directions (LPS) of x, y, z; absent: unknown
+  Eigen::Vector3d origin = {0, 0, 0};           // patient position of the first cell's centre [m]
+  std::vector<float> intensity;                 // x fastest, then y, then z (nx * ny * nz)
+  std::vector<TransferPoint> transfer;          // sorted by intensity, at least two
+  std::string source;                           // file name (no folder) that it came from
+  std::uint64_t source_checksum = 0;            // FNV-1a of the bytes read
+  std::array<int, 3> source_size{};             // before resampling
+
+  std::size_t n_cells() const { return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(size[2]); }
+  float at(int i, int j, int k) const {
+    return intensity[static_cast<std::size_t>(i) + static_cast<std::size_t>(size[0]) * (static_cast<std::size_t>(j) + static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(k))];
+  }
+};
+
+/// Writes beside, then renames: `path` is either complete or untouched. @throws InputError
+void write_volume(const Volume& volume, const std::string& path);
+
+/// @throws InputError: missing, truncated, not a palpate volume, other version, absurd sizes, spacing not finite
+Volume read_volume(const std::string& path);
+
+/// The volume on another partition: cells of size * spacing / partition, trilinear at their centres
+/// (box-averaged where a new cell is larger than an old one).
+Volume resample(const Volume& volume, std::array<int, 3> partition);
+
+/// Colour of an intensity, 0xAABBGGRR.
+std::uint32_t rgba_of(const std::vector<TransferPoint>& transfer, double intensity);
+
+/// For CT in Hounsfield units: air clear, fat yellowish, skin, muscle, bone white. `lo`, `hi`: range of the image;
+/// an image that is not CT (lo >= 0) gets a grey ramp.
+std::vector<TransferPoint> default_transfer(double lo, double hi);
+
+}  // namespace palpate

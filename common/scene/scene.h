@@ -1,0 +1,164 @@
+#pragma once
+// A scene as plain data, in SI. One file serves all three nodes; each uses its part.
+// Read by load_scene.h. What is absent in the file is absent here (std::optional) or has the default below.
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace palpate {
+
+using Vec3 = Eigen::Vector3d;
+
+/// Where something stands in the scene file, for messages: "file:line:column".
+struct Place {
+  std::string file;
+  int line = 0;
+  int column = 0;
+  std::string text() const;
+};
+
+enum class Integrator { symplectic_euler, velocity_verlet, backward_euler };
+enum class Precision { single_, double_ };
+
+struct PhysicsSpec {
+  Integrator integrator = Integrator::symplectic_euler;
+  std::optional<double> step;  // [s]; absent: "auto", from the stiffness and mass present
+  double safety = 0.8;         // fraction of the stable step that "auto" takes, (0, 1]
+  Precision precision = Precision::single_;
+  int threads = 0;             // 0: as many as pay
+  double frame_Hz = 1000;      // one take of the tools and one patch per frame
+  Place place;
+};
+
+/// Either per mass and spring (the papers' way) or per volume (a tissue). Exactly one of each pair is given.
+struct MaterialSpec {
+  std::string name;
+  std::optional<double> mass;            // of one mass [kg]          | one of these
+  std::optional<double> density;         // [kg/m^3]                  |
+  std::optional<double> k1;              // of one element [N/m]      | one of these
+  std::optional<double> modulus;         // Young's modulus [Pa]      |
+  double k2_ratio = 1.0;                 // k2 / k1 in [0, 1]
+  std::optional<double> viscosity;       // of one element [N s/m]    | at most one; none: no damper
+  std::optional<double> viscosity_bulk;  // [Pa s]                    |
+  std::optional<double> yield_ratio;     // y_p > 1 |  both or neither: purely elastic
+  std::optional<double> break_ratio;     // b_p > y_p
+  Place place;
+};
+
+struct SphereShape { double radius = 0; };
+struct BoxShape { Vec3 size = Vec3::Zero(); };
+struct TubeShape { double outer_radius = 0, inner_radius = 0, length = 0; int axis = 2; };
+struct DeformableRegion {
+  bool all = true;                    // or the cells within radius_voxels (Chebyshev) of center_voxel
+  std::array<int, 3> center_voxel{};  // in the partition used
+  int radius_voxels = 10;
+};
+struct VolumeShape {
+  std::string file;                               // as written; relative to the scene file
+  double keep_min = 0, keep_max = 0;              // intensity window that is tissue, inclusive
+  std::optional<std::array<int, 3>> partition;    // resample to nx, ny, nz cells; absent: as stored
+  DeformableRegion deformable;
+  bool largest_component = false;                 // keep only the largest 6-connected component
+};
+using Shape = std::variant<SphereShape, BoxShape, TubeShape, VolumeShape>;
+
+enum class LatticeKind { fcc, voxel };
+
+struct FixedBox { Vec3 min = Vec3::Zero(), max = Vec3::Zero(); };  // world [m]
+
+struct BodySpec {
+  std::string name;
+  LatticeKind lattice = LatticeKind::fcc;
+  std::optional<double> spacing;       // [m]; absent only for a volume, which brings its own
+  std::string material;
+  Vec3 at = Vec3::Zero();              // centre of the shape [m]
+  Vec3 velocity = Vec3::Zero();        // [m/s]
+  std::array<bool, 6> fixed_faces{};   // -x +x -y +y -z +z: masses on that face of the shape are held
+  std::vector<FixedBox> fixed_boxes;   // masses inside are held
+  Shape shape = BoxShape{};
+  Place place;
+};
+
+struct FloorSpec { double height = 0; };
+enum class ContactDistance { paper, swept };
+struct ContactSpec { bool enabled = true; ContactDistance distance = ContactDistance::swept; };
+
+enum class ToolShape { point };
+struct ToolSpec {
+  std::string name;
+  ToolShape shape = ToolShape::point;
+  std::string device;             // name of a [device.NAME]
+  Vec3 set_point = Vec3::Zero();  // moments are about this point [m]
+  double radius = 0.003;          // of the tip: contact spreads over it [m]
+  double stiffness = 400;         // of the contact spring between hand and proxy [N/m]
+  double damping = 1.0;           // [N s/m]
+  Place place;
+};
+
+struct Waypoint { double t = 0; Vec3 p = Vec3::Zero(); };  // [s], world [m]
+enum class HandModel { rigid, arm, pinch, firm };
+
+struct DeviceSpec {
+  std::string name;
+  std::string driver;
+  double rate_Hz = 1000;
+  double force_limit = 3.0;                               // [N]
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity(); // R_WD, det +1
+  double scale = 1.0;                                     // world metres per device metre
+  double force_scale = 1.0;                               // device newtons per world newton
+  Vec3 offset = Vec3::Zero();                             // [m]
+  std::vector<Waypoint> waypoints;                        // "simulated": in the world frame
+  HandModel hand = HandModel::arm;                        // "simulated"
+  std::vector<std::pair<std::string, std::string>> options;  // other keys, passed to the driver as text
+  Place place;
+};
+
+struct CameraSpec {
+  double yaw = 0.6, pitch = 0.25;      // [rad] about the world z axis, above the horizon
+  std::optional<double> distance;      // [m]; absent: all bodies fit
+  std::optional<Vec3> target;          // [m]; absent: middle of all bodies
+  double field_of_view = 0.6;          // [rad], vertical
+};
+struct RenderSpec {
+  std::array<int, 2> size_px{1280, 720};
+  CameraSpec camera;
+  std::optional<double> threshold;     // intensity shown from; absent: each volume's keep_min
+  bool show_tool = true, show_force = true, show_panels = true, show_wire = false;
+  double rate_Hz = 10;                 // frames per simulated second when headless
+};
+
+struct RecordSpec {
+  bool positions = false;              // positions of all masses
+  bool forces = true;
+  double rate_Hz = 50;
+};
+
+struct Scene {
+  std::string title;
+  std::string path;                    // of the scene file, as given
+  std::uint64_t checksum = 0;          // of its text and the settings on the command line
+  std::uint64_t seed = 1;
+  Vec3 gravity{0, 0, -9.81};           // [m/s^2]
+  PhysicsSpec physics;
+  std::vector<BodySpec> bodies;
+  std::vector<MaterialSpec> materials;
+  std::optional<FloorSpec> floor;
+  ContactSpec contact;
+  std::vector<ToolSpec> tools;
+  std::vector<DeviceSpec> devices;
+  RenderSpec render;
+  RecordSpec record;
+
+  const MaterialSpec& material(const std::string& name) const;  // must exist
+  const DeviceSpec& device(const std::string& name) const;      // must exist
+  /// End of the longest device path plus one second; five seconds where there is none [s].
+  double natural_seconds() const;
+};
+
+}  // namespace palpate
