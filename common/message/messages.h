@@ -21,6 +21,7 @@ inline constexpr std::uint32_t max_bodies = 64;
 inline constexpr std::uint32_t max_patch_facets = 16;
 inline constexpr std::uint32_t max_surface_vertices = 2048;  // in one BodySurface chunk
 inline constexpr std::uint32_t max_surface_facets = 2048;    // in one BodySurface chunk
+inline constexpr std::uint32_t max_surface_chunks = 16384;   // of one body: 33 million vertices
 inline constexpr std::uint32_t max_block_vertices = 2048;    // in one VertexBlock
 inline constexpr std::uint32_t max_trace_samples = 64;
 inline constexpr std::uint32_t histogram_bins = 24;  // bin b counts [2^b, 2^(b+1)) microseconds; bin 0 also 0
@@ -85,7 +86,7 @@ struct ToolWrench {
 struct BodySurface {
   std::uint32_t body = 0;
   std::uint32_t revision = 0;      // grows with every cut, break or change of threshold; starts at 1
-  std::uint32_t chunk = 0;         // < n_chunks
+  std::uint32_t chunk = 0;         // < n_chunks <= max_surface_chunks
   std::uint32_t n_chunks = 1;
   std::uint32_t total_vertices = 0;
   std::uint32_t total_facets = 0;

@@ -1,0 +1,124 @@
+#include "common/wire/convert.h"
+#include "common/wire/convert_parts.h"
+
+namespace palpate {
+
+using namespace wire_parts;
+
+namespace {
+
+/// `n` things from `first` on lie within `total`, whatever the 32-bit sums would do.
+bool within(std::uint64_t first, std::uint64_t n, std::uint64_t total) noexcept { return first + n <= total; }
+
+bool corners_exist(const palpate_wire_BodySurface& wire) noexcept {
+  return std::all_of(wire.corners, wire.corners + wire.n_facets, [&](const auto& facet) {
+    return std::all_of(facet, facet + 4, [&](std::uint32_t corner) { return corner < wire.total_vertices; });
+  });
+}
+
+}  // namespace
+
+Verdict judge(const palpate_wire_BodySurface& wire) noexcept {
+  if (wire.version != wire_version) return RejectReason::version;
+  if (wire.body >= max_bodies) return RejectReason::unknown_id;
+  if (wire.n_vertices > max_surface_vertices || wire.n_facets > max_surface_facets)
+    return RejectReason::count;
+  if (wire.n_chunks > max_surface_chunks || wire.chunk >= wire.n_chunks) return RejectReason::count;
+  if (wire.total_vertices > std::uint64_t{wire.n_chunks} * max_surface_vertices ||
+      wire.total_facets > std::uint64_t{wire.n_chunks} * max_surface_facets) {
+    return RejectReason::count;
+  }
+  if (!within(wire.first_vertex, wire.n_vertices, wire.total_vertices) ||
+      !within(wire.first_facet, wire.n_facets, wire.total_facets)) {
+    return RejectReason::out_of_range;
+  }
+  if (wire.revision == 0 || wire.rigid > 1) return RejectReason::out_of_range;
+  if (!finite(wire.position, wire.n_vertices)) return RejectReason::not_finite;
+  if (!corners_exist(wire)) return RejectReason::unknown_id;
+  return {};
+}
+
+Verdict from_wire(const palpate_wire_BodySurface& wire, BodySurface& message) noexcept {
+  if (const Verdict verdict = judge(wire)) return verdict;
+  message.body = wire.body;
+  message.revision = wire.revision;
+  message.chunk = wire.chunk;
+  message.n_chunks = wire.n_chunks;
+  message.total_vertices = wire.total_vertices;
+  message.total_facets = wire.total_facets;
+  message.facets_hidden = wire.facets_hidden;
+  message.rigid = wire.rigid;
+  message.first_vertex = wire.first_vertex;
+  message.n_vertices = wire.n_vertices;
+  message.first_facet = wire.first_facet;
+  message.n_facets = wire.n_facets;
+  copy(wire.position, message.position, wire.n_vertices);
+  copy(wire.corners, message.corners, wire.n_facets);
+  copy(wire.rgba, message.rgba, wire.n_facets);
+  return {};
+}
+
+void to_wire(const BodySurface& message, palpate_wire_BodySurface& wire) noexcept {
+  wire.version = wire_version;
+  wire.body = message.body;
+  wire.revision = message.revision;
+  wire.chunk = message.chunk;
+  wire.n_chunks = message.n_chunks;
+  wire.total_vertices = message.total_vertices;
+  wire.total_facets = message.total_facets;
+  wire.facets_hidden = message.facets_hidden;
+  wire.rigid = message.rigid;
+  wire.first_vertex = message.first_vertex;
+  wire.n_vertices = message.n_vertices;
+  wire.first_facet = message.first_facet;
+  wire.n_facets = message.n_facets;
+  copy(message.position, wire.position, message.n_vertices);
+  copy(message.corners, wire.corners, message.n_facets);
+  copy(message.rgba, wire.rgba, message.n_facets);
+}
+
+Verdict judge(const palpate_wire_VertexBlock& wire) noexcept {
+  if (wire.version != wire_version) return RejectReason::version;
+  if (wire.body >= max_bodies) return RejectReason::unknown_id;
+  if (wire.n_vertices > max_block_vertices) return RejectReason::count;
+  if (wire.block != wire.first_vertex / max_block_vertices ||
+      !within(wire.first_vertex, wire.n_vertices, std::uint64_t{max_surface_chunks} * max_surface_vertices)) {
+    return RejectReason::out_of_range;
+  }
+  if (wire.revision == 0) return RejectReason::out_of_range;
+  if (!finite(wire.t) || !finite(wire.position, wire.n_vertices)) return RejectReason::not_finite;
+  constexpr unsigned known_flags = vertex_yielded | vertex_broken;
+  const bool known = std::all_of(wire.flags, wire.flags + wire.n_vertices,
+                                 [](std::uint8_t flags) { return (flags & ~known_flags) == 0; });
+  if (!known) return RejectReason::out_of_range;
+  return {};
+}
+
+Verdict from_wire(const palpate_wire_VertexBlock& wire, VertexBlock& message) noexcept {
+  if (const Verdict verdict = judge(wire)) return verdict;
+  message.body = wire.body;
+  message.revision = wire.revision;
+  message.block = wire.block;
+  message.tick = wire.tick;
+  message.t = wire.t;
+  message.first_vertex = wire.first_vertex;
+  message.n_vertices = wire.n_vertices;
+  copy(wire.position, message.position, wire.n_vertices);
+  copy(wire.flags, message.flags, wire.n_vertices);
+  return {};
+}
+
+void to_wire(const VertexBlock& message, palpate_wire_VertexBlock& wire) noexcept {
+  wire.version = wire_version;
+  wire.body = message.body;
+  wire.revision = message.revision;
+  wire.block = message.block;
+  wire.tick = message.tick;
+  wire.t = message.t;
+  wire.first_vertex = message.first_vertex;
+  wire.n_vertices = message.n_vertices;
+  copy(message.position, wire.position, message.n_vertices);
+  copy(message.flags, wire.flags, message.n_vertices);
+}
+
+}  // namespace palpate

@@ -1,0 +1,95 @@
+#include "common/wire/participant.h"
+
+#include <dds/dds.h>
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <stdexcept>
+
+#include "common/error/error.h"
+#include "common/report/log.h"
+#include "common/wire/loopback_config.h"
+#include "common/wire/loopback_sockets.h"
+
+namespace palpate {
+namespace {
+
+/// What Cyclone DDS itself has to say becomes a line of our log.
+void pass_on(void*, const dds_log_data_t* data) {
+  std::string_view text(data->message + data->hdrsize, data->size - data->hdrsize);
+  while (!text.empty() && (text.back() == '\n' || text.back() == '\0')) text.remove_suffix(1);
+  log_line((data->priority & (DDS_LC_ERROR | DDS_LC_FATAL)) != 0 ? LogLevel::error : LogLevel::warn,
+           fmt::format("dds: {}", text));
+}
+
+bool environment_configures() {
+  const char* uri = std::getenv("CYCLONEDDS_URI");
+  return uri != nullptr && *uri != '\0';
+}
+
+}  // namespace
+
+/// One per domain and process: the configuration, which ends with the last participant.
+struct Participant::Domain {
+  dds_entity_t entity = 0;  // 0: made by DDS from the environment
+  bool built_in = false;
+  std::atomic<bool> local_only{false};
+  ~Domain() {
+    if (entity > 0) dds_delete(entity);
+  }
+};
+
+std::shared_ptr<Participant::Domain> Participant::join(int domain, const std::string& config) {
+  static std::mutex mutex;
+  static std::map<int, std::weak_ptr<Domain>> known;
+  const std::lock_guard lock(mutex);
+  if (auto shared = known[domain].lock()) return shared;
+
+  dds_set_log_sink(&pass_on, nullptr);
+  auto shared = std::make_shared<Domain>();
+  if (!config.empty()) {
+    if (!std::filesystem::is_regular_file(config)) {
+      throw InputError(
+          fmt::format("{}: no such DDS configuration; see deploy/cyclonedds for samples", config));
+    }
+    shared->entity = dds_create_domain(static_cast<dds_domainid_t>(domain), ("file://" + config).c_str());
+    if (shared->entity < 0) throw InputError(fmt::format("{}: is not a Cyclone DDS configuration", config));
+  } else if (!environment_configures()) {
+    shared->built_in = true;
+    shared->entity =
+        dds_create_domain(static_cast<dds_domainid_t>(domain), std::string(loopback_config()).c_str());
+    if (shared->entity < 0) {
+      throw std::runtime_error(
+          fmt::format("DDS domain {} cannot be set up ({})", domain, dds_strretcode(-shared->entity)));
+    }
+  }
+  known[domain] = shared;
+  return shared;
+}
+
+Participant::Participant(int domain, const std::string& config) : domain_(domain) {
+  if (domain < 0 || domain > 100)
+    throw InputError(fmt::format("DDS domain {}: give a number from 0 to 100", domain));
+  shared_ = join(domain, config);
+  handle_ = dds_create_participant(static_cast<dds_domainid_t>(domain), nullptr, nullptr);
+  if (handle_ < 0) {
+    throw std::runtime_error(fmt::format(
+        "DDS domain {} cannot be joined ({}); is another session there? Give another domain with --domain",
+        domain, dds_strretcode(-handle_)));
+  }
+  if (shared_->built_in) {
+    shared_->local_only = tie_to_loopback(domain);
+    if (!shared_->local_only)
+      log_warn("DDS listens beyond this machine: the kernel refused to tie it to loopback");
+  }
+}
+
+Participant::~Participant() { dds_delete(handle_); }
+
+bool Participant::local_only() const noexcept { return shared_->local_only; }
+
+}  // namespace palpate

@@ -1,0 +1,51 @@
+#include "common/wire/topic.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace palpate {
+namespace {
+
+constexpr int batches_kept = 64;
+// Why: a new surface of a whole head is tens of megabytes; its writer waits for a slow reader rather than give up.
+constexpr dds_duration_t state_patience = DDS_SECS(2);
+constexpr dds_duration_t patience = DDS_MSECS(100);
+
+}  // namespace
+
+Qos make_qos(Service service) {
+  Qos qos(dds_create_qos(), &dds_delete_qos);
+  // A node that ends takes nothing back: what it said last stays said.
+  dds_qset_writer_data_lifecycle(qos.get(), false);
+  switch (service) {
+    case Service::newest:
+      dds_qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
+      dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 1);
+      break;
+    case Service::state:
+      dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, state_patience);
+      dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 1);
+      dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
+      dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, 1, DDS_LENGTH_UNLIMITED,
+                                  DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
+      break;
+    case Service::batches:
+      dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, patience);
+      dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, batches_kept);
+      break;
+    case Service::everything:
+      dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, patience);
+      dds_qset_history(qos.get(), DDS_HISTORY_KEEP_ALL, 0);
+      break;
+  }
+  return qos;
+}
+
+dds_entity_t made(dds_entity_t entity, const char* what, const char* topic) {
+  if (entity < 0)
+    throw std::runtime_error(fmt::format("DDS: {} {}: {}", what, topic, dds_strretcode(-entity)));
+  return entity;
+}
+
+}  // namespace palpate

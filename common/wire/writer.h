@@ -1,0 +1,33 @@
+#pragma once
+// Publishes one kind of message. M: any of the eight structs of common/message/messages.h.
+
+#include <memory>
+
+#include "common/message/messages.h"
+#include "common/wire/participant.h"
+
+namespace palpate {
+
+template <class M>
+class Writer {
+ public:
+  /// @throws std::runtime_error if DDS refuses
+  explicit Writer(Participant& participant);
+  ~Writer();
+  Writer(const Writer&) = delete;
+  Writer& operator=(const Writer&) = delete;
+
+  /// Sends a message. One thread at a time. Nothing of ours allocates; DDS may, and may now and then take milliseconds
+  /// (reliable topics: until a slow reader has caught up), so never from the haptic real-time thread.
+  /// @return false if the message breaks its own promises (convert.h) or DDS could not send it: nothing was sent
+  bool write(const M& message) noexcept;
+
+  /// How many readers this writer has now.
+  int matched() noexcept;
+
+ private:
+  struct Inner;
+  std::unique_ptr<Inner> inner_;
+};
+
+}  // namespace palpate
