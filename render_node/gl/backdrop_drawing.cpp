@@ -1,0 +1,80 @@
+#include "render_node/gl/backdrop_drawing.h"
+
+#include <epoxy/gl.h>
+
+namespace palpate::render {
+namespace {
+
+const char* const gradient_vertex = R"(
+out float up;
+void main() {  // one triangle that covers the picture
+  vec2 p = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+  up = 0.5 + 0.5 * p.y;
+  gl_Position = vec4(p, 0.0, 1.0);
+}
+)";
+const char* const gradient_fragment = R"(
+in float up;
+out vec4 pixel;
+void main() {
+  float noise = fract(sin(dot(gl_FragCoord.xy, vec2(12.9898, 78.233))) * 43758.5453) - 0.5;
+  pixel = vec4(mix(vec3(0.70, 0.74, 0.79), vec3(0.94, 0.95, 0.97), smoothstep(0.0, 1.0, up)) + noise / 255.0, 1.0);
+}
+)";
+const char* const floor_vertex = R"(
+uniform mat4 clip_from_world;
+uniform vec3 middle;
+uniform float reach;
+out vec2 across;
+out vec2 place;
+void main() {  // a strip of four corners
+  across = vec2(gl_VertexID % 2 == 0 ? -1.0 : 1.0, gl_VertexID < 2 ? -1.0 : 1.0);
+  vec3 p = middle + vec3(across * reach, 0.0);
+  place = p.xy;
+  gl_Position = clip_from_world * vec4(p, 1.0);
+}
+)";
+const char* const floor_fragment = R"(
+in vec2 across;
+in vec2 place;
+uniform float cell;
+out vec4 pixel;
+void main() {
+  vec2 q = place / cell;
+  vec2 d = abs(fract(q - 0.5) - 0.5) / max(fwidth(q), vec2(1e-6));
+  float line = 1.0 - clamp(min(d.x, d.y), 0.0, 1.0);
+  float fade = 1.0 - smoothstep(0.35, 1.0, length(across));
+  pixel = vec4(mix(vec3(0.60, 0.64, 0.70), vec3(0.40, 0.44, 0.50), line), fade * mix(0.30, 0.65, line));
+}
+)";
+
+}  // namespace
+
+BackdropDrawing::BackdropDrawing()
+    : gradient_(gradient_vertex, gradient_fragment), floor_(floor_vertex, floor_fragment) {}
+
+void BackdropDrawing::draw_gradient() const {
+  gradient_.use();
+  array_.bind();
+  glDisable(GL_DEPTH_TEST);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glEnable(GL_DEPTH_TEST);
+}
+
+void BackdropDrawing::draw_floor(const Camera& camera, const Eigen::Vector3d& middle, double height,
+                                 double cell, double reach) const {
+  floor_.use();
+  floor_.set("clip_from_world", Eigen::Matrix4f((camera.projection() * camera.view()).cast<float>()));
+  floor_.set("middle", Eigen::Vector3f(Eigen::Vector3d(middle.x(), middle.y(), height).cast<float>()));
+  floor_.set("reach", static_cast<float>(reach));
+  floor_.set("cell", static_cast<float>(cell));
+  array_.bind();
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  glDepthMask(GL_FALSE);
+  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
+}
+
+}  // namespace palpate::render

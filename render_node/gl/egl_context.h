@@ -1,0 +1,31 @@
+#pragma once
+// OpenGL 3.3 core without a screen: an EGL context that draws into framebuffers of its own only.
+// Mesa's software renderer is enough.
+
+#include <string>
+
+namespace palpate::render {
+
+class EglContext {
+ public:
+  /// Makes the context and makes it current.
+  /// @throws InputError, one line with the reason and what to install
+  EglContext();
+  ~EglContext();
+  EglContext(const EglContext&) = delete;
+  EglContext& operator=(const EglContext&) = delete;
+
+  void make_current();
+
+ private:
+  bool open(void* display, std::string& reason);
+
+  void* display_ = nullptr;
+  void* context_ = nullptr;
+  void* surface_ = nullptr;  // none where EGL can do without
+};
+
+/// Vendor, renderer and version of the current context.
+std::string current_gl();
+
+}  // namespace palpate::render

@@ -1,0 +1,65 @@
+#include "render_node/gl/framebuffer.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace palpate::render {
+
+Framebuffer::Framebuffer(int width, int height, int samples) : width_(width), height_(height) {
+  drawn_ = attach(samples);
+  resolved_ = attach(0);
+}
+
+Framebuffer::Attached Framebuffer::attach(int samples) const {
+  Attached a;
+  glGenFramebuffers(1, &a.frame);
+  glGenRenderbuffers(1, &a.colour);
+  glGenRenderbuffers(1, &a.depth);
+  glBindFramebuffer(GL_FRAMEBUFFER, a.frame);
+  glBindRenderbuffer(GL_RENDERBUFFER, a.colour);
+  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_RGBA8, width_, height_);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, a.colour);
+  glBindRenderbuffer(GL_RENDERBUFFER, a.depth);
+  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_DEPTH_COMPONENT24, width_, height_);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, a.depth);
+  if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+    throw std::runtime_error("the graphics driver refuses a framebuffer of this size");
+  }
+  return a;
+}
+
+Framebuffer::~Framebuffer() {
+  for (const auto& a : {drawn_, resolved_}) {
+    glDeleteFramebuffers(1, &a.frame);
+    glDeleteRenderbuffers(1, &a.colour);
+    glDeleteRenderbuffers(1, &a.depth);
+  }
+}
+
+void Framebuffer::bind() const { glBindFramebuffer(GL_FRAMEBUFFER, drawn_.frame); }
+
+Image Framebuffer::read() const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, drawn_.frame);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.frame);
+  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_.frame);
+  return read_pixels(width_, height_);
+}
+
+Image read_pixels(int width, int height) {
+  const auto row = static_cast<std::size_t>(width) * 3;
+  Image image{width, height, std::vector<std::uint8_t>(row * static_cast<std::size_t>(height))};
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, image.rgb.data());
+  for (std::size_t y = 0; y < static_cast<std::size_t>(height) / 2;
+       ++y) {  // OpenGL puts the bottom row first
+    const auto top = image.rgb.begin() + static_cast<std::ptrdiff_t>(y * row);
+    const auto bottom = image.rgb.end() - static_cast<std::ptrdiff_t>((y + 1) * row);
+    std::swap_ranges(top, top + static_cast<std::ptrdiff_t>(row), bottom);
+  }
+  return image;
+}
+
+}  // namespace palpate::render

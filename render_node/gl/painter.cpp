@@ -1,0 +1,114 @@
+#include "render_node/gl/painter.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+
+#include "render_node/view/arrow_scale.h"
+
+namespace palpate::render {
+namespace {
+
+const Eigen::Vector3f steel(0.62F, 0.66F, 0.72F);
+const Eigen::Vector3f arrow_colour(0.93F, 0.36F, 0.08F);
+
+// The stick comes from where a scripted hand starts, leaning a little so that it does not hide the arrow.
+Eigen::Vector3d stick_axis(const DeviceSpec& device) {
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
+  double farthest = 0;
+  for (const auto& waypoint : device.waypoints) {
+    const Eigen::Vector3d way = device.waypoints.front().p - waypoint.p;
+    if (way.norm() <= farthest) continue;
+    farthest = way.norm();
+    axis = way.normalized();
+  }
+  const Eigen::Vector3d side = axis.unitOrthogonal();
+  return (axis + 0.45 * (std::abs(axis.z()) > 0.9 ? side : Eigen::Vector3d::UnitZ())).normalized();
+}
+
+}  // namespace
+
+Painter::Painter(const Scene& scene, const ViewModel& model)
+    : scene_(scene), bodies_(model.bodies().size()), tools_(scene.tools.size()) {
+  for (std::size_t i = 0; i < tools_.size(); ++i) {
+    const auto& device = scene.device(scene.tools[i].device);
+    tools_[i].radius = scene.tools[i].radius;
+    tools_[i].axis = stick_axis(device);
+    tools_[i].force_limit = device.force_limit;
+  }
+}
+
+void Painter::adapt_sizes(const Eigen::AlignedBox3d& box) {
+  if (box.isEmpty() || box.diagonal().norm() / 2 == size_) return;
+  size_ = box.diagonal().norm() / 2;
+  double limit = 0;
+  for (auto& tool : tools_) {
+    tool.stick.shape(stick_outline(static_cast<float>(tool.radius), static_cast<float>(1.2 * size_)));
+    limit = std::max(limit, tool.force_limit);
+  }
+  if (limit > 0 && size_ > 0) metres_per_newton_ = palpate::render::arrow_metres_per_newton(limit, size_);
+}
+
+void Painter::draw(ViewModel& model, const Camera& camera, const PaintOptions& options, int width,
+                   int height) {
+  model.refresh();
+  adapt_sizes(model.box());
+  glViewport(0, 0, width, height);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LEQUAL);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  backdrop_.draw_gradient();
+  lit_.begin(camera);
+  draw_bodies(model, options);
+  for (std::size_t i = 0; i < tools_.size(); ++i) draw_tool(tools_[i], model.tools()[i], options);
+  if (scene_.floor && size_ > 0) {
+    const double cell = 2 * palpate::render::arrow_metres_per_newton(1.0, size_ / 4);
+    backdrop_.draw_floor(camera, model.box().center(), scene_.floor->height, cell, 5 * size_);
+  }
+}
+
+void Painter::draw_bodies(ViewModel& model, const PaintOptions& options) {
+  bytes_uploaded_ = 0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    BodyPicture& body = model.bodies()[i];
+    if (body.empty()) continue;
+    bytes_uploaded_ += bodies_[i].upload(body);
+    if (options.wire) {
+      glEnable(GL_POLYGON_OFFSET_FILL);
+      glPolygonOffset(1, 1);
+    }
+    bodies_[i].draw(lit_);
+    glDisable(GL_POLYGON_OFFSET_FILL);
+    if (options.wire) bodies_[i].draw_wire(lit_, body);
+  }
+}
+
+void Painter::draw_tool(Tool& tool, const ToolView& view, const PaintOptions& options) {
+  if (!view.tip || size_ <= 0) return;
+  if (options.tool) {
+    lit_.finish(0.30F, 1.0F);
+    tool.stick.draw(lit_, pose_along(*view.tip, tool.axis), steel);
+  }
+  if (options.force) draw_arrow(tool, *view.tip, view.force);
+}
+
+void Painter::draw_arrow(Tool& tool, const Eigen::Vector3d& from, const Eigen::Vector3d& force) {
+  const double length = force.norm() * metres_per_newton_;
+  if (length < 1e-3 * size_) return;  // too short to point anywhere
+  tool.arrow.shape(arrow_outline(static_cast<float>(0.018 * size_), static_cast<float>(length)));
+  const Eigen::Matrix4f pose = pose_along(from, force.normalized());
+  lit_.finish(0.05F, 1.0F);
+  tool.arrow.draw(lit_, pose, arrow_colour);
+  // Once more, faintly, where something hides it.
+  lit_.finish(0.0F, 0.30F);
+  glDepthFunc(GL_GREATER);
+  glDepthMask(GL_FALSE);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  tool.arrow.draw(lit_, pose, arrow_colour);
+  glDisable(GL_BLEND);
+  glDepthMask(GL_TRUE);
+  glDepthFunc(GL_LEQUAL);
+}
+
+}  // namespace palpate::render

@@ -1,0 +1,56 @@
+#pragma once
+// Draws the whole picture but for the panels, in this order: gradient, bodies, tools, arrows, floor.
+// Needs a current OpenGL 3.3 context from construction to destruction.
+
+#include <cstddef>
+#include <vector>
+
+#include "common/scene/scene.h"
+#include "render_node/gl/backdrop_drawing.h"
+#include "render_node/gl/lit_program.h"
+#include "render_node/gl/solid_drawing.h"
+#include "render_node/gl/tissue_drawing.h"
+#include "render_node/model/view_model.h"
+#include "render_node/view/camera.h"
+
+namespace palpate::render {
+
+/// What of the scene's [render] table a hand may switch while it runs.
+struct PaintOptions {
+  bool tool = true, force = true, wire = false;
+};
+
+class Painter {
+ public:
+  Painter(const Scene& scene, const ViewModel& model);
+
+  /// Into the framebuffer bound now. Uploads what changed.
+  /// @param width,height  of the framebuffer [px]
+  void draw(ViewModel& model, const Camera& camera, const PaintOptions& options, int width, int height);
+
+  double arrow_metres_per_newton() const noexcept { return metres_per_newton_; }  // 0: nothing seen yet
+  std::size_t bytes_uploaded() const noexcept { return bytes_uploaded_; }         // by the last draw()
+
+ private:
+  struct Tool {
+    double radius = 0;       // of the tip [m]
+    Eigen::Vector3d axis;    // from the tip up the stick, unit
+    double force_limit = 0;  // of its device [N]
+    SolidDrawing stick, arrow;
+  };
+  void adapt_sizes(const Eigen::AlignedBox3d& box);
+  void draw_bodies(ViewModel& model, const PaintOptions& options);
+  void draw_tool(Tool& tool, const ToolView& view, const PaintOptions& options);
+  void draw_arrow(Tool& tool, const Eigen::Vector3d& from, const Eigen::Vector3d& force);
+
+  const Scene& scene_;
+  LitProgram lit_;
+  BackdropDrawing backdrop_;
+  std::vector<TissueDrawing> bodies_;
+  std::vector<Tool> tools_;
+  double size_ = 0;  // half the diagonal of all bodies [m]
+  double metres_per_newton_ = 0;
+  std::size_t bytes_uploaded_ = 0;
+};
+
+}  // namespace palpate::render

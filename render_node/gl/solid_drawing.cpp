@@ -1,0 +1,119 @@
+#include "render_node/gl/solid_drawing.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+
+namespace palpate::render {
+namespace {
+
+constexpr std::uint32_t n_sides = 40;
+
+struct SolidVertex {
+  std::array<float, 3> position, normal;
+};
+
+// A ring pair stands where the outline has an edge: each segment brings its own normals, unless the outline is smooth.
+void add_segment(const Ring& a, const Ring& b, const Eigen::Vector2f& normal_a,
+                 const Eigen::Vector2f& normal_b, std::vector<SolidVertex>& vertices,
+                 std::vector<std::uint32_t>& indices) {
+  const auto first = static_cast<std::uint32_t>(vertices.size());
+  for (std::uint32_t s = 0; s <= n_sides; ++s) {
+    const float angle =
+        2.0F * std::numbers::pi_v<float> * static_cast<float>(s) / static_cast<float>(n_sides);
+    const float c = std::cos(angle), d = std::sin(angle);
+    vertices.push_back(
+        {{a.radius * c, a.radius * d, a.z}, {normal_a.x() * c, normal_a.x() * d, normal_a.y()}});
+    vertices.push_back(
+        {{b.radius * c, b.radius * d, b.z}, {normal_b.x() * c, normal_b.x() * d, normal_b.y()}});
+  }
+  for (std::uint32_t s = 0; s < n_sides; ++s) {
+    const std::uint32_t v = first + 2 * s;
+    indices.insert(indices.end(), {v, v + 2, v + 1, v + 1, v + 2, v + 3});
+  }
+}
+
+Eigen::Vector2f segment_normal(const Ring& a, const Ring& b) {
+  const Eigen::Vector2f n(b.z - a.z, a.radius - b.radius);
+  return n.norm() > 0 ? Eigen::Vector2f(n.normalized()) : Eigen::Vector2f(1, 0);
+}
+
+// Smooth where two segments meet at less than 35 degrees.
+Eigen::Vector2f shared_normal(const Eigen::Vector2f& own, const Eigen::Vector2f& other) {
+  return own.dot(other) > 0.82F ? Eigen::Vector2f((own + other).normalized()) : own;
+}
+
+}  // namespace
+
+std::vector<Ring> stick_outline(float tip_radius, float length) {
+  std::vector<Ring> outline;
+  constexpr int n = 8;
+  for (int i = 0; i <= n; ++i) {
+    const float angle = 0.5F * std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(n);
+    outline.push_back({tip_radius * std::sin(angle), tip_radius * (1 - std::cos(angle))});
+  }
+  const float neck = std::max(0.30F * length, 2 * tip_radius);
+  const float handle = 1.7F * tip_radius;
+  outline.push_back({tip_radius, neck});
+  outline.push_back({handle, neck + 1.5F * tip_radius});
+  outline.push_back({handle, length});
+  outline.push_back({0, length});
+  return outline;
+}
+
+std::vector<Ring> arrow_outline(float radius, float length) {
+  const float head = std::min(5 * radius, 0.6F * length);
+  return {{0, 0}, {radius, 0}, {radius, length - head}, {2.4F * radius, length - head}, {0, length}};
+}
+
+Eigen::Matrix4f pose_along(const Eigen::Vector3d& at, const Eigen::Vector3d& axis) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis).toRotationMatrix();
+  pose.translation() = at;
+  return pose.matrix().cast<float>();
+}
+
+SolidDrawing::SolidDrawing() {
+  array_.bind();
+  vertices_.bind();
+  glVertexAttribPointer(at_position, 3, GL_FLOAT, GL_FALSE, sizeof(SolidVertex), nullptr);
+  glVertexAttribPointer(at_normal, 3, GL_FLOAT, GL_FALSE, sizeof(SolidVertex),
+                        reinterpret_cast<const void*>(offsetof(SolidVertex, normal)));
+  glEnableVertexAttribArray(at_position);
+  glEnableVertexAttribArray(at_normal);
+}
+
+void SolidDrawing::shape(const std::vector<Ring>& outline) {
+  std::vector<SolidVertex> vertices;
+  std::vector<std::uint32_t> indices;
+  std::vector<Eigen::Vector2f> normals;
+  for (std::size_t i = 0; i + 1 < outline.size(); ++i)
+    normals.push_back(segment_normal(outline[i], outline[i + 1]));
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    const auto& before = normals[i == 0 ? 0 : i - 1];
+    const auto& after = normals[std::min(i + 1, normals.size() - 1)];
+    add_segment(outline[i], outline[i + 1], shared_normal(normals[i], before),
+                shared_normal(normals[i], after), vertices, indices);
+  }
+  array_.bind();
+  vertices_.upload(std::span<const SolidVertex>(vertices));
+  indices_.upload(std::span<const std::uint32_t>(indices));
+  n_indices_ = indices.size();
+}
+
+void SolidDrawing::draw(const LitProgram& program, const Eigen::Matrix4f& pose,
+                        const Eigen::Vector3f& rgb) const {
+  program.place(pose);
+  array_.bind();
+  indices_.bind();
+  glVertexAttribI1ui(at_flags, 0);
+  glVertexAttrib4f(at_colour, rgb.x(), rgb.y(), rgb.z(), 1);
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(n_indices_), GL_UNSIGNED_INT, nullptr);
+}
+
+}  // namespace palpate::render

@@ -1,0 +1,39 @@
+#pragma once
+// Bodies of revolution about z: the tool and the force arrow.
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <vector>
+
+#include "render_node/gl/buffer.h"
+#include "render_node/gl/lit_program.h"
+
+namespace palpate::render {
+
+/// One ring of the outline, from the bottom up.
+struct Ring {
+  float radius = 0, z = 0;
+};
+
+/// A stick that ends in a half sphere whose lowest point is the origin; it widens to a handle. [m]
+std::vector<Ring> stick_outline(float tip_radius, float length);
+/// An arrow from the origin to (0, 0, length). [m]
+std::vector<Ring> arrow_outline(float radius, float length);
+
+/// World from a model whose z axis becomes `axis` and whose origin becomes `at`.
+Eigen::Matrix4f pose_along(const Eigen::Vector3d& at, const Eigen::Vector3d& axis);
+
+class SolidDrawing {
+ public:
+  SolidDrawing();
+  void shape(const std::vector<Ring>& outline);
+  void draw(const LitProgram& program, const Eigen::Matrix4f& pose, const Eigen::Vector3f& rgb) const;
+
+ private:
+  VertexArray array_;
+  Buffer vertices_{Buffer::Kind::vertices};
+  Buffer indices_{Buffer::Kind::indices};
+  std::size_t n_indices_ = 0;
+};
+
+}  // namespace palpate::render

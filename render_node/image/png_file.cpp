@@ -1,0 +1,65 @@
+#include <png.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+
+#include "common/error/error.h"
+#include "render_node/image/image.h"
+
+namespace palpate::render {
+namespace {
+
+constexpr int fast_compression = 2;  // zlib level: a frame of 1280 x 720 in some 20 ms
+
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+[[noreturn]] void complain(const std::string& path, const char* why) {
+  throw InputError(path + ": cannot write the picture (" + why + "); choose a folder that can be written to");
+}
+
+// libpng reports through longjmp, so nothing with a destructor lives in here. @return false: failed
+bool encode(std::FILE* file, const Image& image) {
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  if (png == nullptr) return false;
+  png_infop info = png_create_info_struct(png);
+  if (info == nullptr || setjmp(png_jmpbuf(png)) != 0) {
+    png_destroy_write_struct(&png, &info);
+    return false;
+  }
+  png_init_io(png, file);
+  png_set_compression_level(png, fast_compression);
+  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
+               PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_write_info(png, info);
+  for (int y = 0; y < image.height; ++y) png_write_row(png, image.at(0, y));
+  png_write_end(png, info);
+  png_destroy_write_struct(&png, &info);
+  return true;
+}
+
+}  // namespace
+
+void write_png(const Image& image, const std::string& path) {
+  PALPATE_CHECK(image.width > 0 && image.height > 0, "an empty picture cannot be written");
+  const std::string beside = path + ".part";
+  bool written = false;
+  {
+    const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(beside.c_str(), "wb"));
+    if (!file) complain(path, std::strerror(errno));
+    written = encode(file.get(), image) && std::fflush(file.get()) == 0;
+  }
+  std::error_code error;
+  if (written) std::filesystem::rename(beside, path, error);
+  if (written && !error) return;
+  std::error_code ignored;
+  std::filesystem::remove(beside, ignored);
+  complain(path, error ? error.message().c_str() : "disk full?");
+}
+
+}  // namespace palpate::render

@@ -1,0 +1,146 @@
+#include "render_node/model/body_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace palpate::render {
+namespace {
+
+bool well_formed(const VertexBlock& block, std::size_t n_vertices) {
+  if (block.n_vertices > max_block_vertices) return false;
+  if (std::size_t{block.first_vertex} + block.n_vertices > n_vertices) return false;
+  const auto finite = [](const Array3f& p) {
+    return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+  };
+  return std::all_of(block.position.begin(), block.position.begin() + block.n_vertices, finite);
+}
+
+// Each vertex takes the mean colour of its facets, channel by channel.
+std::vector<std::uint32_t> mean_colours(const Surface& surface) {
+  struct Sum {
+    std::array<std::uint32_t, 4> channel{};
+    std::uint32_t n = 0;
+  };
+  std::vector<Sum> sums(surface.position.size());
+  for (std::size_t f = 0; f < surface.corners.size(); ++f) {
+    for (const auto v : surface.corners[f]) {
+      for (std::uint32_t c = 0; c < 4; ++c) sums[v].channel[c] += (surface.rgba[f] >> (8 * c)) & 0xffu;
+      ++sums[v].n;
+    }
+  }
+  std::vector<std::uint32_t> rgba(sums.size(), 0);
+  for (std::size_t v = 0; v < sums.size(); ++v) {
+    if (sums[v].n == 0) continue;
+    for (std::uint32_t c = 0; c < 4; ++c)
+      rgba[v] |= ((sums[v].channel[c] + sums[v].n / 2) / sums[v].n) << (8 * c);
+  }
+  return rgba;
+}
+
+}  // namespace
+
+ChunkFate BodyPicture::take(const BodySurface& chunk) {
+  const auto fate = assembly_.take(chunk);
+  if (fate == ChunkFate::completed) show(assembly_.finished());
+  return fate;
+}
+
+void BodyPicture::show(Surface surface) {
+  surface_ = std::move(surface);
+  const auto n = surface_.position.size();
+  flags_.assign(n, 0);
+  is_moved_.assign(n, 0);
+  packed_.assign(n, {});
+  page_dirty_.assign((n + page_vertices - 1) / page_vertices, 0);
+  moved_.clear();
+  vertex_rgba_ = mean_colours(surface_);
+  rebuild_ = all_dirty_ = true;
+  if (first_box_.isEmpty()) {
+    for (const auto& p : surface_.position) first_box_.extend(Eigen::Vector3f(p[0], p[1], p[2]));
+  }
+  if (held_revision_ == surface_.revision) {
+    for (const auto& [number, block] : held_) {
+      if (well_formed(block, n)) apply(block);
+    }
+  }
+  held_.clear();
+}
+
+bool BodyPicture::take(const VertexBlock& block) {
+  const auto pending = assembly_.pending_revision();
+  if (pending != 0 && block.revision == pending) {
+    if (held_revision_ != pending) held_.clear();
+    held_revision_ = pending;
+    held_[block.block] = block;
+    return true;
+  }
+  if (empty() || block.revision != surface_.revision) return false;
+  if (!well_formed(block, surface_.position.size())) return false;
+  apply(block);
+  return true;
+}
+
+void BodyPicture::apply(const VertexBlock& block) {
+  for (std::uint32_t i = 0; i < block.n_vertices; ++i) {
+    const std::uint32_t v = block.first_vertex + i;
+    if (flags_[v] != block.flags[i]) {
+      flags_[v] = block.flags[i];
+      pack(v);
+      touch(v);
+    }
+    if (surface_.position[v] == block.position[i]) continue;
+    surface_.position[v] = block.position[i];
+    touch(v);
+    if (is_moved_[v] != 0) continue;
+    is_moved_[v] = 1;
+    moved_.push_back(v);
+  }
+}
+
+void BodyPicture::refresh() {
+  if (rebuild_) {
+    normals_.rebuild(surface_.position, surface_.corners);
+    for (std::size_t v = 0; v < packed_.size(); ++v) pack(v);
+  } else if (!moved_.empty()) {
+    for (const auto v : normals_.update(surface_.position, surface_.corners, moved_)) {
+      pack(v);
+      touch(v);
+    }
+  }
+  for (const auto v : moved_) is_moved_[v] = 0;
+  moved_.clear();
+  rebuild_ = false;
+}
+
+void BodyPicture::pack(std::size_t vertex) {
+  packed_[vertex].flags = flags_[vertex];
+  if (normals_.normals().size() != packed_.size()) return;  // refresh() will come
+  const auto& n = normals_.normals()[vertex];
+  for (int axis = 0; axis < 3; ++axis) {
+    packed_[vertex].normal[static_cast<std::size_t>(axis)] =
+        static_cast<std::int16_t>(std::lround(n[axis] * 32767.0F));
+  }
+}
+
+std::vector<VertexRange> BodyPicture::dirty_ranges() const {
+  std::vector<VertexRange> ranges;
+  for (std::size_t page = 0; page < page_dirty_.size(); ++page) {
+    if (page_dirty_[page] == 0) continue;
+    const auto first = page * page_vertices;
+    const auto n = std::min(page_vertices, packed_.size() - first);
+    if (!ranges.empty() && ranges.back().first + ranges.back().n == first) {
+      ranges.back().n += n;
+    } else {
+      ranges.push_back({first, n});
+    }
+  }
+  return ranges;
+}
+
+void BodyPicture::clear_dirty() {
+  all_dirty_ = false;
+  std::fill(page_dirty_.begin(), page_dirty_.end(), std::uint8_t{0});
+}
+
+}  // namespace palpate::render

@@ -1,0 +1,82 @@
+#pragma once
+// What is shown of one body, ready for upload, and what of it changed since the last upload.
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "render_node/model/surface.h"
+#include "render_node/model/surface_assembly.h"
+#include "render_node/model/surface_normals.h"
+
+namespace palpate::render {
+
+/// Normal and state of a vertex, packed for the graphics card.
+struct PackedVertex {
+  std::array<std::int16_t, 3> normal{};  // times 32767
+  std::uint16_t flags = 0;               // vertex_yielded, vertex_broken
+  friend bool operator==(const PackedVertex&, const PackedVertex&) = default;
+};
+
+struct VertexRange {
+  std::size_t first = 0, n = 0;
+};
+
+class BodyPicture {
+ public:
+  /// Takes a chunk; when it completes a newer revision, that becomes the picture.
+  ChunkFate take(const BodySurface& chunk);
+
+  /// Moves vertices of the revision shown. A block of the revision being assembled is held until that is whole
+  /// (only changed blocks are sent, so it may not come again).
+  /// @return false: of another revision or not finite, ignored
+  bool take(const VertexBlock& block);
+
+  /// Brings normals and packed vertices up to date; call before reading them.
+  void refresh();
+
+  bool empty() const noexcept { return surface_.revision == 0; }
+  const Surface& surface() const noexcept { return surface_; }
+  std::vector<PackedVertex> const& packed() const noexcept { return packed_; }
+  std::vector<std::uint32_t> const& vertex_rgba() const noexcept {
+    return vertex_rgba_;
+  }  // mean of its facets
+  std::size_t facets_visible() const noexcept { return surface_.corners.size(); }
+  std::size_t facets_total() const noexcept { return facets_visible() + surface_.facets_hidden; }
+
+  /// Box round the first revision, so that the view does not jump when something is cut away.
+  const Eigen::AlignedBox3f& first_box() const noexcept { return first_box_; }
+
+  // What changed since clear_dirty(). All: facets, colours and vertices; else ranges of vertices.
+  bool all_dirty() const noexcept { return all_dirty_; }
+  std::vector<VertexRange> dirty_ranges() const;
+  void clear_dirty();
+
+ private:
+  static constexpr std::size_t page_vertices = 512;  // granularity of dirty ranges
+  void show(Surface surface);
+  void apply(const VertexBlock& block);
+  void touch(std::size_t vertex) { page_dirty_[vertex / page_vertices] = 1; }
+  void pack(std::size_t vertex);
+
+  SurfaceAssembly assembly_;
+  std::map<std::uint32_t, VertexBlock> held_;  // newest of each block of the revision being assembled
+  std::uint32_t held_revision_ = 0;
+
+  Surface surface_;
+  SurfaceNormals normals_;
+  std::vector<std::uint32_t> vertex_rgba_;  // (n_vertices)
+  std::vector<std::uint8_t> flags_;         // (n_vertices)
+  std::vector<PackedVertex> packed_;        // (n_vertices)
+  Eigen::AlignedBox3f first_box_;
+
+  bool rebuild_ = false;
+  std::vector<std::uint32_t> moved_;    // since the last refresh(), each once
+  std::vector<std::uint8_t> is_moved_;  // (n_vertices)
+  bool all_dirty_ = false;
+  std::vector<std::uint8_t> page_dirty_;  // (n_vertices / page_vertices, rounded up)
+};
+
+}  // namespace palpate::render

@@ -1,0 +1,29 @@
+#include "render_node/model/threshold_control.h"
+
+#include <algorithm>
+#include <variant>
+
+namespace palpate::render {
+
+ThresholdControl::ThresholdControl(const Scene& scene) {
+  for (const auto& body : scene.bodies) {
+    const auto* volume = std::get_if<VolumeShape>(&body.shape);
+    if (volume == nullptr) continue;
+    applies_ = true;
+    if (volume->keep_min < 0 || volume->keep_max > 255) {
+      lo_ = -1024;
+      hi_ = 3071;
+    }
+    value_ = sent_ = std::clamp(scene.render.threshold.value_or(volume->keep_min), lo_, hi_);
+    return;
+  }
+}
+
+std::optional<double> ThresholdControl::due(double now, bool released) noexcept {
+  if (value_ == sent_ || (!released && now - sent_at_ < shortest_s)) return std::nullopt;
+  sent_ = value_;
+  sent_at_ = now;
+  return value_;
+}
+
+}  // namespace palpate::render

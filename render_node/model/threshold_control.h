@@ -1,0 +1,34 @@
+#pragma once
+// The threshold slider's manners: its range, and at most five commands a second while it is dragged.
+
+#include <optional>
+
+#include "common/scene/scene.h"
+
+namespace palpate::render {
+
+class ThresholdControl {
+ public:
+  static constexpr double shortest_s = 0.2;  // between two commands
+
+  /// Range and start from the first volume of the scene: -1024..3071 where its window is that of a CT,
+  /// 0..255 otherwise.
+  explicit ThresholdControl(const Scene& scene);
+
+  bool applies() const noexcept { return applies_; }  // false: no body comes from a volume
+  double lo() const noexcept { return lo_; }
+  double hi() const noexcept { return hi_; }
+  double value() const noexcept { return value_; }
+
+  /// The hand set the slider. @param now  wall time [s]
+  void set(double value) noexcept { value_ = value; }
+  /// What to command now, if anything: a value not yet commanded, not sooner than allowed unless released.
+  std::optional<double> due(double now, bool released) noexcept;
+
+ private:
+  bool applies_ = false;
+  double lo_ = 0, hi_ = 255, value_ = 0;
+  double sent_ = 0, sent_at_ = -1e9;
+};
+
+}  // namespace palpate::render

@@ -1,0 +1,97 @@
+#include "render_node/model/view_model.h"
+
+#include <algorithm>
+
+namespace palpate::render {
+namespace {
+
+Vec3 vector_of(const Array3& a) { return {a[0], a[1], a[2]}; }
+
+}  // namespace
+
+ViewModel::ViewModel(const Scene& scene) : bodies_(scene.bodies.size()), tools_(scene.tools.size()) {}
+
+void ViewModel::take(const BodySurface& chunk) {
+  if (chunk.body >= bodies_.size()) {
+    ++ignored_;
+    return;
+  }
+  const auto fate = bodies_[chunk.body].take(chunk);
+  if (fate == ChunkFate::stale || fate == ChunkFate::malformed) ++ignored_;
+}
+
+void ViewModel::take(const VertexBlock& block) {
+  if (block.body >= bodies_.size() || !bodies_[block.body].take(block)) {
+    ++ignored_;
+    return;
+  }
+  t_ = block.t;
+}
+
+void ViewModel::take(const ToolWrench& wrench) {
+  if (wrench.tool >= tools_.size()) {
+    ++ignored_;
+    return;
+  }
+  ToolView& tool = tools_[wrench.tool];
+  tool.force = vector_of(wrench.force);
+  tool.moment = vector_of(wrench.moment);
+  tool.n_contacts = wrench.n_contacts;
+  tool.on_tool.add(wrench.t, tool.force.norm());
+  t_ = wrench.t;
+}
+
+void ViewModel::take(const HapticTrace& trace) {
+  if (trace.tool >= tools_.size() || trace.n_samples > max_trace_samples) {
+    ++ignored_;
+    return;
+  }
+  ToolView& tool = tools_[trace.tool];
+  for (std::uint32_t i = 0; i < trace.n_samples; ++i) {
+    const TraceSample& sample = trace.samples[i];
+    tool.on_hand.add(sample.t, vector_of(sample.force).norm());
+    tool.tip = vector_of(sample.p);
+    tool.proxy = vector_of(sample.proxy);
+    tool.energy = sample.energy;
+  }
+}
+
+void ViewModel::take(const NodeStatus& status) {
+  const auto kind = static_cast<std::size_t>(status.node);
+  if (kind >= nodes_.size()) {
+    ++ignored_;
+    return;
+  }
+  nodes_[kind] = status;
+  if (status.node == NodeKind::physics) t_ = status.t;
+}
+
+void ViewModel::refresh() {
+  for (auto& body : bodies_) body.refresh();
+}
+
+bool ViewModel::anything_to_see() const noexcept {
+  return std::any_of(bodies_.begin(), bodies_.end(), [](const BodyPicture& body) { return !body.empty(); });
+}
+
+Eigen::AlignedBox3d ViewModel::box() const {
+  Eigen::AlignedBox3d box;
+  for (const auto& body : bodies_) {
+    if (!body.first_box().isEmpty()) box.extend(body.first_box().cast<double>());
+  }
+  return box;
+}
+
+std::size_t ViewModel::facets_visible() const noexcept {
+  std::size_t n = 0;
+  for (const auto& body : bodies_) n += body.facets_visible();
+  return n;
+}
+
+std::size_t ViewModel::facets_total() const noexcept {
+  std::size_t n = 0;
+  for (const auto& body : bodies_) n += body.facets_total();
+  return n;
+}
+
+}  // namespace palpate::render

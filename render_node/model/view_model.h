@@ -1,0 +1,66 @@
+#pragma once
+// Everything the eye knows, fed by messages alone. No graphics here: gl/ draws it, ui/ writes its numbers.
+
+#include <Eigen/Geometry>
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/message/messages.h"
+#include "common/scene/scene.h"
+#include "render_node/model/body_picture.h"
+#include "render_node/model/force_history.h"
+
+namespace palpate::render {
+
+/// One tool, as far as messages have told.
+struct ToolView {
+  std::optional<Vec3> tip;     // of the newest trace sample [m]
+  Vec3 proxy = Vec3::Zero();   // [m]; meaningless without tip
+  Vec3 force = Vec3::Zero();   // of the tissue on the tool [N]
+  Vec3 moment = Vec3::Zero();  // about the set point [N m]
+  std::uint32_t n_contacts = 0;
+  double energy = 0;     // given to the hand so far [J]
+  ForceHistory on_tool;  // magnitude of the tissue's force, against simulated time
+  ForceHistory on_hand;  // magnitude of the device's force, against device time
+};
+
+class ViewModel {
+ public:
+  explicit ViewModel(const Scene& scene);
+
+  void take(const BodySurface& chunk);
+  void take(const VertexBlock& block);
+  void take(const ToolWrench& wrench);
+  void take(const HapticTrace& trace);
+  void take(const NodeStatus& status);
+
+  /// Brings normals up to date with the positions; call before drawing.
+  void refresh();
+
+  std::span<BodyPicture> bodies() noexcept { return bodies_; }
+  std::span<const BodyPicture> bodies() const noexcept { return bodies_; }
+  std::span<const ToolView> tools() const noexcept { return tools_; }
+  const std::optional<NodeStatus>& node(NodeKind kind) const noexcept {
+    return nodes_[static_cast<std::size_t>(kind)];
+  }
+
+  double t() const noexcept { return t_; }  // newest simulated time heard of [s]
+  bool anything_to_see() const noexcept;    // at least one body is whole
+  Eigen::AlignedBox3d box() const;          // round the first revision of all bodies [m]
+  std::size_t facets_visible() const noexcept;
+  std::size_t facets_total() const noexcept;
+  std::uint64_t samples_ignored() const noexcept {
+    return ignored_;
+  }  // stale, malformed or about nothing known
+
+ private:
+  std::vector<BodyPicture> bodies_;  // as in the scene
+  std::vector<ToolView> tools_;      // as in the scene
+  std::array<std::optional<NodeStatus>, n_node_kinds> nodes_;
+  double t_ = 0;
+  std::uint64_t ignored_ = 0;
+};
+
+}  // namespace palpate::render

@@ -1,0 +1,49 @@
+#pragma once
+// The picture without a window: takes messages, draws when asked, writes PNG files. No GL in this header.
+
+#include <cstddef>
+#include <memory>
+#include <string>
+
+#include "common/message/messages.h"
+#include "common/scene/scene.h"
+#include "render_node/image/image.h"
+
+namespace palpate::render {
+
+class ViewModel;
+
+class Picture {
+ public:
+  /// @param scene  is copied. Size, camera and what is shown come from its [render] table.
+  /// @throws InputError if this machine cannot draw without a screen
+  explicit Picture(const Scene& scene);
+  ~Picture();
+  Picture(const Picture&) = delete;
+  Picture& operator=(const Picture&) = delete;
+
+  void take(const BodySurface& chunk);
+  void take(const VertexBlock& block);
+  void take(const ToolWrench& wrench);
+  void take(const HapticTrace& trace);
+  void take(const NodeStatus& status);
+
+  /// Draws everything taken so far. The same messages and times give the same bytes on the same machine.
+  /// @param t  simulated time, shown in the panel [s]
+  void draw(double t);
+
+  const Image& image() const noexcept;  // of the last draw()
+  /// Writes the last draw(). @throws InputError if the file cannot be written
+  void save_png(const std::string& path) const;
+
+  std::size_t facets_visible() const noexcept;
+  std::size_t facets_total() const noexcept;
+  std::size_t bytes_uploaded() const noexcept;  // to the graphics card by the last draw()
+  const ViewModel& model() const noexcept;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace palpate::render

@@ -1,0 +1,140 @@
+#include "render_node/ui/panels.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "common/math/units.h"
+#include "render_node/ui/force_plot.h"
+
+namespace palpate::render {
+namespace {
+
+// 1234567 as 1,234,567.
+std::string grouped(std::uint64_t n) {
+  std::string backwards;
+  for (int digits = 0; n > 0 || digits == 0; n /= 10, ++digits) {
+    if (digits > 0 && digits % 3 == 0) backwards += ',';
+    backwards += static_cast<char>('0' + n % 10);
+  }
+  return {backwards.rbegin(), backwards.rend()};
+}
+
+// A line of the column: what on the left, how much on the right.
+void row(const char* what, const std::string& how_much) {
+  ImGui::TextDisabled("%s", what);
+  const float width = ImGui::CalcTextSize(how_much.c_str()).x;
+  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - width);
+  ImGui::TextUnformatted(how_much.c_str());
+}
+
+const char* word_for(NodePhase phase) {
+  static constexpr std::array<const char*, n_node_phases> words = {"loading", "ready", "running", "stopping",
+                                                                   "failed"};
+  const auto i = static_cast<std::size_t>(phase);
+  return i < words.size() ? words[i] : "?";
+}
+
+void node_rows(const ViewModel& model) {
+  struct Named {
+    NodeKind kind;
+    const char* name;
+  };
+  bool any = false;
+  for (const auto& [kind, name] : {Named{NodeKind::physics, "physics"}, Named{NodeKind::haptic, "haptic"},
+                                   Named{NodeKind::render, "render"}}) {
+    const auto& status = model.node(kind);
+    if (!status) continue;
+    any = true;
+    row(name, status->phase == NodePhase::running
+                  ? fmt::format("{:.{}f} Hz", status->rate_Hz, kind == NodeKind::render ? 1 : 0)
+                  : std::string(word_for(status->phase)));
+  }
+  const auto& physics = model.node(NodeKind::physics);
+  const auto& haptic = model.node(NodeKind::haptic);
+  if (physics) row("real-time factor", fmt::format("{:.2f}", physics->real_time_factor));
+  if (haptic && haptic->loop_age_ms_p50 > 0)
+    row("loop age", fmt::format("{:.2f} ms", haptic->loop_age_ms_p50));
+  if (haptic) row("late ticks", grouped(haptic->late));
+  if (any) ImGui::Separator();
+}
+
+PanelWishes controls(const PanelFacts& facts, ThresholdControl& threshold) {
+  PanelWishes wishes;
+  if (threshold.applies()) {
+    if (facts.interactive) {
+      auto value = static_cast<float>(threshold.value());
+      ImGui::TextDisabled("tissue from intensity");
+      ImGui::SetNextItemWidth(-1);
+      wishes.threshold_moved = ImGui::SliderFloat("##threshold", &value, static_cast<float>(threshold.lo()),
+                                                  static_cast<float>(threshold.hi()), "%.0f");
+      if (wishes.threshold_moved) threshold.set(static_cast<double>(value));
+      wishes.threshold_released = ImGui::IsItemDeactivatedAfterEdit();
+    } else {
+      row("tissue from intensity", fmt::format("{:.0f}", threshold.value()));
+    }
+  }
+  if (facts.interactive) {
+    const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+    const bool pressed = ImGui::Button(facts.paused ? "Resume" : "Pause", {width, 0});
+    wishes.pause = pressed && !facts.paused;
+    wishes.resume = pressed && facts.paused;
+    ImGui::SameLine();
+    wishes.reset = ImGui::Button("Reset", {width, 0});
+  }
+  if (facts.interactive || threshold.applies()) ImGui::Separator();
+  return wishes;
+}
+
+void tool_rows(const Scene& scene, const ViewModel& model, const PanelFacts& facts, float scale) {
+  for (std::size_t i = 0; i < model.tools().size(); ++i) {
+    const ToolView& tool = model.tools()[i];
+    ImGui::TextUnformatted(scene.tools[i].name.c_str());
+    if (!tool.on_hand.empty()) row("force on the hand", fmt::format("{:.2f} N", tool.on_hand.now()));
+    if (!tool.on_tool.empty()) {
+      row("force by the tissue", fmt::format("{:.2f} N", tool.on_tool.now()));
+      row("colliding masses", grouped(tool.n_contacts));
+    }
+    if (i == 0) force_plot(tool, 190 * scale);
+  }
+  if (!model.tools().empty() && facts.arrow_metres_per_newton > 0) {
+    row("arrow: 1 N is", fmt::format("{:g} mm", mm_from_m(facts.arrow_metres_per_newton)));
+  }
+}
+
+void warning_rows(const ViewModel& model) {
+  for (const auto kind : {NodeKind::physics, NodeKind::haptic, NodeKind::render}) {
+    const auto& status = model.node(kind);
+    if (!status || status->note[0] == '\0') continue;
+    ImGui::TextWrapped("%.*s", static_cast<int>(status->note.size()), status->note.data());
+  }
+}
+
+}  // namespace
+
+PanelWishes lay_out_panels(const Scene& scene, const ViewModel& model, const PanelFacts& facts,
+                           ThresholdControl& threshold, float scale) {
+  const ImVec2 picture = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({0, 0});
+  ImGui::SetNextWindowSize({panel_width * scale, picture.y});
+  ImGui::Begin("panels", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav);
+  ImGui::TextWrapped("%s", scene.title.c_str());
+  row("simulated time", fmt::format("{:.2f} s", facts.t));
+  ImGui::Separator();
+  node_rows(model);
+  row("facets visible", grouped(model.facets_visible()));
+  row("of all", grouped(model.facets_total()));
+  ImGui::Separator();
+  const PanelWishes wishes = controls(facts, threshold);
+  tool_rows(scene, model, facts, scale);
+  warning_rows(model);
+  ImGui::End();
+  return wishes;
+}
+
+}  // namespace palpate::render

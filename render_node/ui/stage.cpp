@@ -1,0 +1,37 @@
+#include "render_node/ui/stage.h"
+
+#include <imgui.h>
+
+#include <cmath>
+
+namespace palpate::render {
+
+Stage::Stage(const Scene& scene, ViewModel& model, int height)
+    : scene_(scene),
+      model_(model),
+      camera_(scene.render.camera),
+      options_{scene.render.show_tool, scene.render.show_force, scene.render.show_wire},
+      threshold_(scene),
+      painter_(scene, model),
+      imgui_(height) {}
+
+PanelWishes Stage::draw(const PanelFacts& facts, int width, int height, float seconds) {
+  const bool panels = scene_.render.show_panels;
+  camera_.set_picture(width, height,
+                      panels ? static_cast<int>(std::lround(panel_width * imgui_.scale())) : 0);
+  camera_.fit(model_.box());
+  painter_.draw(model_, camera_, options_, width, height);
+  if (!panels) return {};
+  ImGuiIO& io = ImGui::GetIO();
+  io.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
+  io.DeltaTime = seconds;
+  ImGui::NewFrame();
+  PanelFacts shown = facts;
+  shown.arrow_metres_per_newton = options_.force ? painter_.arrow_metres_per_newton() : 0;
+  const PanelWishes wishes = lay_out_panels(scene_, model_, shown, threshold_, imgui_.scale());
+  ImGui::Render();
+  panels_.draw();
+  return wishes;
+}
+
+}  // namespace palpate::render

@@ -1,0 +1,40 @@
+#pragma once
+// Camera, picture and panels together, for a window or a headless frame: whoever owns the OpenGL context makes one.
+
+#include "common/scene/scene.h"
+#include "render_node/gl/painter.h"
+#include "render_node/ui/imgui_context.h"
+#include "render_node/ui/imgui_drawing.h"
+#include "render_node/ui/panels.h"
+#include "render_node/view/camera.h"
+
+namespace palpate::render {
+
+class Stage {
+ public:
+  /// @param height  of the picture, for the size of text [px]. Scene and model must outlive the stage.
+  Stage(const Scene& scene, ViewModel& model, int height);
+
+  /// Makes this stage's ImGui context current; call before feeding input or drawing.
+  void make_current() const { imgui_.make_current(); }
+
+  /// Draws into the bound framebuffer. The ImGui frame must not be open; `seconds` is the wall time since the last one.
+  PanelWishes draw(const PanelFacts& facts, int width, int height, float seconds);
+
+  Camera& camera() noexcept { return camera_; }
+  PaintOptions& options() noexcept { return options_; }
+  ThresholdControl& threshold() noexcept { return threshold_; }
+  const Painter& painter() const noexcept { return painter_; }
+
+ private:
+  const Scene& scene_;
+  ViewModel& model_;
+  Camera camera_;
+  PaintOptions options_;
+  ThresholdControl threshold_;
+  Painter painter_;
+  ImguiContext imgui_;
+  ImguiDrawing panels_;
+};
+
+}  // namespace palpate::render
