@@ -10,6 +10,8 @@
 
 namespace palpate {
 
+inline constexpr std::int64_t volume_cells_limit = 1'000'000'000;  // refused from here on, before any memory is taken
+
 /// One control point of a transfer function: from this intensity on, this colour (linear between points).
 struct TransferPoint { double intensity = 0; std::array<double, 4> rgba{}; };  // each 0..1
 
@@ -21,7 +23,7 @@ struct Volume {
   std::vector<float> intensity;                 // x fastest, then y, then z (nx * ny * nz)
   std::vector<TransferPoint> transfer;          // sorted by intensity, at least two
   std::string source;                           // file name (no folder) that it came from
-  std::uint64_t source_checksum = 0;            // FNV-1a of the bytes read
+  std::uint64_t source_checksum = 0;            // FNV-1a of the bytes of the source file (of a series: of all files)
   std::array<int, 3> source_size{};             // before resampling
 
   std::size_t n_cells() const { return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(size[2]); }
@@ -33,18 +35,24 @@ struct Volume {
 /// Writes beside, then renames: `path` is either complete or untouched. @throws InputError
 void write_volume(const Volume& volume, const std::string& path);
 
-/// @throws InputError: missing, truncated, not a palpate volume, other version, absurd sizes, spacing not finite
+/// @throws InputError: missing, truncated, not a palpate volume, other version, absurd sizes, spacing not finite,
+/// sizes that do not match the data, values that are not numbers
 Volume read_volume(const std::string& path);
 
 /// The volume on another partition: cells of size * spacing / partition, trilinear at their centres
-/// (box-averaged where a new cell is larger than an old one).
+/// (box-averaged where a new cell is larger than an old one, which keeps the mean). @throws InputError: absurd partition
 Volume resample(const Volume& volume, std::array<int, 3> partition);
 
-/// Colour of an intensity, 0xAABBGGRR.
+/// Colour of an intensity, 0xAABBGGRR: linear between the points, the outermost colours beyond them.
 std::uint32_t rgba_of(const std::vector<TransferPoint>& transfer, double intensity);
 
 /// For CT in Hounsfield units: air clear, fat yellowish, skin, muscle, bone white. `lo`, `hi`: range of the image;
-/// an image that is not CT (lo >= 0) gets a grey ramp.
+/// an image that does not look like CT (lo >= 0, say) gets a grey ramp.
 std::vector<TransferPoint> default_transfer(double lo, double hi);
+
+/// The two it chooses from, and how: CT reaches down to air (-500 or less) and up to tissue (100 or more).
+std::vector<TransferPoint> ct_transfer();
+std::vector<TransferPoint> grey_transfer(double lo, double hi);
+bool looks_like_ct(double lo, double hi);
 
 }  // namespace palpate

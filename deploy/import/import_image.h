@@ -1,0 +1,23 @@
+#pragma once
+// From a person's image to a palpate volume.
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "common/record/volume.h"
+#include "deploy/import/read_raw.h"
+
+namespace palpate {
+
+struct ImportOptions {
+  std::string input;                            // file, or folder of a DICOM series
+  RawOptions raw;                               // for .raw and .inr only
+  std::optional<std::array<int, 3>> partition;  // cells along x, y, z; absent: as in the image
+  std::string transfer;                         // "ct", "grey"; empty: by the range of the image
+};
+
+/// Reads, checks, colours and resamples. @throws InputError, std::bad_alloc
+Volume import_image(const ImportOptions& options);
+
+}  // namespace palpate

@@ -1,0 +1,93 @@
+// palpate-import: an image becomes a volume file. See docs/volume_file.md.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <new>
+
+#include "common/error/error.h"
+#include "common/math/units.h"
+#include "common/record/part_file.h"
+#include "deploy/import/import_image.h"
+
+namespace {
+
+using namespace palpate;
+
+struct Command {
+  ImportOptions options;
+  std::string out;
+  bool quiet = false;
+};
+
+/// @throws CLI::ParseError, InputError
+Command parse(CLI::App& app, int argc, char** argv) {
+  Command command;
+  std::vector<std::int64_t> size;
+  std::vector<double> spacing_mm;
+  std::vector<int> partition;
+  std::string type;
+  std::uint64_t header = 0;
+  app.add_option("image", command.options.input,
+                 ".inv3, .nii[.gz], .nrrd, .mha, .raw, .inr, or a DICOM file or folder")
+      ->required();
+  app.add_option("--out", command.out, "the volume to write")->required();
+  app.add_option("--size", size, "raw: cells nx,ny,nz")->delimiter(',')->expected(3);
+  app.add_option("--spacing-mm", spacing_mm, "raw: spacing x,y,z")->delimiter(',')->expected(3);
+  app.add_option("--type", type, "raw: kind of number")
+      ->check(CLI::IsMember({"int16", "uint8", "uint16", "float32"}));
+  auto* header_option = app.add_option("--header", header, "raw: bytes to skip");
+  app.add_option("--partition", partition, "resample to nx,ny,nz cells")->delimiter(',')->expected(3);
+  app.add_option("--transfer", command.options.transfer, "colours")->check(CLI::IsMember({"ct", "grey"}));
+  app.add_flag("--quiet", command.quiet, "say nothing when all is well");
+  app.parse(argc, argv);
+  if (!size.empty()) command.options.raw.size = {size[0], size[1], size[2]};
+  if (!spacing_mm.empty()) command.options.raw.spacing = Eigen::Vector3d(spacing_mm.data()) * m_from_mm(1);
+  if (!type.empty()) command.options.raw.type = voxel_type_named(type);
+  if (header_option->count() > 0) command.options.raw.header_bytes = header;
+  if (!partition.empty()) command.options.partition = {partition[0], partition[1], partition[2]};
+  return command;
+}
+
+void check_output(const Command& command) {
+  std::error_code ignored;
+  if (std::filesystem::equivalent(command.options.input, command.out, ignored))
+    throw InputError(command.out + ": is the image itself; name another file to write");
+  check_can_write(command.out);
+}
+
+void report(const Command& command, const Volume& volume) {
+  const auto [lo, hi] = std::minmax_element(volume.intensity.begin(), volume.intensity.end());
+  fmt::print("{}: {} x {} x {} cells of {:g} x {:g} x {:g} mm, intensity {:g} to {:g}, written to {}\n",
+             volume.source, volume.size[0], volume.size[1], volume.size[2], mm_from_m(volume.spacing[0]),
+             mm_from_m(volume.spacing[1]), mm_from_m(volume.spacing[2]), *lo, *hi, command.out);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"palpate import: an image becomes a volume"};
+  Command command;
+  try {
+    command = parse(app, argc, argv);
+    check_output(command);
+    const Volume volume = import_image(command.options);
+    write_volume(volume, command.out);
+    if (!command.quiet) report(command, volume);
+    return exit_ok;
+  } catch (const CLI::Success& wanted) {
+    return app.exit(wanted);
+  } catch (const CLI::ParseError& error) {
+    fmt::print(stderr, "palpate import: {}; palpate import --help tells more\n", error.what());
+  } catch (const InputError& error) {
+    for (const auto& line : error.complaints()) fmt::print(stderr, "{}\n", line);
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "{}: is too large for the memory of this machine; give a smaller image\n",
+               command.options.input);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "palpate import: {}\n", error.what());
+    return exit_failed;
+  }
+  return exit_mistake;
+}

@@ -1,0 +1,101 @@
+#include "deploy/import/nifti_header.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <vector>
+
+#include "common/error/error.h"
+#include "common/math/units.h"
+#include "common/record/volume_check.h"
+#include "deploy/import/byte_stream.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::size_t header_bytes = 348;
+
+/// Byte positions in the header.
+constexpr std::size_t at_dim = 40, at_bitpix = 72, at_pixdim = 76, at_vox_offset = 108, at_units = 123,
+                      at_qform = 252, at_sform = 254;
+
+class Header {
+ public:
+  Header(const std::string& path, ByteStream& stream) {
+    const bool whole = stream.read(bytes_.data(), bytes_.size()) == bytes_.size();
+    swap_ = get<std::int32_t>(0) != 348;
+    if (!whole || get<std::int32_t>(0) != 348)
+      throw InputError(path + ": is not NIfTI-1, or is truncated; name a whole .nii or .nii.gz file");
+  }
+
+  template <class T>
+  T get(std::size_t at) const {
+    std::array<unsigned char, sizeof(T)> raw{};
+    std::copy_n(bytes_.begin() + static_cast<std::ptrdiff_t>(at), sizeof(T), raw.begin());
+    if (swap_) std::reverse(raw.begin(), raw.end());
+    T value{};
+    std::memcpy(&value, raw.data(), sizeof(T));
+    return value;
+  }
+
+  std::int64_t dim(std::size_t i) const { return get<std::int16_t>(at_dim + 2 * i); }
+  double pixdim(std::size_t i) const { return static_cast<double>(get<float>(at_pixdim + 4 * i)); }
+
+ private:
+  std::array<unsigned char, header_bytes> bytes_{};
+  bool swap_ = false;
+};
+
+/// Length of the header's unit of space [m]; 0 (not said) is taken as millimetres, as everybody does.
+double metres_per_unit(const Header& header) {
+  switch (header.get<std::uint8_t>(at_units) & 7) {
+    case 1:
+      return 1;
+    case 3:
+      return 1e-6;
+    default:
+      return m_from_mm(1);
+  }
+}
+
+/// The file must hold what it says; the library pads what is missing in some cases.
+void check_length(const std::string& path, const Header& header, ByteStream& stream, std::uint64_t cells) {
+  const double offset = static_cast<double>(header.get<float>(at_vox_offset));
+  const std::uint64_t start =
+      offset >= header_bytes && offset < 1e9 ? static_cast<std::uint64_t>(offset) : 352;
+  const auto bits =
+      static_cast<std::uint64_t>(std::max<std::int16_t>(0, header.get<std::int16_t>(at_bitpix)));
+  const std::uint64_t wanted = start + cells * bits / 8;
+  std::vector<unsigned char> waste(1 << 18);
+  std::uint64_t held = header_bytes;
+  for (std::size_t n = waste.size(); n == waste.size(); held += n) n = stream.read(waste.data(), n);
+  if (held < wanted)
+    throw InputError(fmt::format("{}: holds {} bytes of the {} that its header asks for; fetch a whole copy",
+                                 path, held, wanted));
+}
+
+}  // namespace
+
+ImageFacts check_nifti_header(const std::string& path) {
+  ByteStream stream(path, ByteStream::Kind::plain);
+  const Header header(path, stream);
+  bool flat = header.dim(0) < 3;
+  for (std::size_t i = 4; i <= 7 && static_cast<std::int64_t>(i) <= header.dim(0); ++i)
+    flat |= header.dim(i) > 1;
+  if (flat || header.dim(0) > 7)
+    throw InputError(
+        fmt::format("{}: has {} axes; a three-dimensional image is wanted", path, header.dim(0)));
+  const auto size = check_size(path, {header.dim(1), header.dim(2), header.dim(3)});
+  const double unit = metres_per_unit(header);
+  check_spacing(path, {unit * header.pixdim(1), unit * header.pixdim(2), unit * header.pixdim(3)});
+  std::uint64_t cells = 1;
+  for (const int n : size) cells *= static_cast<std::uint64_t>(n);
+  check_length(path, header, stream, cells);
+  ImageFacts facts;
+  facts.oriented = header.get<std::int16_t>(at_qform) > 0 || header.get<std::int16_t>(at_sform) > 0;
+  return facts;
+}
+
+}  // namespace palpate
