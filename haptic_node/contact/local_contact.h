@@ -1,0 +1,84 @@
+#pragma once
+// What a point tool feels of the facets in the newest patch, at the rate of the hand.
+//
+// Each facet stands for the tissue behind it as a plane at zero contact force with a stiffness K_o (a Norton
+// equivalent). Hand spring K and tissue are in series, so that with the tip x a depth d inside that plane
+//
+//   F = (K K_o / (K + K_o)) d n - damping,    proxy = x + F / K  (the point where the tool rests on the surface)
+//
+// One plane follows the facet under the proxy; up to two more are other sides that the proxy ran into (a concave
+// corner). A facet counts only when the way from proxy to hand crosses it, so that convex edges are not felt from
+// outside. Every contact begins at zero force; afterwards planes move as TrackedPlane allows.
+// Source: Astley & Hayward 1998 (Norton equivalents); Zilles & Salisbury 1995 (which facets count).
+// Deviation: Mendoza & Laugier let every plane with d < 0 push; beside a convex edge that is a ghost force.
+
+#include <array>
+#include <cstdint>
+
+#include "common/message/messages.h"
+#include "common/scene/scene.h"
+#include "haptic_node/contact/facet_choice.h"
+#include "haptic_node/contact/tracked_plane.h"
+#include "haptic_node/contact/work_tank.h"
+
+namespace palpate::haptic {
+
+struct ContactResult {
+  Vec3 force = Vec3::Zero();   // on the hand [N]; exactly zero in free space
+  Vec3 proxy = Vec3::Zero();   // [m]
+  double depth = 0;            // from hand to the planes' common surface [m]
+  double stored = 0;           // in the springs [J]
+  std::uint32_t n_planes = 0;  // that push
+  bool outran = false;         // the proxy has left the neighbourhood that the patch covers
+};
+
+class LocalContact {
+ public:
+  /// @param stiffness  of the spring between hand and proxy, K [N/m]
+  /// @param damping    B [N s/m]
+  LocalContact(double stiffness, double damping) noexcept : stiffness_(stiffness), damping_(damping) {}
+
+  /// A new patch; its planes are reached after about `period` seconds. It must have passed PatchWatch.
+  void take(const ContactPatch& patch, double period) noexcept;
+
+  /// True if x is inside the tissue, by the newest patch.
+  bool penetrated(const Vec3& x) const noexcept;
+
+  /// Contract: real time.
+  /// @param x, v  tip [m], its smoothed velocity [m/s]
+  ContactResult tick(const Vec3& x, const Vec3& v, double dt) noexcept;
+
+  /// Planes move away until the spring force is `keep` (0..1) of what it was at x.
+  void weaken(const Vec3& x, double keep) noexcept;
+
+  /// Forgets all planes: the next contact begins at zero force.
+  void release() noexcept { n_ = 0; }
+
+  /// Work of moving planes on the hand since the start [J].
+  double plane_work() const noexcept { return tank_.booked(); }
+
+ private:
+  static constexpr std::size_t most = 3;
+
+  Projection project(const Vec3& x) const noexcept;
+  PlaneTarget target_of(const PatchFacet& facet, const Vec3& x) const noexcept;
+  void approach(const Vec3& x, double fraction, double force_step) noexcept;
+  bool follow_first(const Vec3& x, const Vec3& proxy, double pressed, double fraction,
+                    double force_step) noexcept;
+  void follow_others(const Vec3& x, const Vec3& proxy, const Projection& before, double fraction,
+                     double force_step) noexcept;
+  void add_crossed(const Vec3& x, const Vec3& proxy) noexcept;
+  ContactResult felt(const Vec3& x, const Vec3& v) const noexcept;
+
+  double stiffness_;
+  double damping_;
+  ContactPatch patch_{};
+  double remaining_ = 0;  // until the planes of the patch are reached [s]
+  std::array<TrackedPlane, most> planes_{};
+  std::size_t n_ = 0;
+  std::uint32_t facet_ = no_facet;  // of plane 0, in patch_
+  Vec3 last_x_ = Vec3::Zero();
+  WorkTank tank_;
+};
+
+}  // namespace palpate::haptic

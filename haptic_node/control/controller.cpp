@@ -1,0 +1,173 @@
+#include "haptic_node/control/controller.h"
+
+#include <algorithm>
+
+#include "common/time/clock.h"
+
+namespace palpate::haptic {
+
+const char* name_of(HapticState state) noexcept {
+  switch (state) {
+    case HapticState::off:
+      return "off";
+    case HapticState::open:
+      return "open";
+    case HapticState::calibrating:
+      return "calibrating";
+    case HapticState::ready:
+      return "ready";
+    case HapticState::armed:
+      return "armed";
+    case HapticState::run:
+      return "run";
+    case HapticState::stale:
+      return "stale";
+    case HapticState::safe:
+      return "safe";
+    case HapticState::fault:
+      return "fault";
+  }
+  return "";
+}
+
+Controller::Controller(const ControllerSettings& settings) noexcept
+    : settings_(settings),
+      motion_(settings.period),
+      patches_(settings.tool),
+      contact_(settings.stiffness, settings.damping),
+      guard_(settings.force_limit, settings.stiffness, settings.period) {}
+
+/// Motors off at once; nothing is written to the device any more.
+ControllerOutput Controller::faulted(bool first) noexcept {
+  if (first) {
+    ++faults_;
+    state_ = HapticState::fault;
+    felt_ = {};
+    guard_.pass(Vec3::Zero(), 0, false);
+  }
+  ControllerOutput out;
+  out.proxy = motion_.x();
+  out.write = false;
+  out.stop_motors = first;
+  return out;
+}
+
+void Controller::enter_safe(bool may_resume_inside) noexcept {
+  if (state_ != HapticState::safe) {
+    ++safe_events_;
+    resume_inside_ = may_resume_inside;
+    state_ = HapticState::safe;
+  } else {
+    resume_inside_ = resume_inside_ && may_resume_inside;
+  }
+  safe_for_ = 0;
+}
+
+void Controller::look_for_trouble(MotionVerdict verdict, const DeviceSample& sample, double dt) noexcept {
+  const bool forcing = engaged() || state_ == HapticState::safe;
+  if (verdict == MotionVerdict::unsafe || (forcing && !sample.held)) {
+    enter_safe(false);
+  } else if (forcing && (dt > stall || !sample.powered)) {
+    enter_safe(true);
+  }
+}
+
+void Controller::step_ready(std::int64_t now_ns, const DeviceSample& sample) noexcept {
+  gain_ = 0;
+  const bool may = patches_.gain(now_ns) >= 1.0 && motion_.ever() && sample.calibrated && sample.held;
+  const bool outside = may && (resume_inside_ || !contact_.penetrated(motion_.x()));
+  if (!outside || (state_ == HapticState::ready && motion_.v().norm() > arming_speed && !sample.powered)) {
+    state_ = HapticState::ready;
+    return;
+  }
+  state_ = HapticState::armed;
+  if (!sample.powered) return;
+  contact_.release();
+  guard_.restart();
+  resume_inside_ = false;
+  gain_ = 1;
+  state_ = HapticState::run;
+}
+
+/// Patches that return during the fade find the planes moved back so far that the force goes on as faded; once it
+/// has gone, only leaving the tissue brings it back.
+void Controller::step_stale(std::int64_t now_ns, bool new_patch) noexcept {
+  if (!new_patch) {
+    gain_ = std::min(gain_, patches_.gain(now_ns));
+    return;
+  }
+  if (gain_ <= 0) {
+    state_ = HapticState::ready;
+    return;
+  }
+  contact_.weaken(motion_.x(), gain_);
+  guard_.restart();
+  gain_ = 1;
+  state_ = HapticState::run;
+}
+
+/// In nominal ticks: after a stall the ramp is not skipped.
+void Controller::step_safe() noexcept {
+  gain_ = std::max(0.0, gain_ - settings_.period / safe_ramp);
+  safe_for_ += settings_.period;
+  const double rest = resume_inside_ ? safe_ramp : safe_rest;
+  if (gain_ <= 0 && safe_for_ >= rest) state_ = HapticState::ready;
+}
+
+void Controller::step_state(std::int64_t now_ns, const DeviceSample& sample, bool new_patch) noexcept {
+  if (state_ == HapticState::run && patches_.gain(now_ns) < 1.0) {
+    state_ = HapticState::stale;
+    ++stale_events_;
+  }
+  switch (state_) {
+    case HapticState::ready:
+    case HapticState::armed:
+      step_ready(now_ns, sample);
+      break;
+    case HapticState::stale:
+      step_stale(now_ns, new_patch);
+      break;
+    case HapticState::safe:
+      step_safe();
+      break;
+    default:
+      break;
+  }
+}
+
+ControllerOutput Controller::tick(std::int64_t now_ns, const DeviceSample& sample,
+                                  const ContactPatch* patch) noexcept {
+  if (state_ == HapticState::fault) return faulted(false);
+  const double dt = ticked_ ? seconds_from_ns(now_ns - last_ns_) : settings_.period;
+  last_ns_ = now_ns;
+  ticked_ = true;
+
+  // 1. the hand
+  const MotionVerdict verdict = motion_.take(sample, now_ns);
+  if (verdict == MotionVerdict::fault) return faulted(true);
+  look_for_trouble(verdict, sample, dt);
+
+  // 2. the tissue
+  const bool new_patch = patches_.accept(patch, now_ns);
+  if (new_patch) {
+    contact_.take(*patch, std::max(patches_.period(), settings_.period));
+    contact_set_ = patch->contact_set;
+  }
+
+  // 3. what may be felt
+  step_state(now_ns, sample, new_patch);
+  const bool feels = engaged() || (state_ == HapticState::safe && gain_ > 0);
+  felt_ = feels ? contact_.tick(motion_.x(), motion_.v(), std::min(dt, stall)) : ContactResult{};
+  if (felt_.outran) ++outran_;
+
+  // 4. the force
+  if (stopping_) stop_gain_ = std::max(0.0, stop_gain_ - settings_.period / safe_ramp);
+  const bool fading = state_ != HapticState::run || stopping_;
+  ControllerOutput out;
+  out.force = guard_.pass(felt_.force, gain_ * stop_gain_, fading);
+  out.proxy = felt_.n_planes > 0 ? Vec3(motion_.x() + out.force / settings_.stiffness) : motion_.x();
+  out.want_power = state_ == HapticState::armed;
+  return out;
+}
+
+}  // namespace palpate::haptic

@@ -1,0 +1,102 @@
+#pragma once
+// From a device sample and the newest patch to the force of this tick. No device, no wire, no thread, no clock of its
+// own: the same object runs in the real-time loop and in simulated time.
+//
+//   off -> open -> calibrating -> ready --(patch, outside the tissue, hand at rest)--> armed --(motors on)--> run
+//   run --(patches stop)--> stale --(patches return)--> run, or ready once the force has faded to nothing
+//   any --(stall, old samples, overspeed, motors off)--> safe --(quiet again)--> ready
+//   any --(device lost or faulty, three impossible samples)--> fault, for good
+
+#include <cstdint>
+
+#include "common/message/messages.h"
+#include "common/scene/scene.h"
+#include "haptic_node/contact/local_contact.h"
+#include "haptic_node/control/motion_watch.h"
+#include "haptic_node/control/patch_watch.h"
+#include "haptic_node/safety/force_guard.h"
+
+namespace palpate::haptic {
+
+enum class HapticState : std::uint32_t { off, open, calibrating, ready, armed, run, stale, safe, fault };
+const char* name_of(HapticState state) noexcept;
+
+struct ControllerSettings {
+  std::uint32_t tool = 0;
+  double period = 1e-3;    // nominal time between ticks [s]
+  double stiffness = 400;  // of the hand spring, in the world [N/m]
+  double damping = 1;      // [N s/m]
+  double force_limit = 3;  // in the world [N]
+};
+
+struct ControllerOutput {
+  Vec3 force = Vec3::Zero();  // on the hand [N]
+  Vec3 proxy = Vec3::Zero();  // [m]
+  bool write = true;          // false: the device is not to be written to any more
+  bool want_power = false;    // motors should be on
+  bool stop_motors = false;   // now, by the device's stop(); once
+};
+
+class Controller {
+ public:
+  static constexpr double stall = 20e-3;       // between ticks, beyond which forces start anew [s]
+  static constexpr double safe_ramp = 20e-3;   // to no force [s]
+  static constexpr double safe_rest = 0.1;     // without trouble before forces may come back [s]
+  static constexpr double arming_speed = 0.1;  // [m/s]
+
+  explicit Controller(const ControllerSettings& settings) noexcept;
+
+  /// The device is being opened, calibrated, is ready; before the first tick.
+  void set_state(HapticState state) noexcept { state_ = state; }
+
+  /// Contract: real time. Every call counts as one tick at `now_ns`.
+  /// @param patch  newest known, which may be an old one, or null
+  ControllerOutput tick(std::int64_t now_ns, const DeviceSample& sample, const ContactPatch* patch) noexcept;
+
+  /// Forces ramp to zero within safe_ramp and stay there.
+  void begin_stop() noexcept { stopping_ = true; }
+  bool stopped() const noexcept { return stopping_ && stop_gain_ <= 0; }
+
+  HapticState state() const noexcept { return state_; }
+  bool engaged() const noexcept { return state_ == HapticState::run || state_ == HapticState::stale; }
+  const MotionWatch& motion() const noexcept { return motion_; }
+  const PatchWatch& patches() const noexcept { return patches_; }
+  const ContactResult& contact() const noexcept { return felt_; }
+  double plane_work() const noexcept { return contact_.plane_work(); }
+  double force_limit() const noexcept { return guard_.limit(); }
+  std::uint64_t contact_set() const noexcept { return contact_set_; }
+
+  std::uint64_t stale_events() const noexcept { return stale_events_; }
+  std::uint64_t safe_events() const noexcept { return safe_events_; }
+  std::uint64_t faults() const noexcept { return faults_; }
+  std::uint64_t outran() const noexcept { return outran_; }
+
+ private:
+  ControllerOutput faulted(bool first) noexcept;
+  void enter_safe(bool may_resume_inside) noexcept;
+  void look_for_trouble(MotionVerdict verdict, const DeviceSample& sample, double dt) noexcept;
+  void step_state(std::int64_t now_ns, const DeviceSample& sample, bool new_patch) noexcept;
+  void step_ready(std::int64_t now_ns, const DeviceSample& sample) noexcept;
+  void step_stale(std::int64_t now_ns, bool new_patch) noexcept;
+  void step_safe() noexcept;
+
+  ControllerSettings settings_;
+  MotionWatch motion_;
+  PatchWatch patches_;
+  LocalContact contact_;
+  ForceGuard guard_;
+  ContactResult felt_;
+
+  HapticState state_ = HapticState::off;
+  bool resume_inside_ = false;  // after a stall: planes start at the hand, no need to leave the tissue first
+  double safe_for_ = 0;         // since the last trouble [s]
+  double gain_ = 1;             // of the state: fade or ramp
+  bool stopping_ = false;
+  double stop_gain_ = 1;
+  std::int64_t last_ns_ = 0;
+  bool ticked_ = false;
+  std::uint64_t contact_set_ = 0;
+  std::uint64_t stale_events_ = 0, safe_events_ = 0, faults_ = 0, outran_ = 0;
+};
+
+}  // namespace palpate::haptic

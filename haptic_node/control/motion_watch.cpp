@@ -1,0 +1,50 @@
+#include "haptic_node/control/motion_watch.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "common/time/clock.h"
+
+namespace palpate::haptic {
+
+/// @return false for a sample that cannot be: not finite, or too far from the last one
+bool MotionWatch::believe(const DeviceSample& sample) noexcept {
+  if (!sample.x.allFinite()) return false;
+  if (!ever_) {
+    ever_ = true;
+    x_ = sample.x;
+    t_ns_ = sample.t_ns;
+    return true;
+  }
+  const double dt = seconds_from_ns(sample.t_ns - t_ns_);
+  if (dt <= 0) return true;  // the same sample again
+  const Vec3 moved = sample.x - x_;
+  if (moved.norm() > jump_speed * std::max(dt, period_)) return false;
+
+  // v += a (dx / dt - v), a = dt / (dt + 1 / (2 pi f)); after more than two missed ticks it begins anew
+  if (dt > 3.5 * period_) v_.setZero();
+  const double a = dt / (dt + 1.0 / (2.0 * std::numbers::pi * corner_Hz));
+  v_ += a * (moved / dt - v_);
+  x_ = sample.x;
+  t_ns_ = sample.t_ns;
+  return true;
+}
+
+MotionVerdict MotionWatch::take(const DeviceSample& sample, std::int64_t now_ns) noexcept {
+  if (sample.lost || sample.fault != 0) return MotionVerdict::fault;
+  if (sample.has_new) {
+    if (believe(sample)) {
+      jumps_ = 0;
+    } else {
+      ++rejected_;
+      if (++jumps_ >= jumps_to_fault) return MotionVerdict::fault;
+    }
+  }
+  if (!ever_) return MotionVerdict::good;
+  const double age = seconds_from_ns(now_ns - t_ns_);
+  if (age > old_sample) v_.setZero();
+  if (age > too_old_sample || v_.norm() > overspeed) return MotionVerdict::unsafe;
+  return MotionVerdict::good;
+}
+
+}  // namespace palpate::haptic

@@ -1,0 +1,68 @@
+#include "haptic_node/control/patch_watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/time/clock.h"
+
+namespace palpate::haptic {
+namespace {
+
+constexpr double farthest = 1e3;  // [m]
+constexpr double unit_tolerance = 1e-3;
+
+bool within(const Array3& a, double limit) noexcept {
+  return std::all_of(a.begin(), a.end(), [limit](double value) { return std::abs(value) <= limit; });
+}
+
+bool facet_is_sound(const PatchFacet& facet) noexcept {
+  for (const Array3& corner : facet.corners)
+    if (!within(corner, farthest)) return false;
+  if (!within(facet.point, farthest) || !within(facet.velocity, farthest)) return false;
+  const Array3& n = facet.normal;
+  const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  if (!(std::abs(length - 1.0) <= unit_tolerance)) return false;
+  return facet.stiffness > 0 && facet.stiffness <= rigid_stiffness && facet.damping >= 0 &&
+         std::isfinite(facet.damping);
+}
+
+}  // namespace
+
+bool patch_is_sound(const ContactPatch& patch, std::uint32_t tool) noexcept {
+  if (patch.tool != tool || patch.n_facets > max_patch_facets) return false;
+  return std::all_of(patch.facets.begin(), patch.facets.begin() + patch.n_facets, facet_is_sound);
+}
+
+bool PatchWatch::accept(const ContactPatch* patch, std::int64_t now_ns) noexcept {
+  if (patch == nullptr || (seen_ && patch->tick == seen_tick_)) return false;
+  seen_ = true;
+  seen_tick_ = patch->tick;
+  if (!patch_is_sound(*patch, tool_)) {
+    ++rejected_;
+    return false;
+  }
+  const bool newer = !ever_ || patch->tick > tick_ || silence(now_ns) > patience();
+  if (!newer) return false;
+  if (ever_) {
+    const double apart = std::clamp(silence(now_ns), 1e-4, 0.1);
+    period_ += (apart > period_ ? 0.3 : 0.1) * (apart - period_);
+  }
+  ever_ = true;
+  tick_ = patch->tick;
+  accepted_ns_ = now_ns;
+  ++taken_;
+  return true;
+}
+
+double PatchWatch::silence(std::int64_t now_ns) const noexcept {
+  return seconds_from_ns(now_ns - accepted_ns_);
+}
+
+double PatchWatch::patience() const noexcept { return std::clamp(3.0 * period_, 0.03, 0.2); }
+
+double PatchWatch::gain(std::int64_t now_ns) const noexcept {
+  if (!ever_) return 0.0;
+  return std::clamp(1.0 - (silence(now_ns) - patience()) / fade_time, 0.0, 1.0);
+}
+
+}  // namespace palpate::haptic

@@ -1,0 +1,53 @@
+#pragma once
+// Which patches may be believed, and for how long.
+
+#include <cstdint>
+
+#include "common/message/messages.h"
+
+namespace palpate::haptic {
+
+/// A patch that keeps every promise of messages.h and lies within reach: all numbers finite, normals unit within
+/// 1e-3, stiffness in (0, rigid_stiffness], damping not below zero, nothing farther than 1 km. Otherwise it is
+/// rejected whole.
+bool patch_is_sound(const ContactPatch& patch, std::uint32_t tool) noexcept;
+
+/// Times are the local clock's, never the sender's.
+class PatchWatch {
+ public:
+  explicit PatchWatch(std::uint32_t tool) noexcept : tool_(tool) {}
+
+  /// Looks at the newest patch, which may be the one seen before, or null.
+  /// @return true if it is sound and newer than the last. After a silence any other tick counts as newer: the sender
+  ///         has begun again.
+  bool accept(const ContactPatch* patch, std::int64_t now_ns) noexcept;
+
+  bool ever() const noexcept { return ever_; }
+  /// Measured time between patches [s], smoothed: slower patches are believed sooner than faster ones. Begins at
+  /// 50 ms.
+  double period() const noexcept { return period_; }
+  /// Silence after which forces fade: three periods, within 30 to 200 ms [s].
+  double patience() const noexcept;
+  static constexpr double fade_time = 0.2;  // from full force to none [s]
+
+  /// What silence leaves of the force: 1, then falling linearly to exactly 0.
+  double gain(std::int64_t now_ns) const noexcept;
+
+  std::uint64_t taken() const noexcept { return taken_; }
+  std::uint64_t rejected() const noexcept { return rejected_; }
+
+ private:
+  double silence(std::int64_t now_ns) const noexcept;
+
+  std::uint32_t tool_;
+  bool ever_ = false;
+  std::uint64_t tick_ = 0;       // of the last accepted patch
+  std::uint64_t seen_tick_ = 0;  // of the last one looked at, so that a bad patch is counted once
+  bool seen_ = false;
+  std::int64_t accepted_ns_ = 0;
+  double period_ = 0.05;
+  std::uint64_t taken_ = 0;
+  std::uint64_t rejected_ = 0;
+};
+
+}  // namespace palpate::haptic

@@ -1,0 +1,86 @@
+#include "haptic_node/device/device.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "common/error/error.h"
+
+namespace palpate::haptic {
+namespace {
+
+constexpr std::uint32_t calibration_timeout_ms = 10'000;
+
+void log_line(void*, int level, const char* line) {
+  std::fprintf(stderr, "haptic device %s: %s\n", level >= 2 ? "error" : level == 1 ? "warn" : "info", line);
+}
+
+/// What is not credible in what a device says about itself; empty: nothing.
+std::string objection(const hdev_info& info) {
+  if ((info.caps & HDEV_CAP_POS) == 0) return "the device measures no position";
+  for (const double value : {info.max_force, info.cont_force, info.max_stiffness, info.apparent_mass})
+    if (!std::isfinite(value) || value < 0) return "the device states a force, stiffness or mass below zero";
+  if ((info.caps & HDEV_CAP_FORCE) != 0 && info.max_force <= 0)
+    return "the device has motors but states no force";
+  return {};
+}
+
+}  // namespace
+
+Device::Device(const DriverLibrary& library, const Options& options, ClockFunction now_ns, void* user,
+               const std::string& place)
+    : api_(&library.api()) {
+  host_.size = sizeof(hdev_host);
+  host_.user = user;
+  host_.log = &log_line;
+  host_.now_ns = now_ns;
+
+  std::string id;
+  std::vector<const char*> kv;
+  for (const auto& [key, value] : options) {
+    if (key == "id") {
+      id = value;
+    } else {
+      kv.push_back(key.c_str());
+      kv.push_back(value.c_str());
+    }
+  }
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(
+        fmt::format("{}{}driver \"{}\": {}", place, place.empty() ? "" : ": ", library.name(), what));
+  };
+  const auto refuse_open = [&](const std::string& what) {
+    close();
+    refuse(what);
+  };
+
+  const auto pairs = static_cast<std::uint32_t>(kv.size() / 2);
+  if (api_->open(&host_, id.c_str(), kv.data(), pairs, &handle_) != HDEV_OK || handle_ == nullptr) {
+    handle_ = nullptr;
+    refuse(api_->last_error(nullptr));
+  }
+  info_.size = sizeof(hdev_info);
+  if (api_->get_info(handle_, &info_) != HDEV_OK) refuse_open(api_->last_error(handle_));
+  if (const std::string wrong = objection(info_); !wrong.empty()) refuse_open(wrong);
+  if (api_->calibrate(handle_, calibration_timeout_ms) != HDEV_OK)
+    refuse_open(std::string("not calibrated: ") + api_->last_error(handle_));
+}
+
+Device::~Device() { close(); }
+
+hdev_status Device::enable_force(bool on) noexcept {
+  return handle_ == nullptr ? HDEV_E_LOST : api_->enable_force(handle_, on ? 1u : 0u);
+}
+
+void Device::stop() noexcept {
+  if (handle_ != nullptr) api_->stop(handle_);
+}
+
+void Device::close() noexcept {
+  if (handle_ == nullptr) return;
+  api_->close(handle_);
+  handle_ = nullptr;
+}
+
+}  // namespace palpate::haptic

@@ -1,0 +1,56 @@
+#pragma once
+// One open device behind its driver: opens, asks what it is, and makes sure that it is closed with its forces off.
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "haptic_node/device/driver_library.h"
+#include "haptic_node/device/haptic_device.h"
+
+namespace palpate::haptic {
+
+/// The time, real or simulated, as drivers and the controller see it [ns].
+using ClockFunction = std::int64_t (*)(void* user);
+
+class Device {
+ public:
+  using Options = std::vector<std::pair<std::string, std::string>>;
+
+  /// Opens and calibrates; forces stay off.
+  /// @param options  keys and values for the driver; "id" picks the device instead of the first one
+  /// @throws InputError with the driver's own words, beginning with `place` where given
+  Device(const DriverLibrary& library, const Options& options, ClockFunction now_ns, void* user,
+         const std::string& place);
+  ~Device();
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  const hdev_info& info() const noexcept { return info_; }
+  bool can(std::uint32_t capability) const noexcept { return (info_.caps & capability) != 0; }
+
+  /// Motors on or off; not from the real-time thread. @return HDEV_OK or why not
+  hdev_status enable_force(bool on) noexcept;
+
+  /// Real-time thread. @{
+  hdev_status rt_attach() noexcept { return api_->rt_attach(handle_); }
+  hdev_status read(hdev_state& state) noexcept { return api_->read(handle_, &state, 0); }
+  hdev_status write(const hdev_command& command) noexcept { return api_->write(handle_, &command); }
+  /// @}
+
+  /// Motors off now; any thread.
+  void stop() noexcept;
+
+  /// Motors off, device released; safe to repeat.
+  void close() noexcept;
+  bool is_open() const noexcept { return handle_ != nullptr; }
+
+ private:
+  const hdev_api* api_;
+  hdev_host host_{};
+  hdev* handle_ = nullptr;
+  hdev_info info_{};
+};
+
+}  // namespace palpate::haptic

@@ -1,0 +1,89 @@
+#include "haptic_node/drivers/simulated/simulated_options.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+#include <utility>
+
+namespace palpate::haptic::simulated {
+namespace {
+
+bool read_number(const std::string& text, double& value) {
+  char* end = nullptr;
+  value = std::strtod(text.c_str(), &end);
+  return !text.empty() && *end == '\0' && std::isfinite(value);
+}
+
+std::string read_positive(const std::string& key, const std::string& text, double& value) {
+  if (read_number(text, value) && value > 0) return {};
+  return key + " is \"" + text + "\"; a number above 0 is wanted";
+}
+
+std::string read_hand(const std::string& text, HandParameters& hand) {
+  static const std::pair<const char*, HandParameters> models[] = {{"rigid", {0, 0, 0, true}},
+                                                                  {"arm", {0.554, 6.45, 135.0, false}},
+                                                                  {"pinch", {0.02, 1.0, 100.0, false}},
+                                                                  {"firm", {0.15, 5.0, 700.0, false}}};
+  for (const auto& [name, parameters] : models) {
+    if (text != name) continue;
+    hand = parameters;
+    return {};
+  }
+  return "hand is \"" + text + "\"; rigid, arm, pinch or firm are known";
+}
+
+std::string read_waypoints(const std::string& text, std::vector<PathPoint>& waypoints) {
+  std::istringstream list(text);
+  for (std::string item; std::getline(list, item, ';');) {
+    std::istringstream fields(item);
+    std::string t, x, y, z, more;
+    PathPoint point;
+    fields >> t >> x >> y >> z;
+    if (fields >> more || !read_number(t, point.t) || !read_number(x, point.p[0]) ||
+        !read_number(y, point.p[1]) || !read_number(z, point.p[2]))
+      return "waypoint \"" + item + "\": four numbers are wanted, \"t x y z\"";
+    if (!waypoints.empty() && point.t <= waypoints.back().t)
+      return "waypoint \"" + item + "\": its time must be after the one before";
+    waypoints.push_back(point);
+  }
+  return {};
+}
+
+std::string read_one(const std::string& key, const std::string& value, SimulatedOptions& options) {
+  if (key == "waypoints") return read_waypoints(value, options.waypoints);
+  if (key == "hand") return read_hand(value, options.hand);
+  if (key == "mass") return read_positive(key, value, options.mass);
+  if (key == "max_force") return read_positive(key, value, options.max_force);
+  if (key == "max_stiffness") return read_positive(key, value, options.max_stiffness);
+  if (key == "half_workspace") return read_positive(key, value, options.half_workspace);
+  if (key == "noise") return read_positive(key, value, options.noise);
+  if (key == "seed") {
+    char* end = nullptr;
+    options.seed = std::strtoull(value.c_str(), &end, 10);
+    return !value.empty() && *end == '\0' ? "" : "seed is \"" + value + "\"; a whole number is wanted";
+  }
+  return "unknown key \"" + key +
+         "\"; known are waypoints, hand, mass, max_force, max_stiffness, half_workspace, noise, seed";
+}
+
+}  // namespace
+
+std::string parse_options(const char* const* kv, std::uint32_t n_kv, SimulatedOptions& options) {
+  for (std::uint32_t i = 0; i < n_kv; ++i) {
+    const std::string trouble = read_one(kv[2 * i], kv[2 * i + 1], options);
+    if (!trouble.empty()) return trouble;
+  }
+  for (const auto& point : options.waypoints) {
+    for (const double coordinate : point.p) {
+      if (std::abs(coordinate) <= options.half_workspace) continue;
+      std::ostringstream text;
+      text << "the waypoint at " << point.t << " s is " << std::abs(coordinate)
+           << " m from the device's origin, outside its workspace of +-" << options.half_workspace
+           << " m; move the device with offset_mm, or enlarge half_workspace";
+      return text.str();
+    }
+  }
+  return {};
+}
+
+}  // namespace palpate::haptic::simulated

@@ -1,0 +1,201 @@
+#include "haptic_node/session.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "common/error/error.h"
+#include "common/time/clock.h"
+#include "haptic_node/contact/vec3.h"
+#include "haptic_node/device/driver_library.h"
+#include "haptic_node/device/driver_options.h"
+
+namespace palpate::haptic {
+namespace {
+
+const DeviceSpec& spec_of(const Scene& scene, std::uint32_t tool_index) {
+  PALPATE_CHECK(tool_index < scene.tools.size() && tool_index < max_tools, "a tool of the scene");
+  return scene.device(scene.tools[tool_index].device);
+}
+
+std::string place_of(const DeviceSpec& spec) {
+  return spec.place.file.empty() ? std::string() : spec.place.text();
+}
+
+std::string driver_of(const DeviceSpec& spec, const std::string& driver_override) {
+  return driver_override.empty() ? spec.driver : driver_override;
+}
+
+/// Stiffness and force in the world that the device can bear. An input-only device gets no force.
+ControllerSettings settings_of(const Scene& scene, std::uint32_t tool_index, const Calibration& calibration,
+                               const hdev_info& info) {
+  const ToolSpec& tool = scene.tools[tool_index];
+  const DeviceSpec& spec = spec_of(scene, tool_index);
+  ControllerSettings settings;
+  settings.tool = tool_index;
+  settings.period = 1.0 / spec.rate_Hz;
+  settings.stiffness = tool.stiffness;
+  settings.damping = tool.damping;
+  if (info.max_stiffness > 0)
+    settings.stiffness = std::min(tool.stiffness, info.max_stiffness / calibration.stiffness_gain());
+  double limit = std::min(spec.force_limit, info.max_force);
+  if (info.cont_force > 0) limit = std::min(limit, info.cont_force);
+  if ((info.caps & HDEV_CAP_FORCE) == 0) limit = 0;
+  settings.force_limit = limit / calibration.force_scale();
+  return settings;
+}
+
+Eigen::Matrix3d handle_rotation(const double (&r)[9]) {
+  Eigen::Matrix3d m;
+  m << r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8];
+  return m;
+}
+
+}  // namespace
+
+HapticSession::HapticSession(const Scene& scene, std::uint32_t tool_index, const std::string& driver_override,
+                             ClockFunction now_ns, void* user, Power power)
+    : now_ns_(now_ns),
+      user_(user),
+      power_(power),
+      rate_Hz_(spec_of(scene, tool_index).rate_Hz),
+      calibration_(spec_of(scene, tool_index)),
+      device_(DriverLibrary::load(driver_of(spec_of(scene, tool_index), driver_override),
+                                  place_of(spec_of(scene, tool_index))),
+              driver_options(spec_of(scene, tool_index), calibration_,
+                             driver_of(spec_of(scene, tool_index), driver_override), scene.seed),
+              now_ns, user, place_of(spec_of(scene, tool_index))),
+      controller_(settings_of(scene, tool_index, calibration_, device_.info())) {
+  controller_.set_state(HapticState::ready);
+  tool_state_.tool = tool_index;
+  raw_.size = sizeof(hdev_state);
+  start_ns_ = now_ns_(user_);
+}
+
+HapticSession::~HapticSession() { close(); }
+
+void HapticSession::attach() noexcept { device_.rt_attach(); }
+
+void HapticSession::service() noexcept {
+  if (want_power_.exchange(false)) device_.enable_force(true);
+}
+
+DeviceSample HapticSession::sample_device() noexcept {
+  const hdev_status status = device_.read(raw_);
+  DeviceSample sample;
+  sample.lost = status == HDEV_E_LOST;
+  sample.fault = raw_.fault;
+  if (status == HDEV_E_FAULT && sample.fault == 0) sample.fault = HDEV_FAULT_INTERNAL;
+  sample.has_new = status == HDEV_OK && (!read_once_ || raw_.seq != seq_);
+  if (sample.has_new) {
+    read_once_ = true;
+    seq_ = raw_.seq;
+  }
+  sample.t_ns = raw_.t_ns;
+  sample.x = calibration_.world_from_device({raw_.pos[0], raw_.pos[1], raw_.pos[2]});
+  sample.powered = raw_.force_enabled != 0 || !device_.can(HDEV_CAP_FORCE);
+  sample.held = raw_.deadman != 0 || !device_.can(HDEV_CAP_DEADMAN);
+  sample.calibrated = raw_.cal == HDEV_CAL_OK;
+  return sample;
+}
+
+/// E += F . dx, with the force that was held while the hand moved. Device frame: what the motors really did.
+void HapticSession::book_energy(const Vec3& x_d) noexcept {
+  if (counts_.ticks > 0 && x_d.allFinite()) counts_.energy += force_d_.dot(x_d - last_x_d_);
+  if (x_d.allFinite()) last_x_d_ = x_d;
+  counts_.energy_max = std::max(counts_.energy_max, counts_.energy);
+}
+
+void HapticSession::write_force(const ControllerOutput& out) noexcept {
+  force_d_ = out.write ? calibration_.force_to_device(out.force) : Vec3(Vec3::Zero());
+  if (!out.write || !device_.can(HDEV_CAP_FORCE)) return;
+  hdev_command command{};
+  command.size = sizeof(hdev_command);
+  for (int i = 0; i < 3; ++i) command.force[i] = force_d_(i);
+  device_.write(command);
+}
+
+void HapticSession::fill_messages(std::int64_t now, const ControllerOutput& out) noexcept {
+  const Vec3& x = controller_.motion().x();
+  tool_state_.tick = counts_.ticks;
+  tool_state_.stamp_ns = now;
+  tool_state_.p_WT = array(x);
+  tool_state_.v_WT = array(controller_.motion().v());
+  if ((raw_.valid & HDEV_CAP_ROT) != 0) {
+    const Eigen::Quaterniond q(Eigen::Matrix3d(calibration_.rotation() * handle_rotation(raw_.R)));
+    const double norm = q.norm();
+    if (std::abs(norm - 1.0) < 1e-3)
+      tool_state_.q_WT = {q.w() / norm, q.x() / norm, q.y() / norm, q.z() / norm};
+  }
+  if ((raw_.valid & HDEV_CAP_ANGVEL) != 0) {
+    const Vec3 w = calibration_.turned_to_world({raw_.angvel[0], raw_.angvel[1], raw_.angvel[2]});
+    if (w.allFinite()) tool_state_.w_WT = array(w);
+  }
+  tool_state_.proxy = array(out.proxy);
+  tool_state_.force_on_hand = array(out.force);
+  tool_state_.contact_set = controller_.contact_set();
+  tool_state_.buttons = raw_.buttons;
+  tool_state_.engaged = controller_.engaged() ? 1u : 0u;
+
+  trace_.tick = counts_.ticks;
+  trace_.t = seconds_from_ns(now - start_ns_);
+  trace_.p = tool_state_.p_WT;
+  trace_.proxy = tool_state_.proxy;
+  trace_.force = tool_state_.force_on_hand;
+  trace_.energy = counts_.energy;
+}
+
+void HapticSession::tick(const ContactPatch* newest) noexcept {
+  if (!device_.is_open()) return;
+  const std::int64_t now = now_ns_(user_);
+
+  // 1. the hand; after a fault the device is left alone
+  DeviceSample sample;
+  if (state() != HapticState::fault) {
+    sample = sample_device();
+    book_energy({raw_.pos[0], raw_.pos[1], raw_.pos[2]});
+  }
+
+  // 2. the force
+  const ControllerOutput out = controller_.tick(now, sample, newest);
+  if (out.stop_motors) device_.stop();
+  write_force(out);
+  if (first_run_ns_ == 0 && state() == HapticState::run) first_run_ns_ = now;
+
+  // 3. power, when the controller is ready for it
+  if (out.want_power && !sample.powered) {
+    if (power_ == Power::by_tick)
+      device_.enable_force(true);
+    else
+      want_power_.store(true);
+  }
+
+  // 4. what the others are told
+  counts_.ticks += 1;
+  counts_.stale_events = controller_.stale_events();
+  counts_.safe_events = controller_.safe_events();
+  counts_.faults = controller_.faults();
+  counts_.patches_taken = controller_.patches().taken();
+  counts_.patches_rejected = controller_.patches().rejected();
+  counts_.samples_rejected = controller_.motion().rejected();
+  counts_.outran = controller_.outran();
+  fill_messages(now, out);
+}
+
+void HapticSession::close() noexcept {
+  if (!device_.is_open()) return;
+  if (state() != HapticState::fault) {
+    hdev_command nothing{};
+    nothing.size = sizeof(hdev_command);
+    if (device_.can(HDEV_CAP_FORCE)) {
+      device_.write(nothing);
+      device_.enable_force(false);
+    }
+  }
+  device_.close();
+  controller_.set_state(HapticState::off);
+}
+
+}  // namespace palpate::haptic

@@ -1,0 +1,104 @@
+#pragma once
+// One tool in one hand: driver, calibration and controller behind one tick. No threads and no wire: the real-time
+// loop calls it at the device's rate, `palpate simulate` calls it in simulated time. Both feel the same.
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+
+#include "common/message/messages.h"
+#include "common/scene/scene.h"
+#include "haptic_node/control/controller.h"
+#include "haptic_node/device/calibration.h"
+#include "haptic_node/device/device.h"
+
+namespace palpate::haptic {
+
+/// What has happened so far.
+struct SessionCounts {
+  std::uint64_t ticks = 0;
+  std::uint64_t stale_events = 0;  // patches stopped while forces were on
+  std::uint64_t safe_events = 0;   // forces ramped down for a stall, an old sample, overspeed
+  std::uint64_t faults = 0;        // of the device; at most one, it is latched
+  std::uint64_t patches_taken = 0;
+  std::uint64_t patches_rejected = 0;  // malformed, rejected whole
+  std::uint64_t samples_rejected = 0;  // of the device: not finite, or a jump
+  std::uint64_t outran = 0;            // ticks in which the tool was beyond what its patch covers
+  double energy = 0;                   // given to the hand through the port so far [J]
+  double energy_max = 0;               // largest of that [J]
+};
+
+class HapticSession {
+ public:
+  /// Who switches the motors on, which may block: tick() itself (simulated time), or service() on a slow thread.
+  enum class Power { by_tick, by_service };
+
+  /// Opens the device of scene.tools[tool_index] and leaves it ready, forces off.
+  /// @param driver_override  driver instead of the scene's; empty: the scene's
+  /// @param now_ns, user     the clock [ns], called as now_ns(user) from all threads that call this session
+  /// @throws InputError: no such driver, device or calibration
+  HapticSession(const Scene& scene, std::uint32_t tool_index, const std::string& driver_override,
+                ClockFunction now_ns, void* user, Power power = Power::by_tick);
+  ~HapticSession();
+  HapticSession(const HapticSession&) = delete;
+  HapticSession& operator=(const HapticSession&) = delete;
+
+  /// Once, on the thread that will tick, if that is a real-time one.
+  void attach() noexcept;
+
+  /// One tick at the clock's present time: read the hand, feel, write the force.
+  /// Contract: real time; allocates, locks, prints and throws nothing (with Power::by_service).
+  /// @param newest  the newest patch known, which may be the one of the last tick; null: none yet
+  void tick(const ContactPatch* newest) noexcept;
+
+  /// With Power::by_service: switches the motors on when a tick has asked for it. Not the ticking thread.
+  void service() noexcept;
+
+  /// Motors off now, from any thread.
+  void stop_motors() noexcept { device_.stop(); }
+
+  /// The force ramps to zero within 20 ms of further ticks; then stopped() is true.
+  void begin_stop() noexcept { controller_.begin_stop(); }
+  bool stopped() const noexcept { return controller_.stopped() || state() == HapticState::fault; }
+
+  /// Zero force, motors off, device released. Safe to repeat; the destructor does it.
+  void close() noexcept;
+
+  HapticState state() const noexcept { return controller_.state(); }
+  const ToolState& tool_state() const noexcept { return tool_state_; }
+  const TraceSample& trace() const noexcept { return trace_; }
+  const SessionCounts& counts() const noexcept { return counts_; }
+  const hdev_info& device_info() const noexcept { return device_.info(); }
+  const Controller& controller() const noexcept { return controller_; }
+  double rate_Hz() const noexcept { return rate_Hz_; }
+  /// When forces were first on [ns of the clock]; 0: not yet. The simulated hand's path starts then.
+  std::int64_t first_run_ns() const noexcept { return first_run_ns_; }
+
+ private:
+  DeviceSample sample_device() noexcept;
+  void write_force(const ControllerOutput& out) noexcept;
+  void book_energy(const Vec3& x_d) noexcept;
+  void fill_messages(std::int64_t now, const ControllerOutput& out) noexcept;
+
+  ClockFunction now_ns_;
+  void* user_;
+  Power power_;
+  double rate_Hz_;
+  Calibration calibration_;
+  Device device_;
+  Controller controller_;
+
+  hdev_state raw_{};
+  std::uint64_t seq_ = 0;
+  bool read_once_ = false;
+  Vec3 force_d_ = Vec3::Zero();   // now at the device [N], device frame
+  Vec3 last_x_d_ = Vec3::Zero();  // [m], device frame
+  std::atomic<bool> want_power_{false};
+  std::int64_t start_ns_ = 0;
+  std::int64_t first_run_ns_ = 0;
+  ToolState tool_state_{};
+  TraceSample trace_{};
+  SessionCounts counts_;
+};
+
+}  // namespace palpate::haptic
