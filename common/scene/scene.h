@@ -60,7 +60,7 @@ struct DeformableRegion {
   int radius_voxels = 10;
 };
 struct VolumeShape {
-  std::string file;                               // as written; relative to the scene file
+  std::string file;                               // found from the folder of the scene file
   double keep_min = 0, keep_max = 0;              // intensity window that is tissue, inclusive
   std::optional<std::array<int, 3>> partition;    // resample to nx, ny, nz cells; absent: as stored
   DeformableRegion deformable;

@@ -1,0 +1,55 @@
+#pragma once
+// The parts of a scene file, one function each; each has its own .cpp. They add what they read to the scene and
+// what is wrong to the complaints. Materials and devices come before the bodies and tools that name them.
+
+#include "common/scene/complaints.h"
+#include "common/scene/scene.h"
+#include "common/scene/table_reader.h"
+
+namespace palpate {
+
+struct ReadContext {
+  Scene& scene;  // read so far
+  Complaints& complaints;
+};
+
+void read_physics(TableReader& root, ReadContext& context);    // [physics]
+void read_floor(TableReader& root, ReadContext& context);      // [floor]
+void read_contact(TableReader& root, ReadContext& context);    // [contact]
+void read_materials(TableReader& root, ReadContext& context);  // [material.NAME]
+void read_devices(TableReader& root, ReadContext& context);    // [device.NAME]
+void read_bodies(TableReader& root, ReadContext& context);     // [[body]]
+void read_tools(TableReader& root, ReadContext& context);      // [[tool]]
+void read_render(TableReader& root, ReadContext& context);     // [render]
+void read_record(TableReader& root, ReadContext& context);     // [record]
+
+/// The shape of a body and the keys that belong to it.
+void read_shape(TableReader& body, ReadContext& context, BodySpec& spec);
+/// `fixed` of a body: faces and boxes.
+void read_fixed(TableReader& body, ReadContext& context, BodySpec& spec);
+
+/// The tables of [[key]]; complains if the key holds anything else.
+std::vector<const toml::table*> tables_of_list(TableReader& root, const std::string& key, std::size_t most);
+
+/// The tables of [key.NAME] in the order of the file; complains about anything else and about bad names.
+std::vector<std::pair<std::string, const toml::table*>> named_tables(TableReader& root,
+                                                                     const std::string& key);
+
+/// '[[body]] "head"', or '[[body]]' where it has no name.
+std::string list_title(const toml::table& table, const std::string& key);
+
+/// Complains if two of `specs` have one name.
+void refuse_known_name(TableReader& reader, const std::string& name, const std::vector<std::string>& taken);
+
+/// "there is no [material.skn]; did you mean ..."; nothing to say if `wanted` is among `names`.
+void refuse_unknown_reference(TableReader& reader, const std::string& key, const std::string& wanted,
+                              const std::vector<std::string>& names);
+
+template <class Spec>
+std::vector<std::string> names_of(const std::vector<Spec>& specs) {
+  std::vector<std::string> names;
+  for (const auto& spec : specs) names.push_back(spec.name);
+  return names;
+}
+
+}  // namespace palpate

@@ -1,0 +1,58 @@
+// [render] and [record]: what is seen and what is kept.
+#include "common/math/units.h"
+#include "common/scene/read_parts.h"
+
+namespace palpate {
+namespace {
+
+void read_camera(TableReader& render, ReadContext& context) {
+  const auto* table = render.read_table("camera");
+  if (table == nullptr) return;
+  TableReader reader(*table, "camera of [render]", context.complaints);
+  auto& camera = context.scene.render.camera;
+  if (const auto yaw = reader.read_number("yaw_deg", {.lo = -360, .hi = 360}))
+    camera.yaw = rad_from_deg(*yaw);
+  if (const auto pitch = reader.read_number("pitch_deg", {.lo = -90, .hi = 90}))
+    camera.pitch = rad_from_deg(*pitch);
+  camera.distance = reader.read_length_mm("distance_mm");
+  camera.target = reader.read_vector_mm("target_mm");
+  if (const auto field = reader.read_number("field_of_view_deg", {.lo = 1, .hi = 170}))
+    camera.field_of_view = rad_from_deg(*field);
+  reader.refuse_left_over();
+}
+
+}  // namespace
+
+void read_render(TableReader& root, ReadContext& context) {
+  const auto* table = root.read_table("render");
+  if (table == nullptr) return;
+  TableReader reader(*table, "[render]", context.complaints);
+  auto& render = context.scene.render;
+  if (const auto size = reader.read_integers("size_px", 2, "[width, height]", 16, 8192))
+    render.size_px = {(*size)[0], (*size)[1]};
+  read_camera(reader, context);
+  render.threshold = reader.read_number("threshold");
+  if (const auto shown = reader.read_words("show", {"tool", "force", "panels", "wire"})) {
+    render.show_tool = (*shown)[0];
+    render.show_force = (*shown)[1];
+    render.show_panels = (*shown)[2];
+    render.show_wire = (*shown)[3];
+  }
+  set_if(render.rate_Hz, reader.read_number("rate_Hz", {.lo = 0, .hi = 1000, .without_lo = true}));
+  reader.refuse_left_over();
+}
+
+void read_record(TableReader& root, ReadContext& context) {
+  const auto* table = root.read_table("record");
+  if (table == nullptr) return;
+  TableReader reader(*table, "[record]", context.complaints);
+  auto& record = context.scene.record;
+  if (const auto kept = reader.read_words("what", {"positions", "forces"})) {
+    record.positions = (*kept)[0];
+    record.forces = (*kept)[1];
+  }
+  set_if(record.rate_Hz, reader.read_number("rate_Hz", {.lo = 0, .hi = 20000, .without_lo = true}));
+  reader.refuse_left_over();
+}
+
+}  // namespace palpate

@@ -1,0 +1,39 @@
+#include "common/scene/scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/error/error.h"
+
+namespace palpate {
+namespace {
+
+template <class Spec>
+const Spec& named(const std::vector<Spec>& specs, const std::string& name) {
+  const auto found =
+      std::find_if(specs.begin(), specs.end(), [&name](const Spec& spec) { return spec.name == name; });
+  PALPATE_CHECK(found != specs.end(), name.c_str());
+  return *found;
+}
+
+}  // namespace
+
+std::string Place::text() const { return line == 0 ? file : fmt::format("{}:{}:{}", file, line, column); }
+
+const MaterialSpec& Scene::material(const std::string& name) const { return named(materials, name); }
+const DeviceSpec& Scene::device(const std::string& name) const { return named(devices, name); }
+
+double Scene::natural_seconds() const {
+  constexpr double without_path = 5.0, after_path = 1.0;
+  double end = without_path - after_path;
+  bool any = false;
+  for (const auto& device : devices) {
+    if (device.waypoints.empty()) continue;
+    end = any ? std::max(end, device.waypoints.back().t) : device.waypoints.back().t;
+    any = true;
+  }
+  return end + after_path;
+}
+
+}  // namespace palpate
