@@ -1,0 +1,167 @@
+#include "haptic_node/loop/haptic_node.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "common/error/error.h"
+#include "common/process/stop_flag.h"
+#include "common/report/json_file.h"
+#include "common/report/log.h"
+#include "common/time/clock.h"
+#include "haptic_node/loop/haptic_summary.h"
+
+namespace palpate::haptic {
+namespace {
+
+using namespace std::chrono_literals;
+constexpr std::int64_t status_period_ns = 200'000'000;  // 5 Hz
+
+/// All tools are ticked by one loop.
+double common_rate(const Scene& scene) {
+  if (scene.tools.empty()) throw InputError(scene.path + ": no [[tool]]; the haptic node needs one");
+  const double rate = scene.device(scene.tools.front().device).rate_Hz;
+  for (const auto& tool : scene.tools) {
+    const DeviceSpec& device = scene.device(tool.device);
+    if (device.rate_Hz != rate)
+      throw InputError(
+          fmt::format("{}: [device.{}] runs at {} Hz and another at {} Hz; give all devices one rate_Hz",
+                      device.place.text(), device.name, device.rate_Hz, rate));
+  }
+  return rate;
+}
+
+}  // namespace
+
+HapticNode::HapticNode(const NodeOptions& options, const Scene& scene)
+    : options_(options), scene_checksum_(scene.checksum), rate_Hz_(common_rate(scene)) {
+  set_log_name("haptic");
+  ask_for_rights();
+  for (std::uint32_t tool = 0; tool < scene.tools.size(); ++tool) {
+    channels_.push_back(std::make_unique<ToolChannel>(scene, tool, options.device));
+    names_.push_back(scene.tools[tool].name);
+    const hdev_info& info = channels_.back()->session.device_info();
+    log_info("{}: {} ({}), up to {:.1f} N", scene.tools[tool].name, info.model, info.vendor,
+             channels_.back()->session.controller().force_limit());
+  }
+  reports_.resize(channels_.size());
+  wire_ = std::make_unique<Wire>(options.domain, channels_);
+  loop_ = std::make_unique<RealtimeLoop>(channels_, rate_Hz_);
+  status_.node = NodeKind::haptic;
+  status_.pid = static_cast<std::uint32_t>(getpid());
+  status_.scene_checksum = scene_checksum_;
+}
+
+void HapticNode::ask_for_rights() {
+  std::string why_not_locked, why_not_scheduled;
+  rights_.locked = lock_memory(why_not_locked);
+  rights_.scheduled = may_schedule(RealtimeLoop::watchdog_priority, why_not_scheduled);
+  std::vector<std::string> lacks;
+  for (const auto& why : {why_not_locked, why_not_scheduled})
+    if (!why.empty()) lacks.push_back(why);
+  if (options_.require_rt && !lacks.empty()) throw InputError(lacks);
+  for (const auto& why : lacks) log_warn("{}", why);
+}
+
+/// Motors are switched on here, not in the real-time thread, as drivers may take their time.
+void HapticNode::serve() {
+  for (const auto& channel : channels_) channel->session.service();
+}
+
+void HapticNode::look_at_tools() {
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    const SessionReport* report = channels_[i]->reports.newest();
+    if (report == nullptr) continue;
+    const bool fault = report->state == HapticState::fault && reports_[i].state != HapticState::fault;
+    const bool first = report->first_run_ns > 0 && reports_[i].first_run_ns == 0;
+    reports_[i] = *report;
+    if (first) log_info("{}: forces are on", names_[i]);
+    if (fault) log_error("{}: device fault, forces are off until the node is started again", names_[i]);
+  }
+}
+
+bool HapticNode::is_over() const {
+  if (stop_requested() || wire_->stop_commanded()) return true;
+  if (options_.seconds <= 0) return false;
+  return std::all_of(reports_.begin(), reports_.end(), [this](const SessionReport& report) {
+    return report.first_run_ns > 0 && seconds_from_ns(now_ns() - report.first_run_ns) >= options_.seconds;
+  });
+}
+
+void HapticNode::publish_status(NodePhase phase) {
+  const std::int64_t now = now_ns();
+  status_.phase = phase;
+  std::string note = rights_text(rights_);
+  for (std::size_t i = 0; i < reports_.size(); ++i) {
+    note += fmt::format("; {}: {}", names_[i], name_of(reports_[i].state));
+    if (reports_[i].state == HapticState::fault) status_.phase = NodePhase::failed;
+  }
+  if (const LoopStats* stats = loop_->stats()) {
+    const double wall = seconds_from_ns(stats->last_ns - last_status_ns_);
+    if (last_status_ns_ > 0 && wall > 0) {
+      status_.rate_Hz = static_cast<double>(stats->ticks - last_status_ticks_) / wall;
+      status_.real_time_factor = status_.rate_Hz / rate_Hz_;
+    }
+    last_status_ns_ = stats->last_ns;
+    last_status_ticks_ = stats->ticks;
+    status_.t = seconds_from_ns(now - stats->start_ns);
+    status_.ticks = stats->ticks;
+    status_.late = stats->skipped;
+    status_.lateness = stats->lateness;
+    status_.loop_age_ms_p50 = stats->loop_age.percentile(0.5);
+    status_.warnings = static_cast<std::uint32_t>(stats->watchdog_stops);
+  }
+  for (const auto& report : reports_)
+    status_.warnings += static_cast<std::uint32_t>(report.counts.stale_events + report.counts.safe_events);
+  const ReaderCounts patches = wire_->patch_counts();
+  status_.samples_received = patches.received;
+  status_.samples_lost = patches.lost;
+  status_.rejected = patches.rejected;
+  note.resize(std::min(note.size(), status_.note.size() - 1));
+  status_.note.fill('\0');
+  std::copy(note.begin(), note.end(), status_.note.begin());
+  wire_->write_status(status_);
+}
+
+int HapticNode::run() {
+  log_info("{:.0f} Hz, {}", rate_Hz_, rights_text(rights_));
+  wire_->start();
+  loop_->start();
+  std::int64_t next_status = 0;
+  // 1. power and state of the tools  2. status
+  while (!is_over()) {
+    std::this_thread::sleep_for(2ms);
+    serve();
+    look_at_tools();
+    if (now_ns() < next_status) continue;
+    next_status = now_ns() + status_period_ns;
+    const bool running = std::all_of(reports_.begin(), reports_.end(),
+                                     [](const SessionReport& report) { return report.first_run_ns > 0; });
+    publish_status(running ? NodePhase::running : NodePhase::ready);
+  }
+  return leave();
+}
+
+/// Forces to zero first, then the motors, then what is told about it.
+int HapticNode::leave() {
+  loop_->finish();
+  for (const auto& channel : channels_) channel->session.close();
+  look_at_tools();
+  wire_->finish();
+  publish_status(NodePhase::stopping);
+  if (!options_.out.empty()) {
+    std::filesystem::create_directories(options_.out + "/parts");
+    write_json(options_.out + "/parts/haptic.json",
+               haptic_summary(*loop_->stats(), reports_, wire_->trace_lost()));
+  }
+  const bool faulty = std::any_of(reports_.begin(), reports_.end(),
+                                  [](const SessionReport& report) { return report.counts.faults > 0; });
+  return faulty ? exit_failed : exit_ok;
+}
+
+}  // namespace palpate::haptic

@@ -1,0 +1,48 @@
+#pragma once
+// palpate-haptic from start to end: devices opened, rights asked for, loop and wire running, summary written.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/message/messages.h"
+#include "common/process/node_main.h"
+#include "haptic_node/loop/realtime.h"
+#include "haptic_node/loop/realtime_loop.h"
+#include "haptic_node/loop/tool_channel.h"
+#include "haptic_node/loop/wire.h"
+
+namespace palpate::haptic {
+
+class HapticNode {
+ public:
+  /// @throws InputError: no tool, several rates, no such driver, no real-time rights with --require-rt
+  HapticNode(const NodeOptions& options, const Scene& scene);
+
+  /// Until a signal, a stop command, or options.seconds after forces were first on. Forces are zero and motors off
+  /// before it returns. @return exit code
+  int run();
+
+ private:
+  void ask_for_rights();
+  void serve();
+  void look_at_tools();
+  bool is_over() const;
+  void publish_status(NodePhase phase);
+  int leave();
+
+  NodeOptions options_;
+  std::uint64_t scene_checksum_;
+  double rate_Hz_;
+  RealtimeRights rights_;
+  std::vector<std::unique_ptr<ToolChannel>> channels_;
+  std::vector<SessionReport> reports_;
+  std::vector<std::string> names_;
+  std::unique_ptr<Wire> wire_;
+  std::unique_ptr<RealtimeLoop> loop_;
+  NodeStatus status_;
+  std::int64_t last_status_ns_ = 0;
+  std::uint64_t last_status_ticks_ = 0;
+};
+
+}  // namespace palpate::haptic

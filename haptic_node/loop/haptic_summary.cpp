@@ -1,0 +1,54 @@
+#include "haptic_node/loop/haptic_summary.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "common/time/clock.h"
+
+namespace palpate::haptic {
+namespace {
+
+template <std::size_t Bins>
+nlohmann::json percentiles(const Histogram<Bins>& histogram) {
+  return {{"p50", histogram.percentile(0.5)},
+          {"p99", histogram.percentile(0.99)},
+          {"p999", histogram.percentile(0.999)},
+          {"max", histogram.max()}};
+}
+
+}  // namespace
+
+nlohmann::json haptic_summary(const LoopStats& stats, const std::vector<SessionReport>& tools,
+                              std::uint64_t trace_lost) {
+  SessionCounts sum;
+  for (const auto& tool : tools) {
+    sum.stale_events += tool.counts.stale_events;
+    sum.safe_events += tool.counts.safe_events;
+    sum.faults += tool.counts.faults;
+    sum.patches_taken += tool.counts.patches_taken;
+    sum.patches_rejected += tool.counts.patches_rejected;
+    sum.samples_rejected += tool.counts.samples_rejected;
+    sum.outran += tool.counts.outran;
+    sum.energy_max = std::max(sum.energy_max, tool.counts.energy_max);
+  }
+  nlohmann::json haptic = {{"ticks", stats.ticks},
+                           {"missed_deadlines", stats.skipped},
+                           {"watchdog_stops", stats.watchdog_stops},
+                           {"energy_max_J", sum.energy_max},
+                           {"stale_events", sum.stale_events},
+                           {"safe_events", sum.safe_events},
+                           {"faults", sum.faults},
+                           {"patches", sum.patches_taken},
+                           {"patches_rejected", sum.patches_rejected},
+                           {"samples_rejected", sum.samples_rejected},
+                           {"outran_ticks", sum.outran},
+                           {"trace_samples_lost", trace_lost}};
+  const double seconds = seconds_from_ns(stats.last_ns - stats.start_ns);
+  if (seconds > 0) haptic["rate_Hz"] = static_cast<double>(stats.ticks) / seconds;
+  if (stats.period.total() > 0) haptic["period_us"] = percentiles(stats.period);
+  if (stats.compute.total() > 0) haptic["compute_us"] = percentiles(stats.compute);
+  if (stats.loop_age.total() > 0) haptic["loop_age_ms"] = percentiles(stats.loop_age);
+  return {{"haptic", haptic}};
+}
+
+}  // namespace palpate::haptic

@@ -1,0 +1,17 @@
+#pragma once
+// The "haptic" part of summary.json.
+
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "haptic_node/loop/loop_stats.h"
+#include "haptic_node/loop/tool_channel.h"
+
+namespace palpate::haptic {
+
+/// {"haptic": {rate_Hz, period_us, compute_us, loop_age_ms, energy_max_J, stale_events, faults, ...}}. Counts are summed
+/// over tools, the energy is the largest of them. loop_age_ms is absent if no patch answered.
+nlohmann::json haptic_summary(const LoopStats& stats, const std::vector<SessionReport>& tools,
+                              std::uint64_t trace_lost);
+
+}  // namespace palpate::haptic

@@ -1,0 +1,53 @@
+#pragma once
+// The real-time thread: ticks all tools at one rate, and its watchdog. Knows nothing of the wire.
+
+#include <atomic>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "common/exchange/triple_buffer.h"
+#include "haptic_node/loop/loop_stats.h"
+#include "haptic_node/loop/tool_channel.h"
+
+namespace palpate::haptic {
+
+class RealtimeLoop {
+ public:
+  static constexpr int priority = 80;
+  static constexpr int watchdog_priority = 90;
+  static constexpr std::int64_t watchdog_ns =
+      30'000'000;  // without a tick, after which motors are switched off
+
+  /// @param channels  outlive the loop; their sessions are the real-time thread's from start() to the end of finish()
+  RealtimeLoop(std::vector<std::unique_ptr<ToolChannel>>& channels, double rate_Hz)
+      : channels_(channels), rate_Hz_(rate_Hz) {}
+  ~RealtimeLoop() { finish(); }
+
+  void start();
+
+  /// Forces ramp to zero, then the thread ends; returns when it has, within about 50 ms. Safe to repeat.
+  void finish();
+
+  /// Newest statistics; null before the first. One reading thread.
+  const LoopStats* stats() noexcept { return published_.newest(); }
+
+ private:
+  void run() noexcept;
+  void watch() noexcept;
+  void tick_tools(std::int64_t woke_ns) noexcept;
+  bool all_stopped() const noexcept;
+
+  std::vector<std::unique_ptr<ToolChannel>>& channels_;
+  double rate_Hz_;
+  std::thread thread_;
+  std::thread watchdog_;
+  std::atomic<bool> stop_{false};
+  std::atomic<bool> done_{false};
+  std::atomic<std::uint64_t> heartbeat_{0};
+  std::atomic<std::uint64_t> watchdog_stops_{0};
+  LoopStats stats_;  // the real-time thread's own
+  TripleBuffer<LoopStats> published_;
+};
+
+}  // namespace palpate::haptic

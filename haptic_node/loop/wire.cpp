@@ -1,0 +1,111 @@
+#include "haptic_node/loop/wire.h"
+
+#include <chrono>
+
+#include "common/time/ticker.h"
+
+namespace palpate::haptic {
+namespace {
+
+using namespace std::chrono_literals;
+constexpr double publisher_Hz = 2000;        // looks for new states twice as often as they come
+constexpr std::uint32_t batch_samples = 20;  // of a trace: 50 batches a second at 1 kHz
+constexpr int most_refusals = 50;            // of one batch, a few seconds, before it is given up and counted
+
+}  // namespace
+
+Wire::Wire(int domain, std::vector<std::unique_ptr<ToolChannel>>& channels)
+    : channels_(channels),
+      participant_(domain),
+      patches_(participant_),
+      commands_(participant_),
+      states_(participant_),
+      traces_(participant_),
+      status_(participant_),
+      batches_(channels.size()) {}
+
+void Wire::start() {
+  threads_.emplace_back([this] { receive(); });
+  threads_.emplace_back([this] { publish(); });
+  threads_.emplace_back([this] { trace_and_listen(); });
+}
+
+void Wire::finish() {
+  end_.store(true);
+  for (auto& thread : threads_) thread.join();
+  threads_.clear();
+}
+
+void Wire::receive() noexcept {
+  ContactPatch patch;
+  while (!end_.load()) {
+    patches_.wait(20ms);
+    bool any = false;
+    while (patches_.take(patch)) {
+      any = true;
+      if (patch.tool < channels_.size()) channels_[patch.tool]->patches.write(patch);
+    }
+    if (any) counts_.write(patches_.counts());
+  }
+}
+
+void Wire::publish() noexcept {
+  Ticker ticker(publisher_Hz);
+  while (!end_.load()) {
+    ticker.wait();
+    for (const auto& channel : channels_) {
+      bool is_new = false;
+      const ToolState* state = channel->states.newest(&is_new);
+      if (is_new) states_.write(*state);
+    }
+  }
+}
+
+/// Full batches, or all that is left; none is lost unless the wire refuses it again and again.
+void Wire::drain(std::uint32_t tool, bool all) noexcept {
+  ToolChannel& channel = *channels_[tool];
+  Batch& batch = batches_[tool];
+  batch.trace.tool = tool;
+  for (;;) {
+    while (batch.trace.n_samples < batch_samples &&
+           channel.trace.pop(batch.trace.samples[batch.trace.n_samples]))
+      ++batch.trace.n_samples;
+    const bool due = batch.trace.n_samples == batch_samples || (all && batch.trace.n_samples > 0);
+    if (!due) return;
+    if (!traces_.write(batch.trace)) {
+      if (++batch.refusals < most_refusals && !all) return;
+      trace_refused_.fetch_add(batch.trace.n_samples);
+    }
+    batch.refusals = 0;
+    batch.trace.batch += 1;
+    batch.trace.n_samples = 0;
+  }
+}
+
+void Wire::listen() noexcept {
+  Command command;
+  while (commands_.take(command))
+    if (command.kind == CommandKind::stop) stop_commanded_.store(true);
+}
+
+void Wire::trace_and_listen() noexcept {
+  while (!end_.load()) {
+    std::this_thread::sleep_for(5ms);
+    listen();
+    for (std::uint32_t tool = 0; tool < channels_.size(); ++tool) drain(tool, false);
+  }
+  for (std::uint32_t tool = 0; tool < channels_.size(); ++tool) drain(tool, true);
+}
+
+ReaderCounts Wire::patch_counts() const noexcept {
+  const ReaderCounts* counts = counts_.newest();
+  return counts == nullptr ? ReaderCounts{} : *counts;
+}
+
+std::uint64_t Wire::trace_lost() const noexcept {
+  std::uint64_t lost = trace_refused_.load();
+  for (const auto& channel : channels_) lost += channel->trace_lost.load();
+  return lost;
+}
+
+}  // namespace palpate::haptic

@@ -1,0 +1,64 @@
+#pragma once
+// Everything that the haptic node says and hears. Three threads, one job each, so that a slow reliable reader never
+// holds up the newest tool state.
+
+#include <array>
+#include <atomic>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "common/message/messages.h"
+#include "common/wire/participant.h"
+#include "common/wire/reader.h"
+#include "common/wire/writer.h"
+#include "haptic_node/loop/tool_channel.h"
+
+namespace palpate::haptic {
+
+class Wire {
+ public:
+  /// @throws as Participant does
+  Wire(int domain, std::vector<std::unique_ptr<ToolChannel>>& channels);
+  ~Wire() { finish(); }
+
+  void start();
+  /// Sends what is left of the traces and ends the threads. Safe to repeat.
+  void finish();
+
+  /// A stop command has come.
+  bool stop_commanded() const noexcept { return stop_commanded_.load(); }
+
+  /// Of the slow thread that calls them: status out, patches in so far.
+  bool write_status(const NodeStatus& status) noexcept { return status_.write(status); }
+  ReaderCounts patch_counts() const noexcept;
+  std::uint64_t trace_lost() const noexcept;
+
+ private:
+  struct Batch {
+    HapticTrace trace{};
+    int refusals = 0;
+  };
+
+  void receive() noexcept;
+  void publish() noexcept;
+  void trace_and_listen() noexcept;
+  void drain(std::uint32_t tool, bool all) noexcept;
+  void listen() noexcept;
+
+  std::vector<std::unique_ptr<ToolChannel>>& channels_;
+  Participant participant_;
+  Reader<ContactPatch> patches_;
+  Reader<Command> commands_;
+  Writer<ToolState> states_;
+  Writer<HapticTrace> traces_;
+  Writer<NodeStatus> status_;
+  std::vector<Batch> batches_;
+  std::vector<std::thread> threads_;
+  std::atomic<bool> end_{false};
+  std::atomic<bool> stop_commanded_{false};
+  std::atomic<std::uint64_t> trace_refused_{0};  // samples
+  mutable TripleBuffer<ReaderCounts> counts_;
+};
+
+}  // namespace palpate::haptic
