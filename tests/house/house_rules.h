@@ -1,0 +1,30 @@
+#pragma once
+// The rules of the house that a machine can check: who includes whom, which room has which foreign header, how long
+// a file may be, and what may never be in one. docs/architecture.md says why.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace palpate::house {
+
+/// One file of the tree.
+struct SourceFile {
+  std::string path;                // from the root, with "/"
+  std::vector<std::string> lines;  // empty if it is no text
+  bool is_text = true;
+  std::uintmax_t bytes = 0;
+};
+
+/// All files below `root` but what git ignores at the top (build, out, data) and git's own.
+std::vector<SourceFile> read_house(const std::filesystem::path& root);
+
+/// Each returns one line a breach: "file:line: what; what would be right".
+std::vector<std::string> include_breaches(const SourceFile& file);  // directions and doors
+std::vector<std::string> text_breaches(const SourceFile& file);     // sizes, words, paths, flags
+std::vector<std::string> data_breaches(const SourceFile& file);     // data and binaries
+
+/// All of them, for all files.
+std::vector<std::string> house_breaches(const std::filesystem::path& root);
+
+}  // namespace palpate::house
