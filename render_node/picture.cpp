@@ -9,16 +9,17 @@
 namespace palpate::render {
 namespace {
 
-constexpr int samples_per_pixel = 4;
+constexpr int smooth_samples = 4;
 constexpr float frame_seconds = 1.0F / 60;  // ImGui wants one; nothing here is animated by it
 
 }  // namespace
 
 struct Picture::Parts {
-  explicit Parts(const Scene& given)
+  Parts(const Scene& given, Edges edges)
       : scene(given),
         model(scene),
-        framebuffer(scene.render.size_px[0], scene.render.size_px[1], samples_per_pixel),
+        framebuffer(scene.render.size_px[0], scene.render.size_px[1],
+                    edges == Edges::smooth ? smooth_samples : 0),
         stage(scene, model, scene.render.size_px[1]) {}
   ~Parts() { make_current(); }  // members let go of what they have in this context
 
@@ -35,7 +36,7 @@ struct Picture::Parts {
   Image image;
 };
 
-Picture::Picture(const Scene& scene) : parts_(std::make_unique<Parts>(scene)) {}
+Picture::Picture(const Scene& scene, Edges edges) : parts_(std::make_unique<Parts>(scene, edges)) {}
 Picture::~Picture() = default;
 
 void Picture::take(const BodySurface& chunk) { parts_->model.take(chunk); }
@@ -63,6 +64,8 @@ void Picture::save_png(const std::string& path) const {
 std::size_t Picture::facets_visible() const noexcept { return parts_->model.facets_visible(); }
 std::size_t Picture::facets_total() const noexcept { return parts_->model.facets_total(); }
 std::size_t Picture::bytes_uploaded() const noexcept { return parts_->stage.painter().bytes_uploaded(); }
+void Picture::set_threshold(double intensity) noexcept { parts_->stage.threshold().obey(intensity); }
+ViewModel& Picture::model() noexcept { return parts_->model; }
 const ViewModel& Picture::model() const noexcept { return parts_->model; }
 
 }  // namespace palpate::render

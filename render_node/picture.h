@@ -13,11 +13,14 @@ namespace palpate::render {
 
 class ViewModel;
 
+/// Smooth edges take four samples a pixel; where the processor does the drawing that doubles the cost of a frame.
+enum class Edges { plain, smooth };
+
 class Picture {
  public:
   /// @param scene  is copied. Size, camera and what is shown come from its [render] table.
   /// @throws InputError if this machine cannot draw without a screen
-  explicit Picture(const Scene& scene);
+  explicit Picture(const Scene& scene, Edges edges = Edges::smooth);
   ~Picture();
   Picture(const Picture&) = delete;
   Picture& operator=(const Picture&) = delete;
@@ -39,6 +42,10 @@ class Picture {
   std::size_t facets_visible() const noexcept;
   std::size_t facets_total() const noexcept;
   std::size_t bytes_uploaded() const noexcept;  // to the graphics card by the last draw()
+  /// The threshold that the panel shows, after somebody commanded another.
+  void set_threshold(double intensity) noexcept;
+
+  ViewModel& model() noexcept;
   const ViewModel& model() const noexcept;
 
  private:

@@ -92,4 +92,10 @@ std::string current_gl() {
   return text(GL_VENDOR) + ", " + text(GL_RENDERER) + ", OpenGL " + text(GL_VERSION);
 }
 
+bool software_gl() {
+  const std::string what = current_gl();
+  return what.find("llvmpipe") != std::string::npos || what.find("softpipe") != std::string::npos ||
+         what.find("swrast") != std::string::npos;
+}
+
 }  // namespace palpate::render

@@ -28,4 +28,7 @@ class EglContext {
 /// Vendor, renderer and version of the current context.
 std::string current_gl();
 
+/// Does the processor do the drawing of the current context?
+bool software_gl();
+
 }  // namespace palpate::render

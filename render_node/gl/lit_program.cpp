@@ -1,15 +1,48 @@
 #include "render_node/gl/lit_program.h"
 
+#include <string>
+
 namespace palpate::render {
 namespace {
 
-const char* const vertex_source = R"(
+// What a point of the surface sends to the eye, as shown.
+const std::string light_source = R"(
+uniform vec3 eye;
+uniform vec3 key;
+uniform vec3 fill;
+uniform float gloss;
+uniform float opacity;
+uniform float darkness;
+vec4 lit(vec3 n, vec3 v, vec3 albedo) {
+  vec3 ambient = mix(vec3(0.12, 0.10, 0.09), vec3(0.29, 0.31, 0.35), 0.5 + 0.5 * n.z);
+  float k = max((dot(n, key) + 0.12) / 1.12, 0.0);
+  float f = max(dot(n, fill), 0.0);
+  vec3 light = ambient + vec3(0.88, 0.84, 0.77) * k + vec3(0.13, 0.15, 0.19) * f;
+  float h = max(dot(n, normalize(key + v)), 0.0);
+  float h8 = h * h * h * h;
+  h8 *= h8;
+  float away = 1.0 - clamp(dot(n, v), 0.0, 1.0);
+  vec3 seen = (albedo * light + vec3(gloss * h8 * h8 * h8)) * (1.0 - 0.45 * away * away * away);
+  return vec4(sqrt(seen * (1.0 - darkness)), opacity);
+}
+)";
+
+const std::string vertex_source = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in uint flags;
 layout(location = 3) in vec4 colour;
 uniform mat4 clip_from_world;
 uniform mat4 world_from_model;
+vec3 albedo_here() {
+  vec3 albedo = colour.rgb * colour.rgb;
+  if ((flags & 1u) != 0u) albedo = albedo * 0.09 + vec3(0.004, 0.004, 0.012);  // yielded: dark
+  if ((flags & 2u) != 0u) albedo = vec3(0.14, 0.010, 0.014);                   // broken: dark red
+  return albedo;
+}
+)";
+
+const std::string vertex_for_pixels = R"(
 out vec3 world;
 out vec3 outward;
 out vec3 albedo;
@@ -17,39 +50,40 @@ void main() {
   vec4 p = world_from_model * vec4(position, 1.0);
   world = p.xyz;
   outward = mat3(world_from_model) * normal;
-  albedo = pow(colour.rgb, vec3(2.2));
-  if ((flags & 1u) != 0u) albedo = albedo * 0.10 + vec3(0.004, 0.004, 0.012);  // yielded: dark
-  if ((flags & 2u) != 0u) albedo = vec3(0.13, 0.008, 0.012);                   // broken: dark red
+  albedo = albedo_here();
   gl_Position = clip_from_world * p;
 }
 )";
-
-const char* const fragment_source = R"(
+const std::string pixel_lit = R"(
 in vec3 world;
 in vec3 outward;
 in vec3 albedo;
-uniform vec3 eye;
-uniform vec3 key;
-uniform vec3 fill;
-uniform float gloss;
-uniform float opacity;
-uniform float darkness;
 out vec4 pixel;
 void main() {
   vec3 n = normalize(outward);
-  if (!gl_FrontFacing) n = -n;
-  vec3 v = normalize(eye - world);
-  vec3 ambient = mix(vec3(0.13, 0.11, 0.10), vec3(0.30, 0.32, 0.36), 0.5 + 0.5 * n.z);
-  float k = max((dot(n, key) + 0.15) / 1.15, 0.0);
-  float f = max(dot(n, fill), 0.0);
-  vec3 light = ambient + vec3(0.86, 0.82, 0.75) * k + vec3(0.13, 0.15, 0.19) * f;
-  float shine = gloss * pow(max(dot(n, normalize(key + v)), 0.0), 24.0);
-  float rim = pow(1.0 - clamp(dot(n, v), 0.0, 1.0), 3.0);
-  vec3 seen = (albedo * light + vec3(shine)) * (1.0 - 0.45 * rim);
-  seen = mix(seen, vec3(0.0), darkness);
-  pixel = vec4(pow(seen, vec3(1.0 / 2.2)), opacity);
+  pixel = lit(gl_FrontFacing ? n : -n, normalize(eye - world), albedo);
 }
 )";
+
+const std::string vertex_lit = R"(
+out vec4 seen;
+void main() {
+  vec4 p = world_from_model * vec4(position, 1.0);
+  seen = lit(mat3(world_from_model) * normal, normalize(eye - p.xyz), albedo_here());
+  gl_Position = clip_from_world * p;
+}
+)";
+const std::string pixel_passed_on = R"(
+in vec4 seen;
+out vec4 pixel;
+void main() { pixel = seen; }
+)";
+
+Program program_for(Lighting lighting) {
+  if (lighting == Lighting::at_vertices)
+    return Program(vertex_source + light_source + vertex_lit, pixel_passed_on);
+  return Program(vertex_source + vertex_for_pixels, light_source + pixel_lit);
+}
 
 Eigen::Vector3f in_world(const Camera& camera, const Vec3& of_viewer) {
   const Eigen::Matrix3d axes = camera.view().topLeftCorner<3, 3>();
@@ -58,7 +92,7 @@ Eigen::Vector3f in_world(const Camera& camera, const Vec3& of_viewer) {
 
 }  // namespace
 
-LitProgram::LitProgram() : program_(vertex_source, fragment_source) {}
+LitProgram::LitProgram(Lighting lighting) : program_(program_for(lighting)) {}
 
 void LitProgram::begin(const Camera& camera) const {
   program_.use();
@@ -66,6 +100,7 @@ void LitProgram::begin(const Camera& camera) const {
   program_.set("eye", Eigen::Vector3f(camera.eye().cast<float>()));
   program_.set("key", in_world(camera, {-0.55, 0.65, 0.62}));
   program_.set("fill", in_world(camera, {0.85, 0.05, 0.45}));
+  finish(0, 1);
   darken(0);
 }
 

@@ -58,8 +58,8 @@ void Painter::draw(ViewModel& model, const Camera& camera, const PaintOptions& o
   glDepthFunc(GL_LEQUAL);
   glClear(GL_DEPTH_BUFFER_BIT);
   backdrop_.draw_gradient();
-  lit_.begin(camera);
-  draw_bodies(model, options);
+  draw_bodies(model, camera, options);
+  at_pixels_.begin(camera);
   for (std::size_t i = 0; i < tools_.size(); ++i) draw_tool(tools_[i], model.tools()[i], options);
   if (scene_.floor && size_ > 0) {
     const double cell = 2 * palpate::render::arrow_metres_per_newton(1.0, size_ / 4);
@@ -67,7 +67,7 @@ void Painter::draw(ViewModel& model, const Camera& camera, const PaintOptions& o
   }
 }
 
-void Painter::draw_bodies(ViewModel& model, const PaintOptions& options) {
+void Painter::draw_bodies(ViewModel& model, const Camera& camera, const PaintOptions& options) {
   bytes_uploaded_ = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     BodyPicture& body = model.bodies()[i];
@@ -77,17 +77,19 @@ void Painter::draw_bodies(ViewModel& model, const PaintOptions& options) {
       glEnable(GL_POLYGON_OFFSET_FILL);
       glPolygonOffset(1, 1);
     }
-    bodies_[i].draw(lit_);
+    const LitProgram& lit = bodies_[i].closed() && bodies_[i].dense() ? at_vertices_ : at_pixels_;
+    lit.begin(camera);
+    bodies_[i].draw(lit);
     glDisable(GL_POLYGON_OFFSET_FILL);
-    if (options.wire) bodies_[i].draw_wire(lit_, body);
+    if (options.wire) bodies_[i].draw_wire(lit, body);
   }
 }
 
 void Painter::draw_tool(Tool& tool, const ToolView& view, const PaintOptions& options) {
   if (!view.tip || size_ <= 0) return;
   if (options.tool) {
-    lit_.finish(0.30F, 1.0F);
-    tool.stick.draw(lit_, pose_along(*view.tip, tool.axis), steel);
+    at_pixels_.finish(0.30F, 1.0F);
+    tool.stick.draw(at_pixels_, pose_along(*view.tip, tool.axis), steel);
   }
   if (options.force) draw_arrow(tool, *view.tip, view.force);
 }
@@ -97,15 +99,15 @@ void Painter::draw_arrow(Tool& tool, const Eigen::Vector3d& from, const Eigen::V
   if (length < 1e-3 * size_) return;  // too short to point anywhere
   tool.arrow.shape(arrow_outline(static_cast<float>(0.018 * size_), static_cast<float>(length)));
   const Eigen::Matrix4f pose = pose_along(from, force.normalized());
-  lit_.finish(0.05F, 1.0F);
-  tool.arrow.draw(lit_, pose, arrow_colour);
+  at_pixels_.finish(0.05F, 1.0F);
+  tool.arrow.draw(at_pixels_, pose, arrow_colour);
   // Once more, faintly, where something hides it.
-  lit_.finish(0.0F, 0.30F);
+  at_pixels_.finish(0.0F, 0.30F);
   glDepthFunc(GL_GREATER);
   glDepthMask(GL_FALSE);
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  tool.arrow.draw(lit_, pose, arrow_colour);
+  tool.arrow.draw(at_pixels_, pose, arrow_colour);
   glDisable(GL_BLEND);
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LEQUAL);

@@ -39,12 +39,13 @@ class Painter {
     SolidDrawing stick, arrow;
   };
   void adapt_sizes(const Eigen::AlignedBox3d& box);
-  void draw_bodies(ViewModel& model, const PaintOptions& options);
+  void draw_bodies(ViewModel& model, const Camera& camera, const PaintOptions& options);
   void draw_tool(Tool& tool, const ToolView& view, const PaintOptions& options);
   void draw_arrow(Tool& tool, const Eigen::Vector3d& from, const Eigen::Vector3d& force);
 
   const Scene& scene_;
-  LitProgram lit_;
+  LitProgram at_pixels_{Lighting::at_pixels};
+  LitProgram at_vertices_{Lighting::at_vertices};
   BackdropDrawing backdrop_;
   std::vector<TissueDrawing> bodies_;
   std::vector<Tool> tools_;

@@ -4,13 +4,12 @@
 
 #include <array>
 #include <stdexcept>
-#include <string>
 
 namespace palpate::render {
 namespace {
 
-GLuint compile(GLenum kind, const char* source) {
-  const std::array<const char*, 2> parts = {"#version 330 core\n", source};
+GLuint compile(GLenum kind, const std::string& source) {
+  const std::array<const char*, 2> parts = {"#version 330 core\n", source.c_str()};
   const GLuint shader = glCreateShader(kind);
   glShaderSource(shader, 2, parts.data(), nullptr);
   glCompileShader(shader);
@@ -24,7 +23,8 @@ GLuint compile(GLenum kind, const char* source) {
 
 }  // namespace
 
-Program::Program(const char* vertex_source, const char* fragment_source) : id_(glCreateProgram()) {
+Program::Program(const std::string& vertex_source, const std::string& fragment_source)
+    : id_(glCreateProgram()) {
   const GLuint vertex = compile(GL_VERTEX_SHADER, vertex_source);
   const GLuint fragment = compile(GL_FRAGMENT_SHADER, fragment_source);
   glAttachShader(id_, vertex);

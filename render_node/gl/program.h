@@ -2,13 +2,14 @@
 // A linked shader program and its uniforms. Needs a current context from construction to destruction.
 
 #include <Eigen/Core>
+#include <string>
 
 namespace palpate::render {
 
 class Program {
  public:
   /// Sources without the #version line. @throws std::runtime_error with the compiler's words
-  Program(const char* vertex_source, const char* fragment_source);
+  Program(const std::string& vertex_source, const std::string& fragment_source);
   ~Program();
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "render_node/model/closedness.h"
+
 namespace palpate::render {
 namespace {
 
@@ -56,6 +58,7 @@ std::size_t TissueDrawing::upload_all(const BodyPicture& body) {
   triangles_.upload(std::span<const std::uint32_t>(indices));
   n_triangle_indices_ = indices.size();
   n_edge_indices_ = 0;
+  closed_ = is_closed(body.surface());
   return indices.size() * sizeof(std::uint32_t) +
          body.packed().size() * (sizeof(Array3f) + sizeof(PackedVertex) + sizeof(std::uint32_t));
 }
@@ -65,7 +68,9 @@ void TissueDrawing::draw(const LitProgram& program) const {
   program.finish(0.035F, 1.0F);
   array_.bind();
   triangles_.bind();
+  if (closed_) glEnable(GL_CULL_FACE);
   glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(n_triangle_indices_), GL_UNSIGNED_INT, nullptr);
+  glDisable(GL_CULL_FACE);
 }
 
 void TissueDrawing::draw_wire(const LitProgram& program, const BodyPicture& body) {

@@ -20,9 +20,12 @@ class ThresholdControl {
   double hi() const noexcept { return hi_; }
   double value() const noexcept { return value_; }
 
-  /// The hand set the slider. @param now  wall time [s]
+  /// The hand set the slider.
   void set(double value) noexcept { value_ = value; }
+  /// Somebody commanded this value: show it, and do not command it again.
+  void obey(double value) noexcept { value_ = sent_ = value; }
   /// What to command now, if anything: a value not yet commanded, not sooner than allowed unless released.
+  /// @param now  wall time [s]
   std::optional<double> due(double now, bool released) noexcept;
 
  private:

@@ -1,0 +1,26 @@
+#include "render_node/model/closedness.h"
+
+#include <Eigen/Geometry>
+
+namespace palpate::render {
+
+// sum of A_f = 0  and  V = sum of p_f . A_f / 3 > 0,  A_f = (c2 - c0) x (c3 - c1) / 2,  p_f on the facet
+bool is_closed(const Surface& surface) {
+  if (surface.corners.empty()) return false;
+  const auto at = [&](std::uint32_t v) {
+    const Array3f& p = surface.position[v];
+    return Eigen::Vector3d(static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2]));
+  };
+  const Eigen::Vector3d origin = at(surface.corners.front()[0]);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double area = 0, volume = 0;
+  for (const auto& c : surface.corners) {
+    const Eigen::Vector3d a = 0.5 * (at(c[2]) - at(c[0])).cross(at(c[3]) - at(c[1]));
+    sum += a;
+    area += a.norm();
+    volume += (at(c[0]) - origin).dot(a) / 3;
+  }
+  return sum.norm() < 1e-4 * area && volume > 0;
+}
+
+}  // namespace palpate::render

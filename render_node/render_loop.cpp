@@ -1,0 +1,180 @@
+#include "render_node/render_loop.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include "common/error/error.h"
+#include "common/process/stop_flag.h"
+#include "common/report/json_file.h"
+#include "common/report/log.h"
+#include "common/time/clock.h"
+#include "render_node/frame_schedule.h"
+#include "render_node/picture.h"
+#include "render_node/ui/window.h"
+#include "render_node/wire.h"
+
+namespace palpate::render {
+namespace {
+
+constexpr int niceness = 5;  // the hand and the tissue go first
+constexpr double status_period_s = 0.25;
+constexpr double window_period_s = 1.0 / 30;
+constexpr auto nap = std::chrono::milliseconds(5);
+
+// How the eye fares, for NodeStatus and the report.
+class Fare {
+ public:
+  explicit Fare(const Scene& scene) {
+    status_.node = NodeKind::render;
+    status_.pid = static_cast<std::uint32_t>(getpid());
+    status_.scene_checksum = scene.checksum;
+  }
+  void drew(double t) {
+    if (frames_ == 0) first_ns_ = now_ns();
+    ++frames_;
+    status_.t = t;
+    last_ns_ = now_ns();
+  }
+  void tell(Wire& wire, NodePhase phase, std::uint64_t skipped, bool at_once) {
+    const double since = seconds_from_ns(now_ns() - told_ns_);
+    if (!at_once && since < status_period_s) return;
+    status_.phase = phase;
+    status_.rate_Hz = static_cast<double>(frames_ - status_.ticks) / since;
+    status_.ticks = frames_;
+    status_.late = skipped;
+    told_ns_ = now_ns();
+    wire.tell(status_);
+  }
+  void write_report(const std::string& out, const ViewModel& model) const {
+    const double seconds = seconds_from_ns(last_ns_ - first_ns_);
+    const auto folder = std::filesystem::path(out) / "parts";
+    std::filesystem::create_directories(folder);
+    nlohmann::json report = {{"frames", frames_},
+                             {"facets_visible", model.facets_visible()},
+                             {"facets_total", model.facets_total()}};
+    if (frames_ > 1 && seconds > 0) report["fps"] = static_cast<double>(frames_ - 1) / seconds;
+    write_json((folder / "render.json").string(), {{"render", report}});
+  }
+  std::uint64_t frames() const noexcept { return frames_; }
+
+ private:
+  NodeStatus status_;
+  std::uint64_t frames_ = 0;
+  std::int64_t told_ns_ = now_ns(), first_ns_ = 0, last_ns_ = 0;
+};
+
+NodePhase phase_of(const ViewModel& model) {
+  return model.anything_to_see() ? NodePhase::running : NodePhase::ready;
+}
+
+bool time_is_over(const NodeOptions& options, const ViewModel& model) {
+  return options.seconds > 0 && model.t() >= options.seconds;
+}
+
+std::string make_frames_folder(const NodeOptions& options) {
+  if (options.out.empty())
+    throw InputError("nowhere to put frames; give --out DIR, or a display for a window");
+  const auto folder = std::filesystem::path(options.out) / "frames";
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+    throw InputError(folder.string() + ": cannot be made (" + error.message() + "); choose another --out");
+  return folder.string();
+}
+
+void run_headless(const NodeOptions& options, const Scene& scene) {
+  const std::string folder = make_frames_folder(options);
+  const bool few_cores = std::thread::hardware_concurrency() <= 2;
+  if (few_cores) setenv("LP_NUM_THREADS", "1", 0);  // Mesa's software renderer takes every core otherwise
+  Wire wire(options.domain);
+  Fare fare(scene);
+  fare.tell(wire, NodePhase::loading, 0, true);
+  Picture picture(scene, few_cores ? Edges::plain : Edges::smooth);
+  FrameSchedule schedule(scene.render.rate_Hz);
+  bool stop = false;
+  while (!stop && !stop_requested() && !time_is_over(options, picture.model())) {
+    // 1. take what has come
+    const auto news = wire.take_into(picture.model());
+    stop = news.stop;
+    if (news.threshold) picture.set_threshold(*news.threshold);
+    // 2. draw when simulated time has come to the next frame
+    const double t = picture.model().t();
+    if (picture.model().anything_to_see() && schedule.due(t)) {
+      picture.draw(t);
+      fare.drew(t);
+      picture.save_png(fmt::format("{}/frame_{:05}.png", folder, fare.frames()));
+    } else {
+      std::this_thread::sleep_for(nap);
+    }
+    // 3. say how it goes
+    fare.tell(wire, phase_of(picture.model()), schedule.skipped(), false);
+  }
+  fare.tell(wire, NodePhase::stopping, schedule.skipped(), true);
+  fare.write_report(options.out, picture.model());
+}
+
+void pass_on(const PanelWishes& wishes, ThresholdControl& threshold, Wire& wire) {
+  if (wishes.pause) wire.command(CommandKind::pause);
+  if (wishes.resume) wire.command(CommandKind::resume);
+  if (wishes.reset) wire.command(CommandKind::reset);
+  if (const auto value = threshold.due(seconds_from_ns(now_ns()), wishes.threshold_released)) {
+    wire.command(CommandKind::threshold, *value);
+  }
+}
+
+void run_window(const NodeOptions& options, const Scene& scene) {
+  ViewModel model(scene);
+  Window window(scene, model);
+  Wire wire(options.domain);
+  Fare fare(scene);
+  bool stop = false;
+  while (!stop && !stop_requested() && !time_is_over(options, model)) {
+    const std::int64_t began_ns = now_ns();
+    // 1. take what has come
+    const auto news = wire.take_into(model);
+    stop = news.stop;
+    if (news.threshold) window.threshold().obey(*news.threshold);
+    // 2. draw, and pass on what the person wants
+    PanelFacts facts;
+    facts.t = model.t();
+    facts.interactive = true;
+    facts.paused = news.paused;
+    pass_on(window.draw(facts), window.threshold(), wire);
+    fare.drew(model.t());
+    if (window.closing()) {
+      wire.command(CommandKind::stop);
+      break;
+    }
+    // 3. say how it goes
+    fare.tell(wire, phase_of(model), 0, false);
+    // 4. leave the processor to others: half of the time where it does the drawing
+    const double drew_s = seconds_from_ns(now_ns() - began_ns);
+    const double rest_s =
+        window.software() ? std::max(window_period_s - drew_s, drew_s) : window_period_s - drew_s;
+    if (rest_s > 0) std::this_thread::sleep_for(std::chrono::duration<double>(std::min(rest_s, 0.1)));
+  }
+  fare.tell(wire, NodePhase::stopping, 0, true);
+  if (!options.out.empty()) fare.write_report(options.out, model);
+}
+
+}  // namespace
+
+int run_render(const NodeOptions& options, const Scene& scene) {
+  set_log_name("render");
+  if (nice(niceness) == -1) log_warn("could not step back behind the other nodes");
+  if (!options.headless && display_present()) {
+    run_window(options, scene);
+  } else {
+    run_headless(options, scene);
+  }
+  return exit_ok;
+}
+
+}  // namespace palpate::render

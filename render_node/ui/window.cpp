@@ -1,0 +1,117 @@
+#include "render_node/ui/window.h"
+
+#include <epoxy/gl.h>
+// GLFW after epoxy, which brings the OpenGL declarations.
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+
+#include "common/error/error.h"
+#include "render_node/gl/egl_context.h"
+#include "render_node/gl/framebuffer.h"
+#include "render_node/ui/stage.h"
+
+namespace palpate::render {
+namespace {
+
+constexpr int samples_per_pixel = 4;
+
+[[noreturn]] void complain() {
+  const char* words = nullptr;
+  glfwGetError(&words);
+  throw InputError(std::string("cannot open a window (") + (words == nullptr ? "no reason given" : words) +
+                   "); use --headless, or a display with OpenGL 3.3");
+}
+
+bool variable_set(const char* name) {
+  const char* value = std::getenv(name);
+  return value != nullptr && *value != '\0';
+}
+
+}  // namespace
+
+bool display_present() { return variable_set("DISPLAY") || variable_set("WAYLAND_DISPLAY"); }
+
+struct Window::Glfw {
+  explicit Glfw(const Scene& scene) {
+    if (!glfwInit()) complain();
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_SAMPLES, samples_per_pixel);
+    const std::string title = scene.title.empty() ? "palpate" : scene.title + " \xe2\x80\x93 palpate";
+    window =
+        glfwCreateWindow(scene.render.size_px[0], scene.render.size_px[1], title.c_str(), nullptr, nullptr);
+    if (window == nullptr) {
+      glfwTerminate();
+      complain();
+    }
+    glfwMakeContextCurrent(window);
+    glfwSwapInterval(1);
+  }
+  ~Glfw() {
+    glfwDestroyWindow(window);
+    glfwTerminate();
+  }
+  Glfw(const Glfw&) = delete;
+  Glfw& operator=(const Glfw&) = delete;
+  GLFWwindow* window = nullptr;
+};
+
+Window::Window(const Scene& scene, ViewModel& model)
+    : glfw_(std::make_unique<Glfw>(scene)),
+      stage_(std::make_unique<Stage>(scene, model, scene.render.size_px[1])),
+      last_draw_(glfwGetTime()) {
+  stage_->make_current();
+  ImGui_ImplGlfw_InitForOpenGL(glfw_->window, true);
+}
+
+Window::~Window() {
+  stage_->make_current();
+  ImGui_ImplGlfw_Shutdown();
+  stage_.reset();
+}
+
+PanelWishes Window::draw(const PanelFacts& facts, Image* seen) {
+  glfwPollEvents();
+  stage_->make_current();
+  int width = 0, height = 0;
+  glfwGetFramebufferSize(glfw_->window, &width, &height);
+  if (width == 0 || height == 0) return {};  // minimised
+  const double now = glfwGetTime();
+  ImGui_ImplGlfw_NewFrame();
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  const auto wishes =
+      stage_->draw(facts, width, height, static_cast<float>(std::max(now - last_draw_, 1e-3)));
+  last_draw_ = now;
+  follow_hand();
+  if (seen != nullptr) *seen = read_pixels(width, height);
+  glfwSwapBuffers(glfw_->window);
+  return wishes;
+}
+
+void Window::follow_hand() {
+  const ImGuiIO& io = ImGui::GetIO();
+  Camera& camera = stage_->camera();
+  const bool moved = io.MouseDelta.x != 0 || io.MouseDelta.y != 0;
+  const auto dx = static_cast<double>(io.MouseDelta.x), dy = static_cast<double>(io.MouseDelta.y);
+  if (!io.WantCaptureMouse) {
+    if (moved && io.MouseDown[0]) camera.rotate(dx, dy);
+    if (moved && io.MouseDown[1]) camera.pan(dx, dy);
+    if (io.MouseWheel != 0) camera.zoom(static_cast<double>(io.MouseWheel));
+  }
+  if (io.WantTextInput) return;
+  if (ImGui::IsKeyPressed(GLFW_KEY_W, false)) stage_->options().wire = !stage_->options().wire;
+  if (ImGui::IsKeyPressed(GLFW_KEY_R, false)) camera.reset();
+  if (ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false)) leave_ = true;
+}
+
+bool Window::closing() const { return leave_ || glfwWindowShouldClose(glfw_->window) != 0; }
+bool Window::software() const { return software_gl(); }
+ThresholdControl& Window::threshold() { return stage_->threshold(); }
+
+}  // namespace palpate::render

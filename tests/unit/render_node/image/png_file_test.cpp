@@ -1,0 +1,56 @@
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include <filesystem>
+
+#include "common/error/error.h"
+#include "render_node/image/image.h"
+
+namespace palpate::render {
+namespace {
+
+std::filesystem::path fresh_folder() {
+  const auto folder = std::filesystem::path(testing::TempDir()) / "palpate_png_test";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  return folder;
+}
+
+TEST(PngFile, GivesBackEveryPixel) {
+  Image image{7, 5, {}};
+  for (int i = 0; i < 7 * 5 * 3; ++i) image.rgb.push_back(static_cast<std::uint8_t>(i * 2));
+  const auto path = fresh_folder() / "a.png";
+  write_png(image, path.string());
+  png_image read{};
+  read.version = PNG_IMAGE_VERSION;
+  ASSERT_NE(png_image_begin_read_from_file(&read, path.c_str()), 0);
+  EXPECT_EQ(read.width, 7U);
+  EXPECT_EQ(read.height, 5U);
+  read.format = PNG_FORMAT_RGB;
+  std::vector<std::uint8_t> rgb(PNG_IMAGE_SIZE(read));
+  ASSERT_NE(png_image_finish_read(&read, nullptr, rgb.data(), 0, nullptr), 0);
+  EXPECT_EQ(rgb, image.rgb);
+  EXPECT_FALSE(std::filesystem::exists(path.string() + ".part"));
+}
+
+TEST(PngFile, SaysWhereItCannotWrite) {
+  const Image image{1, 1, {1, 2, 3}};
+  const auto path = (fresh_folder() / "no_such_folder" / "a.png").string();
+  try {
+    write_png(image, path);
+    FAIL() << "wrote into a folder that does not exist";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find(path), std::string::npos);
+  }
+}
+
+TEST(PngFile, LeavesNoPartWhenItCannotRename) {
+  const auto folder = fresh_folder();
+  const auto taken = folder / "a.png";
+  std::filesystem::create_directories(taken / "something");  // a folder of that name cannot be replaced
+  EXPECT_THROW(write_png(Image{1, 1, {1, 2, 3}}, taken.string()), InputError);
+  EXPECT_FALSE(std::filesystem::exists(taken.string() + ".part"));
+}
+
+}  // namespace
+}  // namespace palpate::render

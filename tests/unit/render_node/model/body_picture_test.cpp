@@ -1,0 +1,110 @@
+#include "render_node/model/body_picture.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/render_node/render_support.h"
+
+namespace palpate::render {
+namespace {
+
+using test::block_of;
+using test::chunks_of;
+using test::cube_surface;
+
+const auto cube = cube_surface(26, 0.1, 0xff8090a0U);
+
+BodyPicture picture_of(std::uint32_t revision) {
+  BodyPicture picture;
+  for (const auto& chunk : chunks_of(cube, 0, revision)) picture.take(chunk);
+  picture.refresh();
+  return picture;
+}
+
+TEST(BodyPicture, KeepsTheOldPictureUntilTheNewOneIsWhole) {
+  BodyPicture picture = picture_of(1);
+  const auto smaller = cube_surface(20, 0.05, 0xff0000ffU);
+  const auto chunks = chunks_of(smaller, 0, 2);
+  ASSERT_EQ(chunks.size(), 2U);
+  picture.take(chunks[1]);
+  EXPECT_EQ(picture.surface().revision, 1U);
+  EXPECT_EQ(picture.surface().position, cube.position);
+  picture.take(chunks[0]);
+  EXPECT_EQ(picture.surface().revision, 2U);
+  EXPECT_EQ(picture.facets_visible(), smaller.corners.size());
+  EXPECT_EQ(picture.facets_total(), smaller.corners.size() + smaller.facets_hidden);
+}
+
+TEST(BodyPicture, MovesVerticesOfTheRevisionShownOnly) {
+  BodyPicture picture = picture_of(2);
+  auto block = block_of(cube, 0, 2, 1);
+  block.position[5][2] += 0.01F;
+  block.flags[6] = vertex_yielded;
+  EXPECT_TRUE(picture.take(block));
+  const auto v = std::size_t{max_block_vertices} + 5;
+  EXPECT_EQ(picture.surface().position[v], block.position[5]);
+  picture.refresh();
+  EXPECT_EQ(picture.packed()[v + 1].flags, vertex_yielded);
+
+  block.position[5][2] += 0.01F;
+  for (const std::uint32_t other : {1U, 3U}) {
+    block.revision = other;
+    EXPECT_FALSE(picture.take(block));
+  }
+  EXPECT_NE(picture.surface().position[v], block.position[5]);
+}
+
+TEST(BodyPicture, KeepsABlockThatOvertakesItsSurface) {
+  BodyPicture picture = picture_of(1);
+  const auto chunks = chunks_of(cube, 0, 2);
+  picture.take(chunks[0]);
+  auto block = block_of(cube, 0, 2, 0);
+  block.position[3][0] += 0.02F;
+  EXPECT_TRUE(picture.take(block));
+  EXPECT_EQ(picture.surface().position[3], cube.position[3]);
+  picture.take(chunks[1]);
+  EXPECT_EQ(picture.surface().position[3], block.position[3]);
+}
+
+TEST(BodyPicture, RefusesABlockBeyondItsVertices) {
+  BodyPicture picture = picture_of(1);
+  auto block = block_of(cube, 0, 1, 1);
+  block.first_vertex += 10;
+  EXPECT_FALSE(picture.take(block));
+  block.first_vertex = 0xffffffffU;
+  EXPECT_FALSE(picture.take(block));
+}
+
+TEST(BodyPicture, MarksOnlyTheNeighbourhoodOfWhatMoved) {
+  BodyPicture picture = picture_of(1);
+  EXPECT_TRUE(picture.all_dirty());
+  picture.clear_dirty();
+  EXPECT_TRUE(picture.dirty_ranges().empty());
+  picture.take(block_of(cube, 0, 1, 0));  // nothing moved
+  picture.refresh();
+  EXPECT_TRUE(picture.dirty_ranges().empty());
+  auto block = block_of(cube, 0, 1, 0);
+  block.position[100][1] += 0.001F;
+  picture.take(block);
+  picture.refresh();
+  EXPECT_FALSE(picture.all_dirty());
+  std::size_t n = 0;
+  bool holds_it = false;
+  for (const auto& range : picture.dirty_ranges()) {
+    n += range.n;
+    holds_it |= range.first <= 100 && 100 < range.first + range.n;
+  }
+  EXPECT_TRUE(holds_it);
+  EXPECT_LT(n, cube.position.size());
+}
+
+TEST(BodyPicture, GivesAVertexTheMeanColourOfItsFacets) {
+  auto coloured = cube_surface(1, 1.0, 0xff000000U);
+  coloured.rgba = {0xff0000ffU, 0xff0000ffU, 0xff00ff00U, 0xff00ff00U, 0xffff0000U, 0xffff0000U};
+  BodyPicture picture;
+  for (const auto& chunk : chunks_of(coloured, 0, 1)) picture.take(chunk);
+  for (const auto rgba : picture.vertex_rgba())
+    EXPECT_EQ(rgba, 0xff555555U);  // one facet of each at every corner
+}
+
+}  // namespace
+}  // namespace palpate::render

@@ -1,0 +1,247 @@
+#include "render_node/picture.h"
+
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include "render_node/view/camera.h"
+#include "tests/unit/render_node/render_support.h"
+
+namespace palpate::render {
+namespace {
+
+using test::block_of;
+using test::chunks_of;
+using test::cube_surface;
+using test::small_scene;
+
+constexpr std::uint32_t skin = 0xff96b4e6U;
+constexpr double side = 0.1;
+const auto cube = cube_surface(12, side, skin);
+
+void show(Picture& picture, const test::VoxelSurface& surface, std::uint32_t revision = 1) {
+  for (const auto& chunk : chunks_of(surface, 0, revision)) picture.take(chunk);
+}
+
+// The camera of the picture, as the picture sets it up.
+Camera camera_of(const Scene& scene) {
+  Camera camera(scene.render.camera);
+  camera.set_picture(scene.render.size_px[0], scene.render.size_px[1], 0);
+  camera.fit({Vec3::Constant(-side / 2), Vec3::Constant(side / 2)});
+  return camera;
+}
+
+Eigen::Vector3i pixel(const Picture& picture, const Eigen::Vector2d& p) {
+  const auto* rgb = picture.image().at(static_cast<int>(p.x()), static_cast<int>(p.y()));
+  return {rgb[0], rgb[1], rgb[2]};
+}
+
+int difference(const Eigen::Vector3i& a, const Eigen::Vector3i& b) { return (a - b).cwiseAbs().maxCoeff(); }
+
+int pixels_that_differ(const Image& a, const Image& b) {
+  int n = 0;
+  for (std::size_t i = 0; i < a.rgb.size(); i += 3)
+    n += std::equal(&a.rgb[i], &a.rgb[i] + 3, &b.rgb[i]) ? 0 : 1;
+  return n;
+}
+
+TEST(Picture, ShowsALitCubeWhereItIsAndTheBackgroundElsewhere) {
+  const Scene scene = small_scene();
+  Picture picture(scene), empty(scene);
+  show(picture, cube);
+  picture.draw(0);
+  empty.draw(0);
+  const Camera camera = camera_of(scene);
+  const double near = -side / 2;  // the side that faces the viewer
+  for (const double x : {-0.9, -0.4, 0.0, 0.4, 0.9}) {
+    for (const double z : {-0.9, -0.4, 0.0, 0.4, 0.9}) {
+      const auto at = *camera.project({x * side / 2, near, z * side / 2});
+      const auto rgb = pixel(picture, at);
+      EXPECT_GT(rgb.x(), rgb.z() + 15) << "skin is redder than blue at " << at.transpose();
+      EXPECT_GT(rgb.x(), 60) << "lit at " << at.transpose();
+    }
+  }
+  for (const double x : {-1.15, 1.15}) {
+    const auto at = *camera.project({x * side / 2, near, 0});
+    EXPECT_EQ(difference(pixel(picture, at), pixel(empty, at)), 0) << "background at " << at.transpose();
+  }
+}
+
+TEST(Picture, IsDarkerWhereTissueHasYielded) {
+  Scene scene = small_scene();
+  Picture picture(scene);
+  show(picture, cube);
+  picture.draw(0);
+  const auto at = *camera_of(scene).project({0.02, -side / 2, 0.01});
+  const auto other = *camera_of(scene).project({-0.03, -side / 2, -0.03});
+  const auto elastic = pixel(picture, at), far = pixel(picture, other);
+  auto block = block_of(cube, 0, 1, 0);
+  for (std::uint32_t v = 0; v < block.n_vertices; ++v) {
+    if (block.position[v][0] > 0) block.flags[v] = vertex_yielded;
+  }
+  picture.take(block);
+  picture.draw(0);
+  EXPECT_LT(pixel(picture, at).sum() * 2, elastic.sum());
+  EXPECT_LE(difference(pixel(picture, other), far), 2);
+}
+
+TEST(Picture, FollowsVerticesThatMove) {
+  const Scene scene = small_scene();
+  Picture picture(scene);
+  show(picture, cube);
+  picture.draw(0);
+  const Image before = picture.image();
+  picture.draw(0.1);
+  EXPECT_EQ(pixels_that_differ(before, picture.image()), 0);
+  auto block = block_of(cube, 0, 1, 0);
+  for (std::uint32_t v = 0; v < block.n_vertices; ++v) block.position[v][0] += 0.02F;
+  picture.take(block);
+  picture.draw(0.2);
+  const Camera camera = camera_of(scene);
+  const auto left = *camera.project({-0.042, -side / 2, 0}), right = *camera.project({0.058, -side / 2, 0});
+  EXPECT_GT(pixel(picture, right).x(), pixel(picture, right).z() + 15);  // came
+  EXPECT_LT(pixel(picture, left).x(), pixel(picture, left).z());         // went: bluish background
+}
+
+TEST(Picture, UploadsOnlyWhatMoved) {
+  const auto large = cube_surface(80, side, skin);
+  Picture picture(small_scene());
+  show(picture, large);
+  picture.draw(0);
+  const auto all = picture.bytes_uploaded();
+  picture.draw(0);
+  EXPECT_EQ(picture.bytes_uploaded(), 0U);
+  auto block = block_of(large, 0, 1, 3);
+  for (std::uint32_t v = 0; v < 50; ++v) block.position[v][2] += 0.0005F;
+  picture.take(block);
+  picture.draw(0);
+  EXPECT_GT(picture.bytes_uploaded(), 0U);
+  EXPECT_LT(picture.bytes_uploaded(), all / 5);
+}
+
+TEST(Picture, DrawsTheForceArrowToScale) {
+  Scene scene = small_scene();
+  scene.render.show_tool = false;
+  Picture picture(scene);
+  show(picture, cube);
+  picture.draw(0);
+  picture.take(test::trace_at({0, -side / 2, 0}, 0, 0));
+  ToolWrench wrench;
+  wrench.force = {0, 0, 2.5};
+  picture.take(wrench);
+  picture.draw(0);
+  // Limit 3 N, half the diagonal 0.087 m: 1 N is 20 mm, so 2.5 N reach from 0 to 50 mm.
+  const Camera camera = camera_of(scene);
+  const auto is_orange = [](const Eigen::Vector3i& c) {
+    return c.x() > 120 && c.x() > 2 * c.z() && c.x() > c.y() + 40;
+  };
+  const double before_it = -side / 2 - 0.001;
+  EXPECT_TRUE(is_orange(pixel(picture, *camera.project({0, before_it, 0.010}))));
+  EXPECT_TRUE(is_orange(pixel(picture, *camera.project({0, before_it, 0.040}))));
+  EXPECT_FALSE(is_orange(pixel(picture, *camera.project({0, before_it, 0.0535}))));
+  EXPECT_FALSE(is_orange(pixel(picture, *camera.project({0.02, before_it, 0.010}))));
+}
+
+TEST(Picture, EndsTheToolAtTheTip) {
+  Scene scene = small_scene();
+  scene.render.show_force = false;
+  scene.devices[0].waypoints = {{0, Vec3(0, 0, 0.2)}, {1, Vec3(0, 0, 0)}};
+  Picture picture(scene);
+  show(picture, cube);
+  picture.draw(0);
+  const Image before = picture.image();
+  picture.take(test::trace_at({0, -0.07, 0}, 0, 0));
+  picture.draw(0);
+  const auto tip = *camera_of(scene).project({0, -0.07, 0});
+  int lowest = 0;
+  for (int y = 0; y < 240; ++y) {
+    for (int x = 0; x < 320; ++x) {
+      if (!std::equal(before.at(x, y), before.at(x, y) + 3, picture.image().at(x, y)))
+        lowest = std::max(lowest, y);
+    }
+  }
+  EXPECT_NEAR(lowest, tip.y(), 2.0);  // a stick that leans: its round end goes a little below the tip
+}
+
+TEST(Picture, CountsFacets) {
+  Picture picture(small_scene());
+  EXPECT_EQ(picture.facets_total(), 0U);
+  show(picture, cube);
+  EXPECT_EQ(picture.facets_visible(), 6U * 12 * 12);
+  EXPECT_EQ(picture.facets_total(), 3U * 12 * 12 * 13);  // all faces of all cells
+}
+
+TEST(Picture, GivesTheSameBytesForTheSameMessages) {
+  Scene scene = small_scene();
+  scene.render.show_panels = true;
+  scene.floor = FloorSpec{-0.06};
+  const auto drawn = [&] {
+    Picture picture(scene);
+    show(picture, cube);
+    for (int i = 0; i < 200; ++i) picture.take(test::trace_at({0, -0.05, 0.02}, i * 0.01, 0.01 * i));
+    NodeStatus status;
+    status.rate_Hz = 1000;
+    picture.take(status);
+    picture.draw(2.0);
+    return picture.image();
+  };
+  const Image one = drawn(), two = drawn();
+  EXPECT_EQ(pixels_that_differ(one, two), 0);
+}
+
+TEST(Picture, WritesAPngOfTheSceneSize) {
+  Scene scene = small_scene();
+  Picture picture(scene);
+  show(picture, cube);
+  picture.draw(0);
+  const auto path = (std::filesystem::path(testing::TempDir()) / "palpate_picture_test.png").string();
+  picture.save_png(path);
+  png_image read{};
+  read.version = PNG_IMAGE_VERSION;
+  ASSERT_NE(png_image_begin_read_from_file(&read, path.c_str()), 0);
+  EXPECT_EQ(read.width, 320U);
+  EXPECT_EQ(read.height, 240U);
+  png_image_free(&read);
+  std::filesystem::remove(path);
+}
+
+TEST(Picture, ShowsPanelsOnTheLeftAndTheBodyBeside) {
+  Scene scene = small_scene();
+  scene.render.size_px = {1280, 720};
+  Picture without(scene);
+  scene.render.show_panels = true;
+  Picture with(scene);
+  for (Picture* picture : {&without, &with}) {
+    show(*picture, cube);
+    picture->draw(1.25);
+  }
+  int dark = 0;  // letters
+  for (int y = 0; y < 720; ++y) {
+    for (int x = 0; x < 300; ++x) dark += with.image().at(x, y)[0] < 90 ? 1 : 0;
+  }
+  EXPECT_GT(dark, 400);
+  const auto is_skin = [](const Picture& picture, int x) {
+    const auto* rgb = picture.image().at(x, 360);
+    return rgb[0] > rgb[2] + 15;
+  };
+  EXPECT_TRUE(is_skin(without, 640));
+  EXPECT_TRUE(is_skin(with, (1280 + 308) / 2));
+}
+
+TEST(Picture, DrawsWiresOverTheSurface) {
+  Scene scene = small_scene();
+  Picture plain(scene);
+  scene.render.show_wire = true;
+  Picture wired(scene);
+  for (Picture* picture : {&plain, &wired}) {
+    show(*picture, cube);
+    picture->draw(0);
+  }
+  EXPECT_GT(pixels_that_differ(plain.image(), wired.image()), 1000);
+}
+
+}  // namespace
+}  // namespace palpate::render
