@@ -5,7 +5,7 @@
 namespace palpate::haptic {
 namespace {
 
-constexpr double feasible_tolerance = 1e-12;  // [m]
+constexpr double feasible_tolerance = 1e-11;  // [m]
 constexpr double rank_tolerance = 1e-12;      // of det(N^T N), between 0 and 1 for unit normals
 
 /// Tries the `Count` planes in `index` as the active set: lambda = (N^T N)^-1 d, d_i the depth of x below plane i.

@@ -65,11 +65,10 @@ void Controller::enter_safe(bool may_resume_inside) noexcept {
 
 void Controller::look_for_trouble(MotionVerdict verdict, const DeviceSample& sample, double dt) noexcept {
   const bool forcing = engaged() || state_ == HapticState::safe;
-  if (verdict == MotionVerdict::unsafe || (forcing && !sample.held)) {
+  if (verdict == MotionVerdict::unsafe || (forcing && !sample.held))
     enter_safe(false);
-  } else if (forcing && (dt > stall || !sample.powered)) {
+  else if ((forcing && dt > stall) || (engaged() && !sample.powered))
     enter_safe(true);
-  }
 }
 
 void Controller::step_ready(std::int64_t now_ns, const DeviceSample& sample) noexcept {

@@ -1,0 +1,8 @@
+# Laws of the hand: stability, energy, what can never happen.
+foreach(law norton fuzz)
+  if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/haptic_${law}_test.cpp)
+    palpate_test(NAME haptic_${law}_test KIND property SOURCES haptic_${law}_test.cpp LIBS palpate::haptic)
+    target_compile_definitions(haptic_${law}_test PRIVATE
+      PALPATE_TEST_DRIVERS="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/drivers")
+  endif()
+endforeach()
