@@ -9,8 +9,8 @@
 namespace palpate::render {
 namespace {
 
-const Eigen::Vector3f steel(0.62F, 0.66F, 0.72F);
-const Eigen::Vector3f arrow_colour(0.93F, 0.36F, 0.08F);
+const Eigen::Vector3f steel(0.74F, 0.77F, 0.82F);
+const Eigen::Vector3f arrow_colour(1.0F, 0.45F, 0.10F);
 
 // The stick comes from where a scripted hand starts, leaning a little so that it does not hide the arrow.
 Eigen::Vector3d stick_axis(const DeviceSpec& device) {

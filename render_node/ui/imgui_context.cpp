@@ -29,7 +29,8 @@ void load_font(float px) {
 void choose_colours() {
   ImGui::StyleColorsLight();
   ImGuiStyle& style = ImGui::GetStyle();
-  style.Colors[ImGuiCol_WindowBg] = ImVec4(1.0F, 1.0F, 1.0F, 0.86F);
+  style.Colors[ImGuiCol_WindowBg] = ImVec4(1.0F, 1.0F, 1.0F, 0.92F);
+  style.Colors[ImGuiCol_FrameBg] = ImVec4(0.88F, 0.90F, 0.93F, 1.0F);
   style.Colors[ImGuiCol_Text] = ImVec4(0.10F, 0.13F, 0.17F, 1.0F);
   style.Colors[ImGuiCol_TextDisabled] = ImVec4(0.40F, 0.45F, 0.51F, 1.0F);
   style.Colors[ImGuiCol_Separator] = ImVec4(0.80F, 0.83F, 0.87F, 1.0F);
