@@ -65,15 +65,8 @@ H5T_class_t class_of(hid_t dataset) {
 Shape Hdf5File::shape(const std::string& path) const {
   hdf5::hush();
   const Handle dataset = open_dataset(file_, path);
-  checked(dataset.get(), "there is no dataset " + path);
+  checked(dataset.get(), "there is no sound dataset " + path);
   return shape_of(dataset.get());
-}
-
-bool Hdf5File::holds_integers(const std::string& path) const {
-  hdf5::hush();
-  const Handle dataset = open_dataset(file_, path);
-  checked(dataset.get(), "there is no dataset " + path);
-  return class_of(dataset.get()) == H5T_INTEGER;
 }
 
 template <class T>
@@ -100,7 +93,7 @@ template <class T>
 std::vector<T> Hdf5File::read(const std::string& path) const {
   hdf5::hush();
   const Handle dataset = open_dataset(file_, path);
-  checked(dataset.get(), "there is no dataset " + path);
+  checked(dataset.get(), "there is no sound dataset " + path);
   const H5T_class_t kind = class_of(dataset.get());
   if (kind != H5T_INTEGER && kind != H5T_FLOAT) fail("dataset " + path + " is not made of numbers");
   const std::uint64_t n = product(shape_of(dataset.get()));

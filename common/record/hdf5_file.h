@@ -24,8 +24,6 @@ class Hdf5File {
   void make_group(const std::string& path);
   bool has(const std::string& path) const;
   std::vector<std::uint64_t> shape(const std::string& path) const;
-  /// True for a dataset of integers, of any width.
-  bool holds_integers(const std::string& path) const;
 
   // Whole datasets, row major, chunked and deflated when large. T: float, double, int16, uint8, int32, uint32, uint64.
   template <class T>

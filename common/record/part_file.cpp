@@ -44,6 +44,11 @@ void PartFile::commit() {
   committed_ = true;
 }
 
+void remove_part(const std::string& path) noexcept {
+  std::error_code ignored;
+  fs::remove(path + ".part", ignored);
+}
+
 void check_can_write(const std::string& path) { const PartFile trial(path); }
 
 }  // namespace palpate

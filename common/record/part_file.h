@@ -25,6 +25,9 @@ class PartFile {
   bool committed_ = false;
 };
 
+/// Removes what a killed process left beside `path`.
+void remove_part(const std::string& path) noexcept;
+
 /// What PartFile would complain about, before the work is done. Leaves nothing.
 void check_can_write(const std::string& path);
 

@@ -1,3 +1,4 @@
+#include <Eigen/LU>
 #include <charconv>
 #include <cmath>
 #include <new>

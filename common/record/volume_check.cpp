@@ -41,7 +41,8 @@ void check_intensity(const std::string& where, const std::vector<float>& intensi
 }
 
 void check_transfer(const std::string& where, const std::vector<TransferPoint>& transfer) {
-  if (transfer.size() < 2) throw InputError(where + ": its transfer function needs at least two points");
+  if (transfer.size() < 2)
+    throw InputError(where + ": its transfer function has fewer than two points; give at least two");
   for (std::size_t i = 0; i < transfer.size(); ++i) {
     const auto& point = transfer[i];
     if (!std::isfinite(point.intensity) || (i > 0 && point.intensity < transfer[i - 1].intensity))

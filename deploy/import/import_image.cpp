@@ -9,10 +9,11 @@
 #include "common/record/volume_check.h"
 #include "deploy/import/image_format.h"
 #include "deploy/import/itk_volume.h"
+#include "deploy/import/meta_header.h"
 #include "deploy/import/nifti_header.h"
+#include "deploy/import/nrrd_header.h"
 #include "deploy/import/read_dicom.h"
 #include "deploy/import/read_inv3.h"
-#include "deploy/import/text_header.h"
 
 namespace palpate {
 namespace {

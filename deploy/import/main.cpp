@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <new>
 
@@ -10,6 +11,7 @@
 #include "common/math/units.h"
 #include "common/record/part_file.h"
 #include "deploy/import/import_image.h"
+#include "deploy/import/in_child.h"
 
 namespace {
 
@@ -21,7 +23,7 @@ struct Command {
   bool quiet = false;
 };
 
-/// @throws CLI::ParseError, InputError
+/// @throws CLI::ParseError
 Command parse(CLI::App& app, int argc, char** argv) {
   Command command;
   std::vector<std::int64_t> size;
@@ -64,6 +66,26 @@ void report(const Command& command, const Volume& volume) {
              mm_from_m(volume.spacing[1]), mm_from_m(volume.spacing[2]), *lo, *hi, command.out);
 }
 
+/// All but the command line. Prints what is wrong, one line a mistake, and gives the exit code.
+int import(const Command& command) {
+  try {
+    check_output(command);
+    const Volume volume = import_image(command.options);
+    write_volume(volume, command.out);
+    if (!command.quiet) report(command, volume);
+    return exit_ok;
+  } catch (const InputError& error) {
+    for (const auto& line : error.complaints()) fmt::print(stderr, "{}\n", line);
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "{}: is too large for this machine's memory; give a smaller image\n",
+               command.options.input);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}: {}\n", command.options.input, error.what());
+    return exit_failed;
+  }
+  return exit_mistake;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -71,23 +93,18 @@ int main(int argc, char** argv) {
   Command command;
   try {
     command = parse(app, argc, argv);
-    check_output(command);
-    const Volume volume = import_image(command.options);
-    write_volume(volume, command.out);
-    if (!command.quiet) report(command, volume);
-    return exit_ok;
   } catch (const CLI::Success& wanted) {
     return app.exit(wanted);
   } catch (const CLI::ParseError& error) {
     fmt::print(stderr, "palpate import: {}; palpate import --help tells more\n", error.what());
-  } catch (const InputError& error) {
-    for (const auto& line : error.complaints()) fmt::print(stderr, "{}\n", line);
-  } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "{}: is too large for the memory of this machine; give a smaller image\n",
-               command.options.input);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "palpate import: {}\n", error.what());
-    return exit_failed;
+    return exit_mistake;
   }
+  const int code = run_in_child([&] { return import(command); });
+  if (code >= 0) return code;
+  remove_part(command.out);
+  if (code == -SIGINT || code == -SIGTERM) return exit_failed;  // as the person wished
+  fmt::print(stderr,
+             "{}: reading it was cut off by signal {}, so it is probably damaged; fetch a whole copy\n",
+             command.options.input, -code);
   return exit_mistake;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <vector>
 
@@ -18,8 +19,8 @@ namespace {
 constexpr std::size_t header_bytes = 348;
 
 /// Byte positions in the header.
-constexpr std::size_t at_dim = 40, at_bitpix = 72, at_pixdim = 76, at_vox_offset = 108, at_units = 123,
-                      at_qform = 252, at_sform = 254;
+constexpr std::size_t at_dim = 40, at_datatype = 70, at_bitpix = 72, at_pixdim = 76, at_vox_offset = 108,
+                      at_units = 123, at_qform = 252, at_sform = 254;
 
 class Header {
  public:
@@ -40,6 +41,7 @@ class Header {
     return value;
   }
 
+  bool swapped() const { return swap_; }
   std::int64_t dim(std::size_t i) const { return get<std::int16_t>(at_dim + 2 * i); }
   double pixdim(std::size_t i) const { return static_cast<double>(get<float>(at_pixdim + 4 * i)); }
 
@@ -60,20 +62,43 @@ double metres_per_unit(const Header& header) {
   }
 }
 
-/// The file must hold what it says; the library pads what is missing in some cases.
-void check_length(const std::string& path, const Header& header, ByteStream& stream, std::uint64_t cells) {
+template <class T>
+std::uint64_t count_not_finite(const std::vector<unsigned char>& bytes, std::size_t n, bool swap) {
+  std::uint64_t count = 0;
+  for (std::size_t at = 0; at + sizeof(T) <= n; at += sizeof(T)) {
+    std::array<unsigned char, sizeof(T)> raw{};
+    std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), sizeof(T), raw.begin());
+    if (swap) std::reverse(raw.begin(), raw.end());
+    T value{};
+    std::memcpy(&value, raw.data(), sizeof(T));
+    count += std::isfinite(value) ? 0 : 1;
+  }
+  return count;
+}
+
+/// The file must hold what it says, and numbers: the library makes zeros of what is missing or not finite.
+void check_cells(const std::string& path, const Header& header, ByteStream& stream, std::uint64_t cells) {
   const double offset = static_cast<double>(header.get<float>(at_vox_offset));
-  const std::uint64_t start =
-      offset >= header_bytes && offset < 1e9 ? static_cast<std::uint64_t>(offset) : 352;
+  const std::size_t gap =
+      offset >= header_bytes && offset < 1e6 ? static_cast<std::size_t>(offset) - header_bytes : 4;
   const auto bits =
       static_cast<std::uint64_t>(std::max<std::int16_t>(0, header.get<std::int16_t>(at_bitpix)));
-  const std::uint64_t wanted = start + cells * bits / 8;
-  std::vector<unsigned char> waste(1 << 18);
-  std::uint64_t held = header_bytes;
-  for (std::size_t n = waste.size(); n == waste.size(); held += n) n = stream.read(waste.data(), n);
+  const auto type = header.get<std::int16_t>(at_datatype);
+  const std::uint64_t wanted = cells * bits / 8;
+  std::vector<unsigned char> bytes((gap / 8 + (1 << 15)) * 8);
+  std::uint64_t held = 0, bad = 0;
+  stream.read(bytes.data(), gap);
+  for (std::size_t n = bytes.size(); n == bytes.size() && held < wanted; held += n) {
+    n = stream.read(bytes.data(), bytes.size());
+    if (type == 16) bad += count_not_finite<float>(bytes, n, header.swapped());
+    if (type == 64) bad += count_not_finite<double>(bytes, n, header.swapped());
+  }
   if (held < wanted)
-    throw InputError(fmt::format("{}: holds {} bytes of the {} that its header asks for; fetch a whole copy",
-                                 path, held, wanted));
+    throw InputError(
+        fmt::format("{}: holds {} bytes of the {} of its cells; fetch a whole copy", path, held, wanted));
+  if (bad > 0)
+    throw InputError(
+        fmt::format("{}: {} of its values are not finite numbers; replace them first", path, bad));
 }
 
 }  // namespace
@@ -92,7 +117,7 @@ ImageFacts check_nifti_header(const std::string& path) {
   check_spacing(path, {unit * header.pixdim(1), unit * header.pixdim(2), unit * header.pixdim(3)});
   std::uint64_t cells = 1;
   for (const int n : size) cells *= static_cast<std::uint64_t>(n);
-  check_length(path, header, stream, cells);
+  check_cells(path, header, stream, cells);
   ImageFacts facts;
   facts.oriented = header.get<std::int16_t>(at_qform) > 0 || header.get<std::int16_t>(at_sform) > 0;
   return facts;

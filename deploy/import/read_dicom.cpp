@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "common/error/error.h"
+#include "deploy/import/dicom_length.h"
 #include "deploy/import/image_format.h"
 #include "deploy/import/itk_volume.h"
 #include "deploy/import/stack_slices.h"
@@ -19,24 +20,29 @@ bool holds(const DicomSeries& series, const std::string& file) {
                      [&](const std::string& name) { return fs::equivalent(name, file); });
 }
 
+std::vector<std::string> dicom_files_in(const std::string& folder) {
+  std::vector<std::string> files;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.is_regular_file() && looks_like_dicom(entry.path().string()))
+      files.push_back(entry.path().string());
+  return files;
+}
+
 /// A file that means to be DICOM but is in no series would leave a hole in the volume: nothing is left out silently.
-void check_none_lost(const std::string& folder, const std::vector<DicomSeries>& all) {
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string file = entry.path().string();
-    if (!entry.is_regular_file() || !looks_like_dicom(file)) continue;
-    const bool used =
-        std::any_of(all.begin(), all.end(), [&](const DicomSeries& series) { return holds(series, file); });
-    if (!used)
-      throw InputError(file +
-                       ": cannot be read as DICOM, damaged or truncated; fetch a whole copy or move it away");
-  }
+void check_none_lost(const std::vector<std::string>& files, const std::vector<DicomSeries>& all) {
+  for (const auto& file : files)
+    if (std::none_of(all.begin(), all.end(), [&](const DicomSeries& series) { return holds(series, file); }))
+      throw InputError(
+          file + ": cannot be read as DICOM, damaged or not an image; fetch a whole copy, or move it away");
 }
 
 DicomSeries wanted_series(const std::string& path) {
   const bool whole_folder = fs::is_directory(path);
   const std::string folder = whole_folder ? path : fs::absolute(path).parent_path().string();
+  const auto files = dicom_files_in(folder);
+  for (const auto& file : files) check_dicom_length(file);
   const auto all = dicom_series_in(folder);
-  check_none_lost(folder, all);
+  check_none_lost(files, all);
   if (whole_folder && all.empty())
     throw InputError(path + ": there is no DICOM in this folder; name one that has some");
   if (whole_folder && all.size() > 1)

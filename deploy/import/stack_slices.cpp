@@ -12,7 +12,8 @@
 namespace palpate {
 namespace {
 
-constexpr double evenness = 0.01;  // of a step; positions are written with few digits
+constexpr double evenness = 0.1;   // of a step: scanners are not better than 1 %, a missing slice is 100 %
+constexpr double straight = 0.02;  // of a step, sideways: about one degree
 
 std::string name_of(const Slice& slice) { return std::filesystem::path(slice.file).filename().string(); }
 
@@ -43,7 +44,7 @@ Eigen::Vector3d common_step(const std::string& where, const std::vector<Slice>& 
           "{}: from {} to {} the step is {:.4g} mm, on average it is {:.4g} mm; give every slice once", where,
           name_of(slices[k - 1]), name_of(slices[k]), mm_from_m(step.norm()), mm_from_m(mean.norm())));
   }
-  if ((mean - mean.norm() * normal_of(slices.front())).norm() > evenness * mean.norm())
+  if ((mean - mean.norm() * normal_of(slices.front())).norm() > straight * mean.norm())
     throw InputError(where +
                      ": its slices are sheared (tilted gantry); resample them onto a straight grid first");
   return mean;

@@ -17,8 +17,8 @@ struct Slice {
 /// Sorts by the position along the common normal, the third column of the orientation.
 void sort_slices(std::vector<Slice>& slices);
 
-/// Stacks sorted slices. They must have the same size, spacing and orientation, and steps that are equal (to 1 %) and
-/// along the normal. @throws InputError beginning with `where`
+/// Stacks sorted slices. They must have the same size, spacing and orientation, and steps that are equal (to 10 %)
+/// and along the normal. @throws InputError beginning with `where`
 Volume stack_slices(const std::string& where, const std::vector<Slice>& slices);
 
 }  // namespace palpate
