@@ -1,11 +1,12 @@
 #include "haptic_node/contact/plane_projection.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 
 namespace palpate::haptic {
 namespace {
 
-constexpr double feasible_tolerance = 1e-11;  // [m]
+constexpr double feasible_tolerance = 1e-13;  // [m]
 constexpr double rank_tolerance = 1e-12;      // of det(N^T N), between 0 and 1 for unit normals
 
 /// Tries the `Count` planes in `index` as the active set: lambda = (N^T N)^-1 d, d_i the depth of x below plane i.
@@ -21,11 +22,16 @@ bool try_active(std::span<const HalfSpace> planes, const std::array<std::size_t,
   }
   const Eigen::Matrix<double, Count, Count> gram = normals.transpose() * normals;
   if (!(gram.determinant() > rank_tolerance)) return false;
-  const Eigen::Matrix<double, Count, 1> lambda = gram.inverse() * depth;
+  const Eigen::Matrix<double, Count, Count> inverse = gram.inverse();
+  Eigen::Matrix<double, Count, 1> lambda = inverse * depth;
+  lambda +=
+      inverse * (depth - normals.transpose() * (normals * lambda));  // one refinement: N^T N squares errors
   if (!(lambda.minCoeff() >= 0)) return false;
   const Vec3 p = x + normals * lambda;
-  for (const HalfSpace& plane : planes)
-    if (!(plane.normal.dot(p - plane.point) >= -feasible_tolerance)) return false;
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    const bool active = std::find(index.begin(), index.begin() + Count, i) != index.begin() + Count;
+    if (!active && !(planes[i].normal.dot(p - planes[i].point) >= -feasible_tolerance)) return false;
+  }
   result.point = p;
   for (int i = 0; i < Count; ++i) result.push[index[static_cast<std::size_t>(i)]] = lambda(i);
   return true;

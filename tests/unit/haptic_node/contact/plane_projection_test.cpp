@@ -32,7 +32,7 @@ bool nearest_by_force(const std::vector<HalfSpace>& planes, const Vec3& x, Vec3L
     bool feasible = true;
     for (const auto& plane : planes)
       feasible =
-          feasible && plane.normal.cast<long double>().dot(p - plane.point.cast<long double>()) >= -1e-11L;
+          feasible && plane.normal.cast<long double>().dot(p - plane.point.cast<long double>()) >= -1e-14L;
     if (feasible && (p - xl).norm() < best_distance) {
       best_distance = (p - xl).norm();
       best = p;

@@ -1,0 +1,104 @@
+// The real-time thread in wall time. This machine may be busy: only what must hold however late it runs is asked.
+
+#include "haptic_node/loop/realtime_loop.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "haptic_node/loop/haptic_summary.h"
+#include "tests/unit/haptic_node/virtual_world.h"
+
+namespace palpate::haptic::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+struct Running {
+  explicit Running(const Scene& scene) {
+    channels.push_back(std::make_unique<ToolChannel>(scene, 0, ""));
+    loop = std::make_unique<RealtimeLoop>(channels, 1000);
+    loop->start();
+  }
+  /// As the slow thread and physics would, for a while.
+  void live(std::chrono::milliseconds span, bool with_patches) {
+    const auto end = std::chrono::steady_clock::now() + span;
+    while (std::chrono::steady_clock::now() < end) {
+      if (with_patches) {
+        if (const ToolState* state = channels[0]->states.newest()) {
+          patch.answers = state->tick;
+          patch.answers_ns = state->stamp_ns;
+        }
+        patch.tick += 1;
+        channels[0]->patches.write(patch);
+      }
+      channels[0]->session.service();
+      TraceSample sample;
+      while (channels[0]->trace.pop(sample)) {
+        in_order = in_order && sample.tick == last_tick + 1;
+        last_tick = sample.tick;
+      }
+      std::this_thread::sleep_for(2ms);
+    }
+  }
+
+  std::vector<std::unique_ptr<ToolChannel>> channels;
+  std::unique_ptr<RealtimeLoop> loop;
+  ContactPatch patch = flat_patch(1);
+  std::uint64_t last_tick = 0;
+  bool in_order = true;
+};
+
+TEST(RealtimeLoop, TicksArmsAndTracesWithoutAGap) {
+  Running running(scene_with(HandModel::arm, press(0.003)));
+  running.live(1500ms, true);
+  running.loop->finish();
+  running.live(1ms, false);
+  const LoopStats* stats = running.loop->stats();
+  ASSERT_NE(stats, nullptr);
+  EXPECT_EQ(stats->ticks, running.last_tick);
+  EXPECT_TRUE(running.in_order);
+  EXPECT_EQ(running.channels[0]->trace_lost.load(), 0u);
+  EXPECT_GT(running.channels[0]->session.first_run_ns(), 0);
+  std::uint64_t waking = 0;
+  for (const auto count : stats->lateness) waking += count;
+  EXPECT_EQ(waking, stats->ticks);
+  EXPECT_EQ(stats->period.total(), stats->ticks - 1);
+  EXPECT_NEAR(static_cast<double>(stats->ticks + stats->skipped) * 1e-3,
+              seconds_from_ns(stats->last_ns - stats->start_ns), 0.01);
+  EXPECT_LT(stats->compute.percentile(0.5), 100.0);
+}
+
+TEST(RealtimeLoop, EndsWithNoForceAndClosedDevices) {
+  Running running(scene_with(HandModel::rigid, {{0, {0, 0, 0.005}}, {0.2, {0, 0, -0.004}}}));
+  running.live(600ms, true);
+  const auto begin = std::chrono::steady_clock::now();
+  running.loop->finish();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 1s);
+  for (const double f : running.channels[0]->session.tool_state().force_on_hand) EXPECT_EQ(f, 0.0);
+  running.channels[0]->session.close();
+  EXPECT_EQ(running.channels[0]->session.state(), HapticState::off);
+}
+
+TEST(HapticSummary, HasTheKeysOfASummary) {
+  LoopStats stats;
+  stats.ticks = 1001;
+  stats.start_ns = 0;
+  stats.last_ns = 1'001'000'000;
+  stats.period.add(1000);
+  stats.compute.add(5);
+  SessionReport report;
+  report.counts.energy_max = 1e-3;
+  report.counts.stale_events = 2;
+  const nlohmann::json haptic = haptic_summary(stats, {report, report}, 0)["haptic"];
+  EXPECT_NEAR(haptic["rate_Hz"].get<double>(), 1000, 1e-9);
+  EXPECT_EQ(haptic["stale_events"], 4);
+  EXPECT_EQ(haptic["energy_max_J"], 1e-3);
+  for (const char* key : {"p50", "p99", "p999", "max"}) EXPECT_TRUE(haptic["period_us"].contains(key));
+  EXPECT_FALSE(haptic.contains("loop_age_ms")) << "no patch answered";
+}
+
+}  // namespace
+}  // namespace palpate::haptic::test
