@@ -1,0 +1,46 @@
+#pragma once
+// A shape as filled cells: what a voxel body is made from, and what stays as rigid scenery.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "common/record/volume.h"
+#include "common/scene/scene.h"
+#include "physics_node/lattice/lattice.h"
+
+namespace palpate::physics {
+
+struct Cells {
+  Vec3i size = Vec3i::Zero();
+  Vec3 spacing = Vec3::Zero();           // [m]
+  Vec3 corner = Vec3::Zero();            // of cell (0, 0, 0), world [m]
+  std::vector<std::uint8_t> filled;      // 1: tissue                              (size, x fastest)
+  std::vector<std::uint8_t> deformable;  // 1: tissue that moves; the rest is rigid (size)
+  std::vector<float> intensity;          // of each cell; empty where there is no image
+  std::vector<TransferPoint> transfer;   // colours; empty where there is no image
+
+  std::size_t index(int i, int j, int k) const {
+    return static_cast<std::size_t>(i) +
+           static_cast<std::size_t>(size.x()) *
+               (static_cast<std::size_t>(j) +
+                static_cast<std::size_t>(size.y()) * static_cast<std::size_t>(k));
+  }
+  bool inside(int i, int j, int k) const {
+    return i >= 0 && j >= 0 && k >= 0 && i < size.x() && j < size.y() && k < size.z();
+  }
+  bool is_filled(int i, int j, int k) const { return inside(i, j, k) && filled[index(i, j, k)] != 0; }
+  bool is_deformable(int i, int j, int k) const { return inside(i, j, k) && deformable[index(i, j, k)] != 0; }
+  std::size_t n_filled() const;
+  std::size_t n_deformable() const;
+};
+
+/// The cells of a body's shape. A volume is read from its file, resampled to the partition asked for, and
+/// thresholded; other shapes fill every cell whose centre lies inside.
+/// @throws InputError: unreadable volume, nothing left within the window, nothing deformable
+Cells make_cells(const BodySpec& body);
+
+/// Keeps only the largest 6-connected component of `filled`. @return how many components there were
+int keep_largest_component(Cells& cells);
+
+}  // namespace palpate::physics

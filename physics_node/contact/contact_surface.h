@@ -1,0 +1,39 @@
+#pragma once
+// The facets that a tool can touch, found near a point.
+
+#include <vector>
+
+#include "physics_node/surface/surface.h"
+
+namespace palpate::physics {
+
+/// The whole tissue surface of a body with what is needed to find facets near a point. Scenery is found through a
+/// grid of buckets; moving facets are looked through one by one, and the caller keeps what it found for a while.
+class ContactSurface {
+ public:
+  ContactSurface(const MovingBody& moving, double bucket_size);
+
+  const Surface& surface() const { return surface_; }
+  double bucket_size() const { return bucket_size_; }
+
+  /// Appends the facets whose centroid lies within `radius` of `p` now. Allocates only while `out` grows.
+  void facets_near(const Vec3& p, double radius, const MovingBody& moving,
+                   std::vector<std::uint32_t>& out) const;
+
+  Vec3 centroid(std::uint32_t facet, const MovingBody& moving) const;
+  /// Half the cross product of the diagonals: the normal times the area [m^2].
+  Vec3 area_vector(std::uint32_t facet, const MovingBody& moving) const;
+
+ private:
+  std::size_t bucket_of(const Vec3& p) const;
+
+  Surface surface_;
+  double bucket_size_;
+  Vec3 low_ = Vec3::Zero();
+  Vec3i n_buckets_ = Vec3i::Ones();
+  std::vector<std::uint32_t> moving_facets_;  // at least one corner moves
+  std::vector<std::uint32_t> bucket_start_;   // facets of bucket b: bucket_facets_[start[b] .. start[b + 1])
+  std::vector<std::uint32_t> bucket_facets_;
+};
+
+}  // namespace palpate::physics

@@ -1,0 +1,176 @@
+#include "physics_node/contact/tool_contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/math/hash.h"
+
+namespace palpate::physics {
+namespace {
+
+constexpr double search_margin = 0.010;  // [m] beyond the tip: what a hand at 0.2 m/s covers in 50 ms
+constexpr double search_period = 0.020;  // [s] after which tissue may have come near by itself
+constexpr double facing_limit = -0.2;    // cosine below which a facet belongs to the other side
+constexpr std::size_t room = 4096;       // facets kept at the most
+
+/// One entry per mass, in storage order.
+void merge_equal_masses(std::vector<MassShare>& shares) noexcept {
+  std::sort(shares.begin(), shares.end(), [](const MassShare& a, const MassShare& b) {
+    return a.cell != b.cell ? a.cell < b.cell : a.share < b.share;
+  });
+  std::size_t n = 0;
+  for (const MassShare& share : shares) {
+    if (n > 0 && shares[n - 1].cell == share.cell) {
+      shares[n - 1].share += share.share;
+    } else {
+      shares[n++] = share;
+    }
+  }
+  shares.resize(n, MassShare{});
+}
+
+Array3 array_of(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
+
+}  // namespace
+
+ToolContact::ToolContact(const ContactSurface& surface, const MovingBody& moving, double radius)
+    : surface_(surface), moving_(moving) {
+  const Lattice& lattice = moving.body().lattice;
+  const double coarse = lattice.kind == LatticeKind::fcc ? lattice.rest_length[0] : lattice.step.maxCoeff();
+  radius_ = std::max(radius, 2 * coarse);
+  reach_ = radius_ + search_margin;
+  near_.reserve(room);
+  facets_.reserve(room);
+  shares_.reserve(4 * room);
+}
+
+void ToolContact::look(const Vec3& p, double t) noexcept {
+  const bool moved = (p - searched_at_).norm() > 0.5 * search_margin;
+  if (moved || t - searched_when_ >= search_period || t < searched_when_) {
+    near_.clear();
+    surface_.facets_near(p, reach_ + search_margin, moving_, near_);
+    if (near_.size() > room) near_.resize(room);
+    searched_at_ = p;
+    searched_when_ = t;
+  }
+  facets_.clear();
+  for (const std::uint32_t id : near_) {
+    const Vec3 centroid = surface_.centroid(id, moving_);
+    const double distance = (centroid - p).norm();
+    if (distance <= reach_) facets_.push_back({id, centroid, surface_.area_vector(id, moving_), distance});
+  }
+}
+
+const ToolContact::Facet* ToolContact::nearest(const Vec3& p) const noexcept {
+  const Facet* best = nullptr;
+  double least = 0;
+  for (const Facet& facet : facets_) {
+    const double d = (facet.centroid - p).squaredNorm();
+    if (best == nullptr || d < least) best = &facet, least = d;
+  }
+  return best;
+}
+
+double ToolContact::nearest_distance(const Vec3& p) const noexcept {
+  const Facet* facet = nearest(p);
+  return facet == nullptr ? std::numeric_limits<double>::infinity() : (facet->centroid - p).norm();
+}
+
+double ToolContact::weight(const Facet& facet, const Vec3& q, const Vec3& facing) const noexcept {
+  const double r2 = (facet.centroid - q).squaredNorm() / (radius_ * radius_);
+  if (r2 >= 1) return 0;
+  const double area = facet.area.norm();
+  if (facet.area.dot(facing) < facing_limit * area) return 0;
+  return area * (1 - r2) * (1 - r2);
+}
+
+LocalPlane ToolContact::plane_at(const Vec3& q, const Vec3& facing) const noexcept {
+  LocalPlane plane;
+  double sum = 0;
+  Vec3 point = Vec3::Zero();
+  Vec3 normal = Vec3::Zero();
+  for (const Facet& facet : facets_) {
+    const double w = weight(facet, q, facing);
+    if (w <= 0) continue;
+    sum += w;
+    point += w * facet.centroid;
+    normal += w / facet.area.norm() * facet.area;
+  }
+  if (sum <= 0 || normal.norm() < 0.1 * sum) return plane;
+  plane.found = true;
+  plane.point = point / sum;
+  plane.normal = normal.normalized();
+  return plane;
+}
+
+LocalPlane ToolContact::plane_under(const Vec3& p) const noexcept {
+  const Facet* start = nearest(p);
+  if (start == nullptr) return {};
+  // First the side that the neighbourhood faces: a single voxel facet may be the riser of a step.
+  LocalPlane plane = plane_at(start->centroid, start->area.normalized());
+  for (int n = 0; n < 3 && plane.found; ++n) {
+    const Vec3 q = p - plane.normal.dot(p - plane.point) * plane.normal;
+    const LocalPlane next = plane_at(q, plane.normal);
+    if (!next.found) break;
+    plane = next;
+  }
+  return plane;
+}
+
+void ToolContact::find_shares(const Vec3& q) noexcept {
+  shares_.clear();
+  const LocalPlane plane = plane_under(q);
+  if (!plane.found) return;
+  const Vec3 foot = q - plane.normal.dot(q - plane.point) * plane.normal;
+  double sum = 0;
+  for (const Facet& facet : facets_) sum += weight(facet, foot, plane.normal);
+  if (sum <= 0) return;
+  const Surface& surface = surface_.surface();
+  for (const Facet& facet : facets_) {
+    const double w = weight(facet, foot, plane.normal);
+    if (w <= 0) continue;
+    for (const std::uint32_t corner : surface.facets[facet.id]) {
+      if (corner >= surface.n_moving() || shares_.size() == shares_.capacity()) continue;
+      shares_.push_back({surface.cell[corner], w / (4 * sum)});
+    }
+  }
+  merge_equal_masses(shares_);
+}
+
+std::uint32_t ToolContact::write_facets(const Vec3& p, std::uint32_t body, PatchFacet* out,
+                                        std::uint32_t n_room) noexcept {
+  const auto closer = [&](const Facet& a, const Facet& b) {
+    const double da = (a.centroid - p).squaredNorm();
+    const double db = (b.centroid - p).squaredNorm();
+    return da != db ? da < db : a.id < b.id;
+  };
+  const std::size_t n = std::min<std::size_t>(facets_.size(), n_room / 2);
+  std::partial_sort(facets_.begin(), facets_.begin() + static_cast<std::ptrdiff_t>(n), facets_.end(), closer);
+  std::uint32_t written = 0;
+  contact_set_ = hash_seed;
+  const LocalPlane under = plane_under(p);
+  for (std::size_t f = 0; f < n && under.found; ++f) {
+    const Facet& facet = facets_[f];
+    const LocalPlane plane = plane_at(facet.centroid, under.normal);
+    if (!plane.found || facet.area.dot(under.normal) < facing_limit * facet.area.norm()) continue;
+    const auto& corners = surface_.surface().facets[facet.id];
+    for (std::size_t half = 0; half < 2; ++half) {
+      if (half == 1 && corners[2] == corners[3]) continue;  // a triangle
+      PatchFacet& patch = out[written++];
+      patch = {};
+      const std::array<std::size_t, 3> of =
+          half == 0 ? std::array<std::size_t, 3>{0, 1, 2} : std::array<std::size_t, 3>{0, 2, 3};
+      for (std::size_t c = 0; c < 3; ++c)
+        patch.corners[c] = array_of(surface_.surface().position(corners[of[c]], moving_));
+      patch.point = array_of(plane.point);
+      patch.normal = array_of(plane.normal);
+      patch.body = body;
+    }
+    contact_set_ = hash_bytes(&facet.id, sizeof(facet.id), contact_set_);
+  }
+  if (written == 0) contact_set_ = 0;
+  return written;
+}
+
+}  // namespace palpate::physics

@@ -1,0 +1,77 @@
+#pragma once
+// What the tissue looks like to a point tool: a smooth plane through the facets around it, and where its force goes.
+
+#include <vector>
+
+#include "common/message/messages.h"
+#include "physics_node/contact/contact_surface.h"
+
+namespace palpate::physics {
+
+/// A plane fitted to the facets near a point, and the share of each mass in it.
+struct LocalPlane {
+  bool found = false;
+  Vec3 point = Vec3::Zero();    // on the tissue now [m]
+  Vec3 normal = Vec3::UnitZ();  // out of the tissue, unit
+};
+
+/// The part of a force on a plane that one mass behind it takes.
+struct MassShare {
+  Index cell = 0;
+  double share = 0;
+};
+
+class ToolContact {
+ public:
+  /// @param radius  of the tip: facets within this distance shape the plane and take the force [m]
+  ToolContact(const ContactSurface& surface, const MovingBody& moving, double radius);
+
+  /// Looks for facets around `p`; keeps what it found until the tool or the tissue may have left it.
+  void look(const Vec3& p, double t) noexcept;
+
+  /// The plane under p:
+  ///   w_f = A_f (1 - |c_f - q|^2 / R^2)^2,   point = sum w c / sum w,   normal = sum w n / |sum w n|
+  /// q begins at the facet nearest to p and follows the projection of p onto the plane. Facets that face away from
+  /// the nearest one do not count. Source: Adamson & Alexa 2003 (point set surfaces from weighted averages);
+  /// R = the tip's radius, so the plane is as smooth as the tip is round although voxel facets are steps.
+  LocalPlane plane_under(const Vec3& p) const noexcept;
+
+  /// Finds the masses that carry the plane under q and their shares: the weights of the plane's point, so that a force
+  /// does the same work on the point as its shares do on the masses. What is missing to 1 lies on scenery.
+  void find_shares(const Vec3& q) noexcept;
+  const std::vector<MassShare>& shares() const { return shares_; }  // in storage order
+
+  /// Distance from p to the nearest facet's centroid; infinite where none is near [m].
+  double nearest_distance(const Vec3& p) const noexcept;
+  double radius() const { return radius_; }
+
+  /// Writes the facets nearest to p, each with its own plane, nearest first. @return how many triangles
+  std::uint32_t write_facets(const Vec3& p, std::uint32_t body, PatchFacet* out, std::uint32_t room) noexcept;
+
+  /// Hash of the facets that write_facets named last: the contact set.
+  std::uint64_t contact_set() const { return contact_set_; }
+
+ private:
+  struct Facet {
+    std::uint32_t id;
+    Vec3 centroid, area;
+    double distance;
+  };
+  void refresh(const Vec3& p) noexcept;
+  double weight(const Facet& facet, const Vec3& q, const Vec3& facing) const noexcept;
+  LocalPlane plane_at(const Vec3& q, const Vec3& facing) const noexcept;
+  const Facet* nearest(const Vec3& p) const noexcept;
+
+  const ContactSurface& surface_;
+  const MovingBody& moving_;
+  double radius_;
+  double reach_;  // facets within this distance are kept [m]
+  Vec3 searched_at_ = Vec3::Constant(1e9);
+  double searched_when_ = -1e9;
+  std::vector<std::uint32_t> near_;
+  std::vector<Facet> facets_;  // of near_, as they are now
+  std::vector<MassShare> shares_;
+  std::uint64_t contact_set_ = 0;
+};
+
+}  // namespace palpate::physics

@@ -1,0 +1,112 @@
+#include "physics_node/contact/tool_coupling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace palpate::physics {
+namespace {
+
+constexpr double force_cutoff_Hz = 5.0;    // of the hand's force on its way into the tissue
+constexpr double negligible_force = 1e-6;  // [N]; below this the tissue is let go
+
+Array3 array_of(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
+Vec3 vector_of(const Array3& p) { return {p[0], p[1], p[2]}; }
+
+}  // namespace
+
+ToolCoupling::ToolCoupling(const ToolSpec& tool, std::uint32_t index,
+                           const std::vector<TouchableBody>& bodies)
+    : index_(index), set_point_(tool.set_point) {
+  contacts_.reserve(bodies.size());
+  for (const auto& body : bodies) {
+    contacts_.emplace_back(*body.surface, *body.moving, tool.radius);
+    moving_.push_back(body.moving);
+  }
+  forces_.reserve(16384);
+}
+
+void ToolCoupling::take(const ToolState* state, double dt) noexcept {
+  Vec3 target = Vec3::Zero();
+  if (state != nullptr) {
+    seen_ = true;
+    engaged_ = state->engaged != 0;
+    tick_ = state->tick;
+    stamp_ns_ = state->stamp_ns;
+    tip_ = vector_of(state->p_WT);
+    proxy_ = vector_of(state->proxy);
+    if (engaged_) target = vector_of(state->force_on_hand);
+  }
+  // First-order low pass: F := F + (1 - e^(-2 pi f dt)) (target - F).
+  force_ += (1 - std::exp(-2 * std::numbers::pi * force_cutoff_Hz * dt)) * (target - force_);
+  if (target.isZero() && force_.norm() < negligible_force) force_.setZero();
+}
+
+std::uint32_t ToolCoupling::find_contact(double t) noexcept {
+  forces_.clear();
+  moving_share_ = 0;
+  plane_velocity_.setZero();
+  if (!seen_) return 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t b = 0; b < contacts_.size(); ++b) {
+    contacts_[b].look(proxy_, t);
+    const double distance = contacts_[b].nearest_distance(proxy_);
+    if (distance < least) least = distance, touched_ = b;
+  }
+  if (!std::isfinite(least)) return 0;
+
+  ToolContact& contact = contacts_[touched_];
+  contact.find_shares(proxy_);
+  for (const MassShare& share : contact.shares()) {
+    moving_share_ += share.share;
+    plane_velocity_ += share.share * moving_[touched_]->velocity(share.cell);
+    if (!force_.isZero()) forces_.push_back({share.cell, -share.share * force_});
+  }
+  return static_cast<std::uint32_t>(forces_.size());
+}
+
+double ToolCoupling::tissue_stiffness(std::size_t body) const noexcept {
+  constexpr double nu = 1.0 / 3.0;
+  const double a = 0.5 * contacts_[body].radius();
+  const double soft = 2 * moving_[body]->body().law.modulus * a / (1 - nu * nu);
+  // The share that lies on scenery does not give.
+  return moving_share_ > 0 ? std::min(soft / moving_share_, rigid_stiffness) : rigid_stiffness;
+}
+
+void ToolCoupling::write_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) noexcept {
+  patch.tool = index_;
+  patch.tick = frame;
+  patch.stamp_ns = now_ns;
+  patch.answers = tick_;
+  patch.answers_ns = stamp_ns_;
+  patch.n_facets = 0;
+  patch.contact_set = 0;
+  if (!seen_ || contacts_.empty()) return;
+  ToolContact& contact = contacts_[touched_];
+  patch.n_facets = contact.write_facets(proxy_, static_cast<std::uint32_t>(touched_), patch.facets.data(),
+                                        max_patch_facets);
+  patch.contact_set = contact.contact_set();
+  const double K_o = tissue_stiffness(touched_);
+  for (std::uint32_t f = 0; f < patch.n_facets; ++f) {
+    PatchFacet& facet = patch.facets[f];
+    const Vec3 n = vector_of(facet.normal);
+    facet.point = array_of(vector_of(facet.point) + std::max(0.0, force_.dot(n)) / K_o * n);
+    facet.stiffness = K_o;
+    facet.velocity = array_of(plane_velocity_);
+  }
+}
+
+void ToolCoupling::write_wrench(ToolWrench& wrench, std::uint64_t frame, std::int64_t now_ns,
+                                double t) const noexcept {
+  wrench.tool = index_;
+  wrench.tick = frame;
+  wrench.stamp_ns = now_ns;
+  wrench.t = t;
+  wrench.force = array_of(force_);
+  wrench.moment = array_of((tip_ - set_point_).cross(force_));
+  wrench.set_point = array_of(set_point_);
+  wrench.n_contacts = static_cast<std::uint32_t>(forces_.size());
+}
+
+}  // namespace palpate::physics

@@ -1,0 +1,68 @@
+#pragma once
+// One tool against all bodies: takes the hand's force into the tissue and offers the hand planes to rest on.
+//
+// The hand feels planes at 1 kHz (haptic_node); the tissue feels the force that the hand reports, low-passed, so that
+// a late network cannot pump energy through the coupling. Each plane goes out as a Norton equivalent: where it would
+// be without contact force, p_rest = p + F / K_o, and how stiffly the tissue answers, K_o. Whatever K_o is, the two
+// meet where the tissue's own force equals the hand's; K_o only shapes the way there.
+// Source: HAPTICS recipe; Astley & Hayward 1998 (Norton equivalents), Mendoza & Laugier 2001 (facets for the hand).
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "common/message/messages.h"
+#include "physics_node/contact/tool_contact.h"
+
+namespace palpate::physics {
+
+struct TouchableBody {
+  const MovingBody* moving = nullptr;
+  std::unique_ptr<ContactSurface> surface;
+};
+
+class ToolCoupling {
+ public:
+  ToolCoupling(const ToolSpec& tool, std::uint32_t index, const std::vector<TouchableBody>& bodies);
+
+  /// Takes the newest state of the hand, or none where nothing fresh has come: then the force dies away.
+  /// @param dt  of the frame [s]
+  void take(const ToolState* state, double dt) noexcept;
+
+  /// Finds the body, the plane and the masses under the tool. @return masses that carry the force
+  std::uint32_t find_contact(double t) noexcept;
+
+  /// Forces on the masses of the touched body during the coming frame.
+  std::span<const NodalForce> forces() const { return forces_; }
+  std::size_t touched_body() const { return touched_; }  // index; meaningful while forces() is not empty
+
+  void write_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) noexcept;
+  void write_wrench(ToolWrench& wrench, std::uint64_t frame, std::int64_t now_ns, double t) const noexcept;
+
+  const Vec3& tip() const { return tip_; }
+  const Vec3& force() const { return force_; }  // on the tool [N]
+  bool engaged() const { return seen_ && engaged_; }
+
+ private:
+  /// Stiffness of the tissue under a tip, as an elastic half space under a round patch of half the radius:
+  /// K_o = 2 E a / (1 - nu^2), nu = 1/3 [N/m].
+  double tissue_stiffness(std::size_t body) const noexcept;
+
+  std::uint32_t index_;
+  Vec3 set_point_;
+  std::vector<ToolContact> contacts_;  // with each body
+  std::vector<const MovingBody*> moving_;
+  bool seen_ = false;
+  bool engaged_ = false;
+  std::uint64_t tick_ = 0;
+  std::int64_t stamp_ns_ = 0;
+  Vec3 tip_ = Vec3::Zero();
+  Vec3 proxy_ = Vec3::Zero();
+  Vec3 force_ = Vec3::Zero();  // on the tool, low-passed [N]
+  std::size_t touched_ = 0;
+  double moving_share_ = 0;
+  Vec3 plane_velocity_ = Vec3::Zero();
+  std::vector<NodalForce> forces_;
+};
+
+}  // namespace palpate::physics

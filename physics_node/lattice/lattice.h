@@ -1,0 +1,68 @@
+#pragma once
+// The constant part of a lattice body: where its masses rest and which elements join them.
+//
+// Masses sit in a box-shaped grid of storage cells with a halo of empty cells around it, in rows along x. The
+// stencil is regular, so a neighbour is at a constant offset and there are no index lists: an element is a bit in
+// its masses' masks, a row of masses is a run of consecutive cells, and only runs with material are ever visited.
+//
+//   fcc    12 neighbours, 6 half directions (EQUATIONS C-12). Grid coordinates (X, Y, Z) with X + Y + Z even, in
+//          steps of L / sqrt(2) along the cubic axes; X is stored at i = (X - parity) / 2 with parity = (Y + Z) & 1, so
+//          the offsets are constant within a row and of two kinds.
+//   voxel  14 neighbours, 7 half directions: the edges of Kuhn's six tetrahedra per cell: axes, one diagonal per
+//          face, one per body. The split is the same in every cell and its face diagonals meet those of the next
+//          cell, so the mesh conforms. An element exists where a filled cell holds it.
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "common/scene/scene.h"
+#include "physics_node/lattice/lattice_types.h"
+
+namespace palpate::physics {
+
+using Vec3i = Eigen::Vector3i;
+
+struct Lattice {
+  LatticeKind kind = LatticeKind::fcc;
+  int n_half = 6;              // half directions; direction d + n_half is opposite to d
+  Vec3i size = Vec3i::Zero();  // storage cells along x, y, z, halo included
+  Index pitch = 0;             // storage cells from a row to the next along y
+  Vec3 origin = Vec3::Zero();  // rest position of grid coordinate (0, 0, 0) [m]
+  Vec3 step = Vec3::Zero();    // of a grid coordinate [m]
+
+  std::array<std::array<Index, max_directions>, 2> offset{};  // to the neighbour, by row parity
+  std::array<Vec3, max_directions> rest_vector{};             // to the neighbour at rest [m]
+  std::array<double, max_directions> rest_length{};           // L [m]
+
+  std::vector<RowSegment> rows;   // in storage order
+  std::vector<Index> masses;      // storage cell of each mass, in storage order  (n_masses)
+  std::vector<Mask> mask;         // elements of each storage cell at the start   (n_cells)
+  std::vector<float> mass_share;  // mass of each storage cell in units of a cell's, 0 where empty (n_cells)
+
+  Index n_cells() const { return pitch * size.y() * size.z(); }
+  Index n_masses() const { return static_cast<Index>(masses.size()); }
+  std::int64_t n_elements() const;
+  double total_share() const;  // sum of mass_share: the body's volume in cells (voxel) or masses (fcc)
+
+  /// Storage cell of a grid coordinate, which must lie within the box (halo included).
+  Index cell_of(const Vec3i& grid) const;
+  Vec3i grid_of(Index cell) const;
+  /// The storage cell of the mass at a grid coordinate, or -1 where there is none. Any coordinate may be asked.
+  Index mass_at(const Vec3i& grid) const;
+  Vec3 rest_position(Index cell) const { return origin + step.cwiseProduct(grid_of(cell).cast<double>()); }
+  int row_parity(Index cell) const;
+};
+
+/// Half directions of a lattice in grid coordinates.
+std::vector<Vec3i> half_directions(LatticeKind kind);
+
+/// An empty lattice whose box holds the grid coordinates [0, extent) and a halo. `step` as above.
+Lattice make_lattice(LatticeKind kind, const Vec3i& extent, const Vec3& origin, const Vec3& step);
+
+/// Fills rows and masses from mass_share > 0.
+void index_masses(Lattice& lattice);
+
+}  // namespace palpate::physics

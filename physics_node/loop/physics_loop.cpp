@@ -1,0 +1,183 @@
+#include "physics_node/loop/physics_loop.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "common/process/stop_flag.h"
+#include "common/report/json_file.h"
+#include "common/report/log.h"
+#include "common/time/clock.h"
+#include "common/time/histogram.h"
+#include "common/time/ticker.h"
+#include "physics_node/report/physics_summary.h"
+
+namespace palpate::physics {
+namespace {
+
+constexpr std::int64_t hand_silence_ns = 50'000'000;    // after which a hand's force no longer counts
+constexpr std::int64_t eye_period_ns = 33'000'000;      // vertex blocks at 30 Hz
+constexpr std::int64_t status_period_ns = 200'000'000;  // 5 Hz
+
+}  // namespace
+
+PhysicsLoop::PhysicsLoop(const NodeOptions& options, const Scene& scene)
+    : options_(options),
+      scene_(scene),
+      wire_(options.domain),
+      hands_(scene.tools.size()),
+      fresh_(scene.tools.size()) {
+  set_log_name("physics");
+  status_.node = NodeKind::physics;
+  status_.pid = static_cast<std::uint32_t>(getpid());
+  status_.scene_checksum = scene.checksum;
+  publish_status(NodePhase::loading);
+
+  const std::int64_t begin = now_ns();
+  world_ = std::make_unique<World>(scene_);
+  appearance_ = std::make_unique<Appearance>(*world_, scene_.render.threshold);
+  if (!options_.out.empty()) {
+    std::filesystem::create_directories(options_.out + "/parts");
+    recorder_ = std::make_unique<Recorder>(*world_, options_.out, Recorder::WhenBehind::drop);
+  }
+  Index masses = 0;
+  for (std::size_t b = 0; b < world_->n_bodies(); ++b) masses += world_->body(b).body().lattice.n_masses();
+  log_info("{} masses, step {:.3f} ms of at most {:.3f}, {} thread(s), {} visible facets, loaded in {:.2f} s",
+           masses, 1e3 * world_->step_seconds(), 1e3 * world_->stable_step_seconds(), world_->threads(),
+           appearance_->facets_visible(), seconds_from_ns(now_ns() - begin));
+  for (const auto& remark : world_->remarks()) log_warn("{}", remark);
+}
+
+void PhysicsLoop::take_tools() {
+  ToolState state;
+  while (wire_.tool_states.take(state)) {
+    if (state.tool >= hands_.size()) continue;
+    Hand& hand = hands_[state.tool];
+    if (hand.newest && state.tick <= hand.newest->tick && state.stamp_ns <= hand.newest->stamp_ns) continue;
+    if (hand.newest && state.tick > hand.newest->tick + 1)
+      status_.samples_lost += state.tick - hand.newest->tick - 1;
+    hand.newest = state;
+    hand.came_ns = now_ns();
+  }
+  for (std::size_t n = 0; n < hands_.size(); ++n) {
+    const bool silent = !hands_[n].newest || now_ns() - hands_[n].came_ns > hand_silence_ns;
+    fresh_[n] = silent ? std::nullopt : hands_[n].newest;
+  }
+}
+
+void PhysicsLoop::take_commands() {
+  Command command;
+  while (wire_.commands.take(command)) {
+    switch (command.kind) {
+      case CommandKind::pause:
+        paused_ = true;
+        break;
+      case CommandKind::resume:
+        paused_ = false;
+        break;
+      case CommandKind::reset:
+        world_->reset();
+        break;
+      case CommandKind::threshold:
+        appearance_->set_threshold(command.value);
+        break;
+      case CommandKind::stop:
+        stop_ = true;
+        break;
+      case CommandKind::record:
+      case CommandKind::material:
+        log_warn("a command that this version does not carry out was ignored");
+        break;
+      case CommandKind::device:
+        break;  // the hand's
+    }
+  }
+}
+
+void PhysicsLoop::publish_hand() {
+  const auto frame = static_cast<std::uint64_t>(world_->report().frames);
+  for (auto& tool : world_->tools()) {
+    tool.write_patch(patch_, frame, now_ns());
+    wire_.patches.write(patch_);
+    tool.write_wrench(wrench_, frame, now_ns(), world_->t());
+    wire_.wrenches.write(wrench_);
+  }
+}
+
+void PhysicsLoop::publish_eye() {
+  const bool new_surfaces = appearance_->poll();
+  if (new_surfaces)
+    appearance_->write_surfaces([this](const BodySurface& chunk) { wire_.surfaces.write(chunk); });
+  const int watchers = wire_.blocks.matched();
+  if (watchers > watchers_) appearance_->resend();
+  watchers_ = watchers;
+  if (watchers == 0) {
+    ++world_->report()[Stage::publish].skipped;
+    return;
+  }
+  const StageTimer timer(world_->report(), Stage::publish);
+  appearance_->write_blocks([this](const VertexBlock& block) { wire_.blocks.write(block); });
+}
+
+void PhysicsLoop::publish_status(NodePhase phase) {
+  const std::int64_t now = now_ns();
+  status_.phase = phase;
+  if (world_) {
+    const double wall = seconds_from_ns(now - last_status_ns_);
+    status_.t = world_->t();
+    status_.ticks = static_cast<std::uint64_t>(world_->report().frames);
+    if (last_status_ns_ > 0 && wall > 0) {
+      status_.rate_Hz = static_cast<double>(world_->report().frames - last_status_frames_) / wall;
+      status_.real_time_factor = (world_->t() - last_status_t_) / wall;
+    }
+    status_.warnings = static_cast<std::uint32_t>(world_->remarks().size()) +
+                       static_cast<std::uint32_t>(world_->report().restored);
+    const ReaderCounts tools = wire_.tool_states.counts();
+    status_.samples_received = tools.received;
+    status_.rejected = tools.rejected;
+    last_status_t_ = world_->t();
+    last_status_frames_ = world_->report().frames;
+  }
+  last_status_ns_ = now;
+  wire_.status.write(status_);
+}
+
+int PhysicsLoop::run() {
+  Ticker ticker(scene_.physics.frame_Hz);
+  start_ns_ = now_ns();
+  std::int64_t next_eye = start_ns_;
+  std::int64_t next_status = start_ns_;
+  // 1. wait  2. hear  3. move  4. tell the hand  5. tell the eye, the record and whoever asks
+  while (!stop_ && !stop_requested() && (options_.seconds <= 0 || world_->t() < options_.seconds)) {
+    const auto wake = ticker.wait();
+    status_.late += wake.skipped;
+    ++status_.lateness[octave_bin((wake.woke_ns - wake.due_ns) / 1000, histogram_bins)];
+    take_commands();
+    take_tools();
+    if (!paused_) world_->frame(fresh_);
+    publish_hand();
+    if (recorder_ && !paused_) recorder_->frame(*world_);
+    const std::int64_t now = now_ns();
+    if (now >= next_eye) {
+      publish_eye();
+      next_eye = now + eye_period_ns;
+    }
+    if (now >= next_status) {
+      publish_status(NodePhase::running);
+      next_status = now + status_period_ns;
+    }
+  }
+  leave();
+  return 0;
+}
+
+void PhysicsLoop::leave() {
+  publish_status(NodePhase::stopping);
+  const double wall = seconds_from_ns(now_ns() - start_ns_);
+  if (!recorder_) return;
+  recorder_->finish();
+  write_json(options_.out + "/parts/physics.json", physics_summary(*world_, recorder_.get(), wall));
+}
+
+}  // namespace palpate::physics

@@ -1,0 +1,58 @@
+#pragma once
+// palpate-physics as it runs: one thread, one frame per 1 / frame_Hz of wall time, everything in order.
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "common/process/node_main.h"
+#include "physics_node/appearance/appearance.h"
+#include "physics_node/loop/wire.h"
+#include "physics_node/record/recorder.h"
+#include "physics_node/world.h"
+
+namespace palpate::physics {
+
+class PhysicsLoop {
+ public:
+  PhysicsLoop(const NodeOptions& options, const Scene& scene);
+
+  /// Until a signal, a stop command or options.seconds. @return exit code
+  int run();
+
+ private:
+  void take_tools();
+  void take_commands();
+  void publish_hand();
+  void publish_eye();
+  void publish_status(NodePhase phase);
+  void leave();
+
+  NodeOptions options_;
+  Scene scene_;
+  Wire wire_;
+  std::unique_ptr<World> world_;
+  std::unique_ptr<Appearance> appearance_;
+  std::unique_ptr<Recorder> recorder_;
+
+  struct Hand {
+    std::optional<ToolState> newest;
+    std::int64_t came_ns = 0;
+  };
+  std::vector<Hand> hands_;
+  std::vector<std::optional<ToolState>> fresh_;  // what the frame gets
+  ContactPatch patch_{};
+  ToolWrench wrench_{};
+  bool paused_ = false;
+  bool stop_ = false;
+  int watchers_ = 0;
+  std::int64_t start_ns_ = 0;
+
+  // status
+  NodeStatus status_{};
+  std::int64_t last_status_ns_ = 0;
+  double last_status_t_ = 0;
+  std::int64_t last_status_frames_ = 0;
+};
+
+}  // namespace palpate::physics

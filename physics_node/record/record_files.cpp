@@ -1,0 +1,138 @@
+// The file side of the recorder: everything here but make_files() and finish() runs on its own thread.
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <stdexcept>
+
+#include "common/math/hash.h"
+#include "common/report/commit.h"
+#include "physics_node/record/recorder.h"
+#include "physics_node/record/xdmf.h"
+
+namespace palpate::physics {
+namespace {
+
+/// Facets whose four corners are masses, by mass number, for viewers.
+std::vector<std::uint32_t> mass_facets(const MovingBody& moving) {
+  const Surface surface = make_surface(moving, std::nullopt, 0);
+  std::vector<std::uint32_t> number(static_cast<std::size_t>(moving.body().lattice.n_cells()), 0);
+  std::uint32_t next = 0;
+  for (const Index cell : moving.body().lattice.masses) number[static_cast<std::size_t>(cell)] = next++;
+  std::vector<std::uint32_t> facets;
+  for (const auto& facet : surface.facets) {
+    bool all_move = true;
+    for (const auto corner : facet) all_move = all_move && corner < surface.n_moving();
+    if (!all_move) continue;
+    for (const auto corner : facet) facets.push_back(number[static_cast<std::size_t>(surface.cell[corner])]);
+  }
+  return facets;
+}
+
+}  // namespace
+
+void Recorder::make_files(const World& world) {
+  for (const auto& name : tool_names_) {
+    const std::string path = folder_ + "/" + trace_name(name);
+    std::FILE* file = std::fopen(path.c_str(), "w");
+    if (file == nullptr) throw std::runtime_error(path + ": " + std::strerror(errno));
+    std::fputs("t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm,contacts\n", file);
+    csv_.push_back(file);
+  }
+  hdf5_ = std::make_unique<Hdf5File>(folder_ + "/record.h5", Hdf5File::Mode::create);
+  hdf5_->set_text("palpate_record", "1");
+  hdf5_->set_text("title", world.scene().title);
+  hdf5_->set_text("commit", commit());
+  hdf5_->set_text("scene_checksum", hex_of(world.scene().checksum));
+  for (std::size_t b = 0; b < world.n_bodies(); ++b) {
+    const MovingBody& moving = world.body(b);
+    const std::string base = "/bodies/" + moving.body().name;
+    const auto facets = mass_facets(moving);
+    std::vector<float> rest;
+    for (const Index cell : moving.body().lattice.masses)
+      for (int a = 0; a < 3; ++a)
+        rest.push_back(static_cast<float>(moving.body().lattice.rest_position(cell)[a]));
+    body_names_.push_back(moving.body().name);
+    body_masses_.push_back(rest.size() / 3);
+    body_facets_.push_back(facets.size() / 4);
+    hdf5_->write<float>(base + "/rest", {rest.size() / 3, 3}, rest.data());
+    hdf5_->write<std::uint32_t>(base + "/facets", {facets.size() / 4, 4}, facets.data());
+    if (!spec_.positions) continue;
+    hdf5_->make_series<double>(base + "/time", {1});
+    hdf5_->make_series<float>(base + "/position", {rest.size() / 3, 3});
+    hdf5_->make_series<std::uint8_t>(base + "/flags", {rest.size() / 3});
+  }
+  for (const auto& name : tool_names_)
+    hdf5_->make_series<double>("/tools/" + name + "/t_p_force_moment", {10});
+}
+
+void Recorder::write_rows() {
+  ToolRow row;
+  while (rows_->pop(row)) {
+    const auto& [p, f, m] = std::tie(row.p, row.force, row.moment);
+    std::fprintf(csv_[row.tool], "%.6f,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%u\n", row.t, p[0], p[1],
+                 p[2], f[0], f[1], f[2], m[0], m[1], m[2], row.contacts);
+    const std::array<double, 10> numbers{row.t, p[0], p[1], p[2], f[0], f[1], f[2], m[0], m[1], m[2]};
+    hdf5_->append<double>("/tools/" + tool_names_[row.tool] + "/t_p_force_moment", numbers.data());
+  }
+}
+
+void Recorder::write_snapshots() {
+  while (!snapshots_.empty() && snapshots_[next_written_]->full) {
+    Snapshot& snapshot = *snapshots_[next_written_];
+    for (std::size_t b = 0; b < body_names_.size(); ++b) {
+      const std::string base = "/bodies/" + body_names_[b];
+      hdf5_->append<double>(base + "/time", &snapshot.t);
+      hdf5_->append<float>(base + "/position", snapshot.position[b].data());
+      hdf5_->append<std::uint8_t>(base + "/flags", snapshot.flags[b].data());
+    }
+    times_.push_back(snapshot.t);
+    snapshot.full = false;
+    next_written_ = (next_written_ + 1) % n_snapshots;
+  }
+}
+
+void Recorder::work() noexcept {
+  try {
+    auto flushed = std::chrono::steady_clock::now();
+    for (bool last = false; !last;) {
+      last = stop_;
+      write_rows();
+      write_snapshots();
+      const auto now = std::chrono::steady_clock::now();
+      if (now - flushed > std::chrono::seconds(1)) {
+        hdf5_->flush();
+        for (std::FILE* file : csv_) std::fflush(file);
+        flushed = now;
+      }
+      if (!last) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+  } catch (const std::exception& error) {
+    failure_ = error.what();
+    failed_ = true;
+  }
+}
+
+void Recorder::finish() {
+  if (finished_) return;
+  finished_ = true;
+  stop_ = true;
+  thread_.join();
+  if (failed_) throw std::runtime_error(failure_);
+  hdf5_->close();
+  for (std::size_t n = 0; n < csv_.size(); ++n) {
+    if (std::fflush(csv_[n]) != 0)
+      throw std::runtime_error(folder_ + "/" + trace_name(tool_names_[n]) + ": " + std::strerror(errno));
+  }
+  if (!times_.empty()) write_xdmf();
+}
+
+void Recorder::write_xdmf() const {
+  std::vector<XdmfBody> bodies;
+  for (std::size_t b = 0; b < body_names_.size(); ++b)
+    bodies.push_back({body_names_[b], body_masses_[b], body_facets_[b]});
+  palpate::physics::write_xdmf(folder_ + "/record.xdmf", "record.h5", bodies, times_);
+}
+
+}  // namespace palpate::physics

@@ -1,0 +1,97 @@
+#include "physics_node/record/recorder.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace palpate::physics {
+namespace {
+
+Array3 array_of(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
+
+}  // namespace
+
+Recorder::Recorder(const World& world, const std::string& folder, WhenBehind when_behind)
+    : folder_(folder),
+      when_behind_(when_behind),
+      spec_(world.scene().record),
+      rows_(std::make_unique<SpscRing<ToolRow, 16384>>()) {
+  for (const auto& tool : world.scene().tools) tool_names_.push_back(tool.name);
+  tallies_.resize(tool_names_.size());
+  make_files(world);
+  if (spec_.positions) {
+    for (std::size_t s = 0; s < n_snapshots; ++s) {
+      auto snapshot = std::make_unique<Snapshot>();
+      for (std::size_t b = 0; b < world.n_bodies(); ++b) {
+        const auto n = static_cast<std::size_t>(world.body(b).body().lattice.n_masses());
+        snapshot->position.emplace_back(3 * n);
+        snapshot->flags.emplace_back(n);
+      }
+      snapshots_.push_back(std::move(snapshot));
+    }
+  }
+  thread_ = std::thread([this] { work(); });
+}
+
+Recorder::~Recorder() {
+  stop_ = true;
+  if (thread_.joinable()) thread_.join();
+  for (std::FILE* file : csv_) std::fclose(file);
+}
+
+std::string Recorder::trace_name(const std::string& tool) { return "tool_" + tool + ".csv"; }
+
+double Recorder::force_rms(std::size_t tool) const {
+  const Tally& tally = tallies_[tool];
+  return tally.rows == 0 ? 0 : std::sqrt(tally.squares / static_cast<double>(tally.rows));
+}
+
+void Recorder::frame(const World& world) noexcept {
+  const auto patience = [this] {
+    if (when_behind_ == WhenBehind::drop || failed_) return false;
+    std::this_thread::sleep_for(std::chrono::microseconds(200));
+    return true;
+  };
+  for (std::uint32_t n = 0; n < tallies_.size(); ++n) {
+    const ToolCoupling& tool = world.tools()[n];
+    ToolRow row{n,
+                static_cast<std::uint32_t>(tool.forces().size()),
+                world.t(),
+                array_of(tool.tip()),
+                array_of(tool.force()),
+                array_of((tool.tip() - world.scene().tools[n].set_point).cross(tool.force()))};
+    Tally& tally = tallies_[n];
+    tally.peak = std::max(tally.peak, tool.force().norm());
+    tally.moment_peak = std::max(tally.moment_peak, std::hypot(row.moment[0], row.moment[1], row.moment[2]));
+    tally.squares += tool.force().squaredNorm();
+    tally.contacts_max = std::max(tally.contacts_max, row.contacts);
+    ++tally.rows;
+    if (!spec_.forces) continue;
+    bool taken = rows_->push(row);
+    while (!taken && patience()) taken = rows_->push(row);
+    dropped_ += taken ? 0 : 1;
+  }
+  if (!spec_.positions || world.t() + 1e-9 < static_cast<double>(snapshots_due_) / spec_.rate_Hz) return;
+  ++snapshots_due_;
+  Snapshot& snapshot = *snapshots_[next_snapshot_];
+  while (snapshot.full && patience()) {
+  }
+  if (snapshot.full) {
+    ++dropped_;
+    return;
+  }
+  snapshot.t = world.t();
+  for (std::size_t b = 0; b < world.n_bodies(); ++b) {
+    std::size_t n = 0;
+    for (const Index cell : world.body(b).body().lattice.masses) {
+      const Vec3 p = world.body(b).position(cell);
+      for (int a = 0; a < 3; ++a)
+        snapshot.position[b][3 * n + static_cast<std::size_t>(a)] = static_cast<float>(p[a]);
+      snapshot.flags[b][n++] = world.body(b).flags(cell);
+    }
+  }
+  snapshot.full = true;
+  next_snapshot_ = (next_snapshot_ + 1) % n_snapshots;
+}
+
+}  // namespace palpate::physics

@@ -1,0 +1,94 @@
+#pragma once
+// Leaves a run behind: a CSV per tool, record.h5 with positions and tools, record.xdmf for viewers.
+// frame() only copies what is due into buffers taken at the start; a thread of its own writes the files.
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "common/exchange/spsc_ring.h"
+#include "common/record/hdf5_file.h"
+#include "physics_node/surface/surface.h"
+#include "physics_node/world.h"
+
+namespace palpate::physics {
+
+class Recorder {
+ public:
+  enum class WhenBehind { drop, wait };  // a live run drops and counts; simulated time waits
+
+  /// @param folder  must exist; tool_NAME.csv, record.h5 and record.xdmf are made in it
+  /// @throws InputError or std::runtime_error where files cannot be made
+  Recorder(const World& world, const std::string& folder, WhenBehind when_behind);
+  ~Recorder();
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  /// After every frame. Allocates nothing.
+  void frame(const World& world) noexcept;
+
+  /// Writes what is left, closes the files and writes record.xdmf. @throws std::runtime_error: disk full
+  void finish();
+
+  /// CSV of a tool, relative to the folder.
+  static std::string trace_name(const std::string& tool);
+  std::uint64_t dropped() const { return dropped_; }
+  double force_peak(std::size_t tool) const { return tallies_[tool].peak; }
+  double force_rms(std::size_t tool) const;
+  double moment_peak(std::size_t tool) const { return tallies_[tool].moment_peak; }
+  std::uint32_t contacts_max(std::size_t tool) const { return tallies_[tool].contacts_max; }
+
+ private:
+  struct ToolRow {
+    std::uint32_t tool = 0;
+    std::uint32_t contacts = 0;
+    double t = 0;
+    Array3 p{}, force{}, moment{};
+  };
+  struct Tally {
+    double peak = 0, moment_peak = 0, squares = 0;
+    std::uint64_t rows = 0;
+    std::uint32_t contacts_max = 0;
+  };
+  struct Snapshot {
+    std::atomic<bool> full{false};
+    double t = 0;
+    std::vector<std::vector<float>> position;      // per body (n_masses x 3)
+    std::vector<std::vector<std::uint8_t>> flags;  // per body (n_masses)
+  };
+  static constexpr std::size_t n_snapshots = 8;
+
+  void make_files(const World& world);
+  void write_rows();
+  void write_snapshots();
+  void work() noexcept;
+  void write_xdmf() const;
+
+  std::string folder_;
+  WhenBehind when_behind_;
+  RecordSpec spec_;
+  std::vector<std::string> tool_names_;
+  std::vector<std::string> body_names_;
+  std::vector<std::uint64_t> body_masses_;
+  std::vector<std::uint64_t> body_facets_;
+  std::vector<Tally> tallies_;
+  std::vector<std::FILE*> csv_;
+  std::unique_ptr<Hdf5File> hdf5_;
+  std::unique_ptr<SpscRing<ToolRow, 16384>> rows_;
+  std::vector<std::unique_ptr<Snapshot>> snapshots_;
+  std::size_t next_snapshot_ = 0;  // frame()'s
+  std::size_t next_written_ = 0;   // the thread's
+  std::vector<double> times_;      // of the snapshots written
+  std::int64_t snapshots_due_ = 0;
+  std::uint64_t dropped_ = 0;
+  std::atomic<bool> stop_{false};
+  std::atomic<bool> failed_{false};
+  std::string failure_;
+  std::thread thread_;
+  bool finished_ = false;
+};
+
+}  // namespace palpate::physics

@@ -1,0 +1,100 @@
+#include "physics_node/report/physics_summary.h"
+
+#include <cmath>
+
+#include "common/math/hash.h"
+#include "common/report/commit.h"
+
+namespace palpate::physics {
+namespace {
+
+nlohmann::json triple(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
+
+nlohmann::json body_part(const MovingBody& moving) {
+  const BodyCounts counts = moving.counts();
+  const auto n_masses = static_cast<double>(moving.body().lattice.n_masses());
+  const auto elements = static_cast<double>(std::max<std::int64_t>(counts.elements, 1));
+  nlohmann::json part = {{"masses", moving.body().lattice.n_masses()},
+                         {"held_masses", moving.body().n_held},
+                         {"elements", counts.elements},
+                         {"live_elements", counts.live_elements},
+                         {"broken_fraction", 1.0 - static_cast<double>(counts.live_elements) / elements},
+                         {"max_stretch", counts.max_stretch},
+                         {"shape_rms_m", counts.shape_rms}};
+  if (moving.body().law.yields)
+    part["yielded_fraction"] = static_cast<double>(counts.yielded_masses) / n_masses;
+  if (moving.body().cells) {
+    part["voxels"] = moving.body().cells->n_filled();
+    part["deformable_voxels"] = moving.body().cells->n_deformable();
+  }
+  return part;
+}
+
+nlohmann::json stages_part(const StepReport& report) {
+  nlohmann::json part;
+  for (std::size_t s = 0; s < n_stages; ++s) {
+    const StageTime& time = report.stages[s];
+    part[stage_names[s]] = {{"total_s", 1e-9 * static_cast<double>(time.total_ns)},
+                            {"calls", time.calls},
+                            {"skipped", time.skipped}};
+  }
+  return part;
+}
+
+const char* precision_name(Precision precision) {
+  return precision == Precision::single_ ? "single" : "double";
+}
+
+}  // namespace
+
+nlohmann::json physics_summary(const World& world, const Recorder* recorder, double wall_s) {
+  const Scene& scene = world.scene();
+  nlohmann::json part = {{"scene", scene.path},
+                         {"title", scene.title},
+                         {"scene_checksum", hex_of(scene.checksum)},
+                         {"commit", commit()},
+                         {"seed", scene.seed},
+                         {"threads", world.threads()},
+                         {"precision", precision_name(scene.physics.precision)},
+                         {"integrator", "symplectic_euler"},
+                         {"simulated_s", world.t()},
+                         {"wall_s", wall_s},
+                         {"real_time_factor", wall_s > 0 ? world.t() / wall_s : 0.0},
+                         {"steps", world.report().steps},
+                         {"dt_s", world.step_seconds()},
+                         {"stable_dt_s", world.stable_step_seconds()},
+                         {"state_hash", hex_of(world.state_hash())},
+                         {"stages", stages_part(world.report())}};
+  Energies energies;
+  Momenta momenta;
+  for (std::size_t b = 0; b < world.n_bodies(); ++b) {
+    const MovingBody& moving = world.body(b);
+    part["bodies"][moving.body().name] = body_part(moving);
+    const Energies e = moving.energies(scene.gravity);
+    energies.kinetic += e.kinetic;
+    energies.elastic += e.elastic;
+    energies.gravitational += e.gravitational;
+    const Momenta p = moving.momenta();
+    momenta.linear += p.linear;
+    momenta.angular += p.angular;
+  }
+  part["energy"] = {{"kinetic", energies.kinetic},
+                    {"elastic", energies.elastic},
+                    {"gravitational", energies.gravitational},
+                    {"tool_work", world.report().tool_work}};
+  part["momentum"] = {{"linear", triple(momenta.linear)}, {"angular", triple(momenta.angular)}};
+  part["guard"] = {{"nonfinite", world.report().nonfinite},
+                   {"restored", world.report().restored},
+                   {"warnings", world.report().warnings + static_cast<std::int64_t>(world.remarks().size())}};
+  for (std::size_t n = 0; recorder != nullptr && n < scene.tools.size(); ++n) {
+    part["tools"][scene.tools[n].name] = {{"contacts_max", recorder->contacts_max(n)},
+                                          {"force_peak", recorder->force_peak(n)},
+                                          {"force_rms", recorder->force_rms(n)},
+                                          {"moment_peak", recorder->moment_peak(n)},
+                                          {"trace", Recorder::trace_name(scene.tools[n].name)}};
+  }
+  if (recorder != nullptr) part["record"] = {{"dropped", recorder->dropped()}};
+  return part;
+}
+
+}  // namespace palpate::physics

@@ -1,0 +1,14 @@
+#pragma once
+// The part of summary.json that physics knows. Keys and units as documented in docs/architecture.md.
+
+#include <nlohmann/json.hpp>
+
+#include "physics_node/record/recorder.h"
+#include "physics_node/world.h"
+
+namespace palpate::physics {
+
+/// @param recorder  for the tools' peaks and traces; null where nothing was recorded
+nlohmann::json physics_summary(const World& world, const Recorder* recorder, double wall_s);
+
+}  // namespace palpate::physics

@@ -1,0 +1,24 @@
+#pragma once
+// What a body's state amounts to: energies, momenta, counts. For reports, not for the step.
+
+#include "physics_node/step/moving_body.h"
+#include "physics_node/step/state.h"
+
+namespace palpate::physics {
+
+/// Kinetic (1/2) m v^2; elastic f_s^2 / (2 k1) per live element, which is what unloading gives back; gravitational
+/// - m g . u. Held masses count for nothing.
+template <class Real>
+Energies measure_energies(const Body& body, const LatticeState<Real>& state, const Vec3& gravity);
+
+template <class Real>
+Momenta measure_momenta(const Body& body, const LatticeState<Real>& state);
+
+template <class Real>
+BodyCounts measure_counts(const Body& body, const LatticeState<Real>& state);
+
+/// Root mean square distance between two sets of points after the best rotation and translation of `from` onto `to`.
+/// Source: Kabsch 1976, by way of Eigen::umeyama.
+double rigid_fit_rms(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to);
+
+}  // namespace palpate::physics

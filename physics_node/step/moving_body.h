@@ -1,0 +1,73 @@
+#pragma once
+// A body and its state behind one door, whatever the precision. Virtual calls are per body and stage, never per mass.
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "physics_node/body/body.h"
+#include "physics_node/step/mass_flags.h"
+
+namespace palpate::physics {
+
+struct NodalForce {
+  Index cell = 0;
+  Vec3 force = Vec3::Zero();  // [N]
+};
+
+/// All in SI; energies in J.
+struct Energies {
+  double kinetic = 0;
+  double elastic = 0;        // recoverable
+  double gravitational = 0;  // relative to the rest position
+};
+
+struct Momenta {
+  Vec3 linear = Vec3::Zero();   // [kg m/s]
+  Vec3 angular = Vec3::Zero();  // about the origin [kg m^2/s]
+};
+
+struct BodyCounts {
+  std::int64_t elements = 0;  // at the start
+  std::int64_t live_elements = 0;
+  std::int64_t yielded_masses = 0;
+  double max_stretch = 1;  // largest l / L of a live element
+  double shape_rms = 0;    // root mean square distance to the rest shape after the best rigid fit [m]
+};
+
+class MovingBody {
+ public:
+  virtual ~MovingBody() = default;
+  virtual const Body& body() const noexcept = 0;
+
+  // --- stages of a step ---
+  virtual void element_forces_and_integrate(double dt, const Vec3& gravity, int threads) noexcept = 0;
+  /// Adds forces that act during the step just integrated. Held masses ignore them.
+  virtual void kick(std::span<const NodalForce> forces, double dt) noexcept = 0;
+  /// Perfectly elastic exchange with the plane z = height: masses below it and approaching are reflected.
+  /// @return how many
+  virtual std::int64_t bounce_off_floor(double height) noexcept = 0;
+  /// @return elements broken; must only be called for bodies that yield
+  virtual std::int64_t yield_and_break(int threads) noexcept = 0;
+
+  // --- guard ---
+  virtual bool is_finite() const noexcept = 0;
+  virtual void save() noexcept = 0;     // remembers displacement and velocity
+  virtual void restore() noexcept = 0;  // goes back to what was saved, at rest
+  virtual void reset() noexcept = 0;    // as loaded
+
+  // --- answers ---
+  virtual Vec3 position(Index cell) const noexcept = 0;
+  virtual Vec3 velocity(Index cell) const noexcept = 0;
+  virtual Mask mask(Index cell) const noexcept = 0;
+  virtual std::uint8_t flags(Index cell) const noexcept = 0;
+  virtual Energies energies(const Vec3& gravity) const = 0;
+  virtual Momenta momenta() const = 0;
+  virtual BodyCounts counts() const = 0;
+  /// Hash of displacement, velocity, live elements and plastic state of all masses, continued from `seed`.
+  virtual std::uint64_t hash(std::uint64_t seed) const noexcept = 0;
+};
+
+std::unique_ptr<MovingBody> make_moving_body(Body body, Precision precision);
+
+}  // namespace palpate::physics

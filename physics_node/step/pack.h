@@ -1,0 +1,69 @@
+#pragma once
+// W numbers side by side, in the widest vectors that the including file is compiled for. Plain IEEE operations only,
+// so that every width gives the same bits.
+
+#include <immintrin.h>
+
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+
+namespace palpate::physics {
+namespace PALPATE_KERNEL {  // one copy per instruction set: see element_kernel.inl
+
+#if defined(__AVX512F__)
+inline constexpr int vector_bytes = 64;
+#elif defined(__AVX2__)
+inline constexpr int vector_bytes = 32;
+#else
+inline constexpr int vector_bytes = 16;
+#endif
+
+template <class Real>
+struct Pack {
+  static constexpr int width = vector_bytes / static_cast<int>(sizeof(Real));
+  using Integer = std::conditional_t<sizeof(Real) == 4, std::int32_t, std::int64_t>;
+  typedef Real V __attribute__((vector_size(vector_bytes)));
+  typedef Integer I __attribute__((vector_size(vector_bytes)));
+  typedef std::uint16_t M __attribute__((vector_size(width * 2)));
+
+  static V load(const Real* p) {
+    V v;
+    std::memcpy(&v, p, sizeof(v));
+    return v;
+  }
+  static void store(Real* p, V v) { std::memcpy(p, &v, sizeof(v)); }
+  static V all(Real value) { return V{} + value; }
+  static V larger(V a, V b) { return a > b ? a : b; }
+
+  /// The masks of `width` cells, one per lane.
+  static I load_masks(const std::uint16_t* p) {
+    M m;
+    std::memcpy(&m, p, sizeof(m));
+    return __builtin_convertvector(m, I);
+  }
+  /// v in the lanes whose mask has the bit, zero elsewhere.
+  static V where_bit(I masks, int bit, V v) { return (masks & (Integer{1} << bit)) != 0 ? v : V{}; }
+
+  static V square_root(V v) {
+#if defined(__AVX512F__)
+    if constexpr (sizeof(Real) == 4)
+      return reinterpret_cast<V>(_mm512_sqrt_ps(reinterpret_cast<__m512>(v)));
+    else
+      return reinterpret_cast<V>(_mm512_sqrt_pd(reinterpret_cast<__m512d>(v)));
+#elif defined(__AVX2__)
+    if constexpr (sizeof(Real) == 4)
+      return reinterpret_cast<V>(_mm256_sqrt_ps(reinterpret_cast<__m256>(v)));
+    else
+      return reinterpret_cast<V>(_mm256_sqrt_pd(reinterpret_cast<__m256d>(v)));
+#else
+    if constexpr (sizeof(Real) == 4)
+      return reinterpret_cast<V>(_mm_sqrt_ps(reinterpret_cast<__m128>(v)));
+    else
+      return reinterpret_cast<V>(_mm_sqrt_pd(reinterpret_cast<__m128d>(v)));
+#endif
+  }
+};
+
+}  // namespace PALPATE_KERNEL
+}  // namespace palpate::physics

@@ -1,0 +1,146 @@
+#include <unordered_map>
+
+#include "physics_node/surface/surface.h"
+
+namespace palpate::physics {
+namespace {
+
+/// Answers about masses and elements by grid coordinate.
+class Net {
+ public:
+  Net(const Body& body, const MovingBody& moving) : lattice_(body.lattice), moving_(moving) {
+    const auto half = half_directions(LatticeKind::fcc);
+    for (std::size_t d = 0; d < 2 * half.size(); ++d) {
+      const Vec3i delta = d < half.size() ? half[d] : Vec3i(-half[d - half.size()]);
+      direction_[key(delta)] = static_cast<int>(d);
+    }
+  }
+
+  Index mass(const Vec3i& grid) const { return lattice_.mass_at(grid); }
+
+  /// Does a live element join two neighbouring grid points?
+  bool joined(const Vec3i& a, const Vec3i& b) const {
+    const Index cell = mass(a);
+    if (cell < 0 || mass(b) < 0) return false;
+    return (moving_.mask(cell) >> direction_.at(key(b - a)) & 1) != 0;
+  }
+
+ private:
+  static int key(const Vec3i& delta) { return (delta.x() + 1) + 3 * (delta.y() + 1) + 9 * (delta.z() + 1); }
+  const Lattice& lattice_;
+  const MovingBody& moving_;
+  std::unordered_map<int, int> direction_;
+};
+
+Vec3i axis(int a, int sign) {
+  Vec3i e = Vec3i::Zero();
+  e[a] = sign;
+  return e;
+}
+
+/// One octahedral site and the eight tetrahedra on its faces.
+struct Site {
+  Vec3i centre;
+  std::array<bool, 6> present{};  // masses at -x +x -y +y -z +z
+  int n_present = 0;
+  bool filled = false;  // at least five masses, every element between them alive
+};
+
+Site look_at(const Net& net, const Vec3i& centre) {
+  Site site{centre, {}, 0, false};
+  for (int n = 0; n < 6; ++n) {
+    site.present[static_cast<std::size_t>(n)] = net.mass(centre + axis(n / 2, n % 2 == 0 ? -1 : 1)) >= 0;
+    site.n_present += site.present[static_cast<std::size_t>(n)] ? 1 : 0;
+  }
+  if (site.n_present < 5) return site;
+  site.filled = true;
+  for (int n = 0; n < 6; ++n)
+    for (int o = n + 1; o < 6; ++o) {
+      if (n / 2 == o / 2 || !site.present[static_cast<std::size_t>(n)] ||
+          !site.present[static_cast<std::size_t>(o)])
+        continue;
+      const Vec3i a = centre + axis(n / 2, n % 2 == 0 ? -1 : 1);
+      const Vec3i b = centre + axis(o / 2, o % 2 == 0 ? -1 : 1);
+      site.filled = site.filled && net.joined(a, b);
+    }
+  return site;
+}
+
+class Builder {
+ public:
+  Builder(const Body& body, const Net& net, std::uint32_t rgba) : body_(body), net_(net), rgba_(rgba) {}
+
+  /// The triangle in the octant `s` of a site, between its octahedron and the tetrahedron beyond.
+  void triangle(const Site& site, const Vec3i& s) {
+    const std::array<Vec3i, 3> p{site.centre + axis(0, s.x()), site.centre + axis(1, s.y()),
+                                 site.centre + axis(2, s.z())};
+    if (!net_.joined(p[0], p[1]) || !net_.joined(p[1], p[2]) || !net_.joined(p[0], p[2])) return;
+    const Vec3i apex = site.centre + s;
+    const bool tetrahedron = net_.joined(p[0], apex) && net_.joined(p[1], apex) && net_.joined(p[2], apex);
+    if (tetrahedron && site.filled) {
+      ++surface.hidden;
+      return;
+    }
+    // x, y, z corners are anticlockwise seen from the octant's outside when the product of signs is positive.
+    const bool faces_out = (s.prod() > 0) == !tetrahedron;
+    facet(faces_out ? std::array<Vec3i, 4>{p[0], p[1], p[2], p[2]}
+                    : std::array<Vec3i, 4>{p[0], p[2], p[1], p[1]});
+  }
+
+  /// The square across an octahedron that lacks one mass.
+  void square(const Site& site) {
+    if (!site.filled || site.n_present != 5) return;
+    int missing = 0;
+    while (site.present[static_cast<std::size_t>(missing)]) ++missing;
+    const int a = missing / 2;
+    const int sign = missing % 2 == 0 ? -1 : 1;
+    const int b = (a + 1) % 3;
+    const int c = (a + 2) % 3;
+    std::array<Vec3i, 4> ring{site.centre + axis(b, 1), site.centre + axis(c, sign),
+                              site.centre + axis(b, -1), site.centre + axis(c, -sign)};
+    facet(ring);
+  }
+
+  Surface surface;
+
+ private:
+  void facet(const std::array<Vec3i, 4>& corners) {
+    auto& out = surface.facets.emplace_back();
+    for (std::size_t n = 0; n < 4; ++n) {
+      const Index cell = net_.mass(corners[n]);
+      const auto [at, added] = number_.try_emplace(cell, static_cast<std::uint32_t>(surface.cell.size()));
+      if (added) {
+        surface.cell.push_back(cell);
+        surface.rest.push_back(body_.lattice.rest_position(cell));
+      }
+      out[n] = at->second;
+    }
+    surface.rgba.push_back(rgba_);
+  }
+
+  const Body& body_;
+  const Net& net_;
+  std::uint32_t rgba_;
+  std::unordered_map<Index, std::uint32_t> number_;
+};
+
+}  // namespace
+
+Surface fcc_surface(const Body& body, const MovingBody& moving, std::uint32_t rgba) {
+  const Net net(body, moving);
+  Builder builder(body, net, rgba);
+  const Vec3i extent(2 * body.lattice.size.x(), body.lattice.size.y(), body.lattice.size.z());
+  for (int z = -1; z <= extent.z(); ++z)
+    for (int y = -1; y <= extent.y(); ++y)
+      for (int x = -1; x <= extent.x(); ++x) {
+        if (((x + y + z) & 1) == 0) continue;  // octahedral sites are the points between the masses
+        const Site site = look_at(net, {x, y, z});
+        if (site.n_present < 3) continue;
+        for (int octant = 0; octant < 8; ++octant)
+          builder.triangle(site, {octant & 1 ? 1 : -1, octant & 2 ? 1 : -1, octant & 4 ? 1 : -1});
+        builder.square(site);
+      }
+  return std::move(builder.surface);
+}
+
+}  // namespace palpate::physics

@@ -1,0 +1,42 @@
+#pragma once
+// What can be seen and touched of a body: four-cornered facets on its masses and on its rigid scenery.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "physics_node/body/body.h"
+#include "physics_node/step/moving_body.h"
+
+namespace palpate::physics {
+
+struct Surface {
+  std::vector<Vec3> rest;   // rest position [m]               (n_vertices)
+  std::vector<Index> cell;  // storage cell of its mass, moving first (n_moving)
+  std::vector<std::array<std::uint32_t, 4>>
+      facets;                       // corners, anticlockwise from outside; a triangle repeats its last
+  std::vector<std::uint32_t> rgba;  // 0xAABBGGRR                      (n_facets)
+  std::uint64_t hidden = 0;         // facets between two filled cells
+
+  std::size_t n_vertices() const { return rest.size(); }
+  std::size_t n_moving() const { return cell.size(); }
+  /// Position now: of a moving vertex from the body, of the scenery from rest.
+  Vec3 position(std::size_t vertex, const MovingBody& moving) const {
+    return vertex < cell.size() ? moving.position(cell[vertex]) : rest[vertex];
+  }
+};
+
+/// Faces of shown cells that no other shown cell covers. Source: Takada & Abe, visible list; 6 neighbours (C-37).
+/// @param threshold  shows only cells of at least this intensity; absent: all tissue
+Surface voxel_surface(const Body& body, std::optional<double> threshold);
+
+/// Facets of an fcc body: the triangles and squares that bound its filled tetrahedra and octahedra, from the elements
+/// alive now. A tetrahedron is filled while all its elements live, an octahedron while at least five of its six
+/// masses hold together; a triangle that bounds nothing is a sheet and is shown too. Source: EQUATIONS C-8, C-12.
+Surface fcc_surface(const Body& body, const MovingBody& moving, std::uint32_t rgba);
+
+/// The surface of either kind.
+Surface make_surface(const MovingBody& moving, std::optional<double> threshold, std::uint32_t plain_rgba);
+
+}  // namespace palpate::physics

@@ -1,0 +1,66 @@
+#pragma once
+// All bodies of a scene and the frame that moves them. Free of DDS, files and clocks: the same object runs in
+// palpate-physics, in `palpate simulate`, in tests and in benchmarks.
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/message/messages.h"
+#include "common/scene/scene.h"
+#include "physics_node/contact/tool_coupling.h"
+#include "physics_node/step/moving_body.h"
+#include "physics_node/step/step_report.h"
+
+namespace palpate::physics {
+
+class World {
+ public:
+  /// Loads all bodies. @throws InputError
+  explicit World(const Scene& scene);
+
+  /// One frame of 1 / frame_Hz simulated seconds.
+  /// @param tools  newest state per tool, absent where nothing fresh has come (n_tools)
+  /// Contract: allocates, locks, prints and throws nothing.
+  void frame(std::span<const std::optional<ToolState>> tools) noexcept;
+
+  void reset() noexcept;
+
+  const Scene& scene() const { return scene_; }
+  double t() const { return t_; }
+  double frame_seconds() const { return frame_dt_; }
+  double step_seconds() const { return dt_; }
+  int threads() const { return threads_; }
+  double stable_step_seconds() const { return stable_dt_; }
+  std::size_t n_bodies() const { return bodies_.size(); }
+  const MovingBody& body(std::size_t b) const { return *bodies_[b]; }
+  std::vector<ToolCoupling>& tools() { return tools_; }
+  const std::vector<ToolCoupling>& tools() const { return tools_; }
+  StepReport& report() { return report_; }
+  const StepReport& report() const { return report_; }
+  std::uint64_t state_hash() const noexcept;
+  /// What a person should know about this scene: one line each.
+  const std::vector<std::string>& remarks() const { return remarks_; }
+
+ private:
+  void step(double dt) noexcept;
+  void guard() noexcept;
+
+  Scene scene_;
+  std::vector<std::unique_ptr<MovingBody>> bodies_;
+  std::vector<TouchableBody> touchable_;
+  std::vector<ToolCoupling> tools_;
+  StepReport report_;
+  std::vector<std::string> remarks_;
+  double t_ = 0;
+  double frame_dt_ = 0;
+  double dt_ = 0;  // of a step; frame_dt_ / n_substeps_
+  double stable_dt_ = 0;
+  int n_substeps_ = 1;
+  int threads_ = 1;
+  bool any_yields_ = false;
+};
+
+}  // namespace palpate::physics
