@@ -1,6 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <csignal>
 #include <filesystem>
 #include <limits>
 #include <random>
@@ -83,6 +87,35 @@ TEST(VolumeFile, FailureLeavesTheOldFileAndNothingBeside) {
   Volume volume = sample();
   volume.intensity[3] = std::numeric_limits<float>::quiet_NaN();
   EXPECT_THROW(write_volume(volume, folder / "v.h5"), InputError);
+  EXPECT_EQ(test::file_bytes(folder / "v.h5"), "the old one");
+  EXPECT_FALSE(std::filesystem::exists(folder / "v.h5.part"));
+}
+
+// The disk takes no more than 20 kB, in a process of its own.
+TEST(VolumeFile, AFullDiskIsSaidAndLeavesTheOldFile) {
+  const ScratchFolder folder;
+  test::write_file(folder / "v.h5", "the old one");
+  const pid_t child = fork();
+  if (child == 0) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit = {20'000, 20'000};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    Volume volume = sample();
+    volume.size = {40, 40, 40};
+    std::mt19937_64 random(1);
+    volume.intensity.clear();
+    for (int i = 0; i < 64'000; ++i) volume.intensity.push_back(static_cast<float>(random() & 0xFFFFu));
+    try {
+      write_volume(volume, folder / "v.h5");
+      _exit(1);
+    } catch (const InputError&) {
+      _exit(42);
+    }
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 42);
   EXPECT_EQ(test::file_bytes(folder / "v.h5"), "the old one");
   EXPECT_FALSE(std::filesystem::exists(folder / "v.h5.part"));
 }
