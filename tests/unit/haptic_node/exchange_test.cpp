@@ -42,7 +42,7 @@ TEST(TripleBuffer, KeepsOnlyTheNewest) {
 }
 
 TEST(TripleBuffer, NeverShowsAHalfOrAnOlderValueToAnotherThread) {
-  constexpr std::uint64_t last = 200'000;
+  constexpr std::uint64_t last = 20'000;
   TripleBuffer<Wide> buffer;
   std::thread writer([&] {
     for (std::uint64_t i = 1; i <= last; ++i) buffer.write(Wide::all(i));
@@ -76,7 +76,7 @@ TEST(SpscRing, RefusesWhenFullAndKeepsTheOrder) {
 }
 
 TEST(SpscRing, LosesNothingBetweenTwoThreads) {
-  constexpr std::uint64_t last = 300'000;
+  constexpr std::uint64_t last = 20'000;
   SpscRing<Wide, 64> ring;
   std::thread writer([&] {
     for (std::uint64_t i = 1; i <= last;)
