@@ -100,7 +100,7 @@ TEST(AnyPatch, LeavesTheForceFiniteAndLimitedInEveryTick) {
   EXPECT_NE(world.session.state(), HapticState::fault);
 }
 
-TEST(AnyPatch, ThatIsSoundButWildIsLimitedStepsOnlySoFarAndPaysForItsWork) {
+TEST(AnyPatch, ThatIsSoundButWildMovesTheForceInLimitedStepsAndPaysForItsWork) {
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     VirtualWorld world(scene_with(HandModel::rigid, {{0, {0, 0, 0.01}}, {10, {0.001, 0, -0.005}}}));
     world.run(0.2, 1000);
