@@ -1,0 +1,41 @@
+// palpate info FILE
+
+#include "deploy/palpate/info.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "common/error/error.h"
+#include "deploy/palpate/subcommands.h"
+
+namespace palpate::deploy {
+namespace {
+
+std::string info(const std::string& path) {
+  if (!std::filesystem::is_regular_file(path))
+    throw InputError(fmt::format("{}: no such file; give a volume, scene or record", path));
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (extension == ".toml") return info_scene(path);
+  if (extension == ".h5") return is_volume(path) ? info_volume(path) : info_record(path);
+  throw InputError(
+      fmt::format("{}: is no file of palpate; give a volume or record (.h5) or a scene (.toml), or turn an "
+                  "image into a volume with palpate import",
+                  path));
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, int& exit_code) {
+  auto* command = app.add_subcommand("info", "say what is in a volume, record or scene");
+  auto path = std::make_shared<std::string>();
+  command->add_option("file", *path, "volume or record (.h5), or scene (.toml)")->required();
+  command->callback([path, &exit_code] {
+    std::fputs(info(*path).c_str(), stdout);
+    exit_code = exit_ok;
+  });
+}
+
+}  // namespace palpate::deploy

@@ -1,0 +1,66 @@
+#include <fmt/format.h>
+
+#include "common/math/hash.h"
+#include "common/math/units.h"
+#include "common/scene/load_scene.h"
+#include "deploy/palpate/info.h"
+
+namespace palpate::deploy {
+namespace {
+
+struct ShapeText {
+  std::string operator()(const SphereShape& shape) const {
+    return fmt::format("sphere of radius {:.6g} mm", mm_from_m(shape.radius));
+  }
+  std::string operator()(const BoxShape& shape) const {
+    return fmt::format("box of {:.6g} x {:.6g} x {:.6g} mm", mm_from_m(shape.size[0]),
+                       mm_from_m(shape.size[1]), mm_from_m(shape.size[2]));
+  }
+  std::string operator()(const TubeShape& shape) const {
+    return fmt::format("tube of radius {:.6g} to {:.6g} mm, {:.6g} mm long", mm_from_m(shape.inner_radius),
+                       mm_from_m(shape.outer_radius), mm_from_m(shape.length));
+  }
+  std::string operator()(const VolumeShape& shape) const {
+    return fmt::format("volume {}, intensity {:.6g} to {:.6g}", shape.file, shape.keep_min, shape.keep_max);
+  }
+};
+
+std::string body_text(const BodySpec& body) {
+  std::string text =
+      fmt::format("body         {}: {}, {} lattice", body.name, std::visit(ShapeText{}, body.shape),
+                  body.lattice == LatticeKind::fcc ? "fcc" : "voxel");
+  if (body.spacing) text += fmt::format(" of {:.6g} mm", mm_from_m(*body.spacing));
+  return text + fmt::format(", material {}\n", body.material);
+}
+
+std::string material_text(const MaterialSpec& material) {
+  std::string text = fmt::format("material     {}:", material.name);
+  if (material.mass) text += fmt::format(" {:.6g} g a mass,", *material.mass * 1e3);
+  if (material.density) text += fmt::format(" {:.6g} kg/m^3,", *material.density);
+  if (material.k1) text += fmt::format(" k1 {:.6g} N/m,", *material.k1);
+  if (material.modulus) text += fmt::format(" modulus {:.6g} kPa,", *material.modulus * 1e-3);
+  text += fmt::format(" k2/k1 {:.6g}", material.k2_ratio);
+  if (material.yield_ratio) text += fmt::format(", yields at {:.6g}", *material.yield_ratio);
+  if (material.break_ratio) text += fmt::format(", breaks at {:.6g}", *material.break_ratio);
+  return text + "\n";
+}
+
+std::string tool_text(const ToolSpec& tool, const Scene& scene) {
+  return fmt::format("tool         {}: radius {:.6g} mm, {:.6g} N/m, device {} (driver {})\n", tool.name,
+                     mm_from_m(tool.radius), tool.stiffness, tool.device, scene.device(tool.device).driver);
+}
+
+}  // namespace
+
+std::string info_scene(const std::string& path) {
+  const Scene scene = load_scene(path);
+  std::string text = fmt::format("scene        {}\n", scene.title);
+  text += fmt::format("checksum     {}\n", hex_of(scene.checksum));
+  text += fmt::format("lasts        {:.6g} s\n", scene.natural_seconds());
+  for (const auto& body : scene.bodies) text += body_text(body);
+  for (const auto& material : scene.materials) text += material_text(material);
+  for (const auto& tool : scene.tools) text += tool_text(tool, scene);
+  return text;
+}
+
+}  // namespace palpate::deploy

@@ -1,0 +1,18 @@
+#pragma once
+// Where the parts of palpate are, seen from the running program: BIN/palpate, BIN/palpate-physics, ...,
+// BIN/../share/palpate. The build tree has the same shape as an installation.
+
+#include <filesystem>
+
+namespace palpate::deploy {
+
+/// Folder of the running program.
+std::filesystem::path bin_folder();
+
+/// BIN/../share/palpate
+std::filesystem::path share_folder();
+
+/// True if `path` is a program that may be started.
+bool is_program(const std::filesystem::path& path);
+
+}  // namespace palpate::deploy

@@ -1,0 +1,25 @@
+#pragma once
+// The three nodes: their names, their programs, and the order in which they are told to stop.
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/message/messages.h"
+
+namespace palpate::deploy {
+
+inline constexpr std::array all_nodes = {NodeKind::physics, NodeKind::haptic, NodeKind::render};
+
+/// Forces go to zero first, then the tissue may stop, then the picture.
+inline constexpr std::array stop_order = {NodeKind::haptic, NodeKind::physics, NodeKind::render};
+
+/// "physics", "haptic", "render"; also the name of the node's part file and of its program after "palpate-".
+std::string_view name_of(NodeKind node);
+
+/// From "physics,haptic"; each at most once, order does not matter.
+/// @throws InputError on any other word, or none
+std::vector<NodeKind> parse_nodes(const std::string& list);
+
+}  // namespace palpate::deploy

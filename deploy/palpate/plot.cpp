@@ -1,0 +1,27 @@
+// palpate plot DIR
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "common/error/error.h"
+#include "deploy/palpate/plotter.h"
+#include "deploy/palpate/subcommands.h"
+
+namespace palpate::deploy {
+
+void add_plot(CLI::App& app, int& exit_code) {
+  auto* command = app.add_subcommand("plot", "draw force, moment and energy of a session as pictures");
+  auto folder = std::make_shared<std::string>();
+  command->add_option("folder", *folder, "folder of the session: where its summary.json is")->required();
+  command->callback([folder, &exit_code] {
+    if (!std::filesystem::is_regular_file(std::filesystem::path(*folder) / "summary.json")) {
+      throw InputError(fmt::format(
+          "{}: has no summary.json; give the folder that palpate run or simulate wrote", *folder));
+    }
+    exit_code = draw_plots(*folder) ? exit_ok : exit_failed;
+  });
+}
+
+}  // namespace palpate::deploy

@@ -1,0 +1,134 @@
+// palpate run SCENE: starts the nodes, watches over them, and gathers what they leave.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "common/error/error.h"
+#include "common/process/stop_flag.h"
+#include "common/scene/load_scene.h"
+#include "deploy/palpate/install_paths.h"
+#include "deploy/palpate/nodes.h"
+#include "deploy/palpate/out_folder.h"
+#include "deploy/palpate/plotter.h"
+#include "deploy/palpate/ports.h"
+#include "deploy/palpate/session.h"
+#include "deploy/palpate/subcommands.h"
+#include "deploy/palpate/summary.h"
+#include "haptic_node/device/driver_library.h"
+
+namespace palpate::deploy {
+namespace fs = std::filesystem;
+
+namespace {
+
+struct RunOptions {
+  std::string scene_path;
+  std::vector<std::string> settings;
+  std::string out;
+  std::string device;
+  std::string nodes = "physics,haptic,render";
+  std::string bin;
+  double seconds = 0;  // 0: the scene's own
+  int domain = 0;
+  bool headless = false;
+  bool require_rt = false;
+};
+
+/// What every node is told; see common/process/node_main.h.
+std::vector<std::string> node_arguments(const RunOptions& options, const fs::path& out) {
+  std::vector<std::string> arguments = {options.scene_path, "--out", out.string(), "--domain",
+                                        std::to_string(options.domain)};
+  for (const auto& setting : options.settings) arguments.insert(arguments.end(), {"--set", setting});
+  if (!options.device.empty()) arguments.insert(arguments.end(), {"--device", options.device});
+  if (options.headless) arguments.emplace_back("--headless");
+  if (options.require_rt) arguments.emplace_back("--require-rt");
+  return arguments;
+}
+
+void require_programs(const SessionPlan& plan) {
+  for (const NodeKind node : plan.nodes) {
+    const auto program = plan.bin / fmt::format("palpate-{}", name_of(node));
+    if (!is_program(program))
+      throw InputError(fmt::format("{}: no such program; build or install it", program.string()));
+  }
+}
+
+/// The haptic node would refuse an unknown driver, too, but only after all nodes have started.
+void require_drivers(const Scene& scene, const RunOptions& options, const SessionPlan& plan) {
+  if (std::find(plan.nodes.begin(), plan.nodes.end(), NodeKind::haptic) == plan.nodes.end()) return;
+  const auto present = haptic::drivers_present(haptic::driver_folders());
+  for (const ToolSpec& tool : scene.tools) {
+    const DeviceSpec& device = scene.device(tool.device);
+    const std::string& driver = options.device.empty() ? device.driver : options.device;
+    if (std::find(present.begin(), present.end(), driver) != present.end()) continue;
+    throw InputError(fmt::format("{}: no driver \"{}\"; drivers here: {}",
+                                 options.device.empty() ? device.place.text() : "--device", driver,
+                                 present.empty() ? "none" : fmt::format("{}", fmt::join(present, ", "))));
+  }
+}
+
+void say_where(const fs::path& out, const fs::path& summary, bool plotted) {
+  std::printf("summary  %s\n", summary.c_str());
+  if (plotted && fs::exists(out / "force.png")) std::printf("plot     %s\n", (out / "force.png").c_str());
+  std::error_code error;
+  const auto pictures = std::distance(fs::directory_iterator(out / "frames", error), {});
+  if (!error && pictures > 0) std::printf("frames   %s (%td)\n", (out / "frames").c_str(), pictures);
+}
+
+int run(const RunOptions& options) {
+  // 1. everything that a person may have got wrong, before anything is started or written
+  const Scene scene = load_scene(options.scene_path, options.settings);
+  const fs::path out = options.out.empty() ? default_out(options.scene_path) : fs::path(options.out);
+  const SessionPlan plan = {.nodes = parse_nodes(options.nodes),
+                            .bin = options.bin.empty() ? bin_folder() : fs::path(options.bin),
+                            .arguments = node_arguments(options, out),
+                            .domain = options.domain,
+                            .seconds = options.seconds > 0 ? options.seconds : scene.natural_seconds()};
+  require_programs(plan);
+  require_drivers(scene, options, plan);
+  require_free_ports(plan.domain);
+  prepare_out(out);
+
+  // 2. the session
+  install_stop_handlers();
+  const SessionResult result = run_session(plan);
+
+  // 3. what it leaves
+  if (result.exit_code == exit_mistake) return exit_mistake;
+  const fs::path summary = write_summary(out, scene, result);
+  const bool plotted = !result.interrupted && draw_plots(out);
+  say_where(out, summary, plotted);
+  if (result.interrupted) std::printf("plot     palpate plot %s draws it\n", out.c_str());
+  return result.exit_code;
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, int& exit_code) {
+  auto* command = app.add_subcommand("run", "run a scene with all nodes, as processes of their own");
+  auto options = std::make_shared<RunOptions>();
+  command->add_option("scene", options->scene_path, "scene file (TOML)")->required();
+  command->add_flag("--headless", options->headless, "pictures to files instead of a window");
+  command
+      ->add_option("--seconds", options->seconds,
+                   "how long, once all nodes run; else until the hand's path ends")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--out", options->out, "folder for results (default: out/NAME_OF_SCENE)");
+  command->add_option("--set", options->settings, "table.key=value over the scene; may be repeated")
+      ->allow_extra_args(false);
+  command->add_option("--device", options->device, "driver instead of the scene's");
+  command->add_option("--nodes", options->nodes, "only some of physics,haptic,render");
+  command
+      ->add_option("--domain", options->domain, "DDS domain; sessions at the same time need different ones")
+      ->check(CLI::Range(0, 100));
+  command->add_flag("--require-rt", options->require_rt, "fail without real-time rights");
+  command->add_option("--bin-dir", options->bin, "folder of the nodes' programs")->group("");  // for tests
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace palpate::deploy

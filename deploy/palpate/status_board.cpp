@@ -1,0 +1,20 @@
+#include "deploy/palpate/status_board.h"
+
+namespace palpate::deploy {
+
+void StatusBoard::expect(NodeKind node, int pid) {
+  of(node) = Entry();
+  of(node).pid = static_cast<std::uint32_t>(pid);
+}
+
+void StatusBoard::note(const NodeStatus& status) {
+  Entry& entry = of(status.node);
+  if (entry.pid == 0 || status.pid != entry.pid) return;
+  entry.newest = status;
+  if (status.phase != NodePhase::running) return;
+  ++entry.n_running;
+  entry.sum_rate_Hz += status.rate_Hz;
+  entry.sum_real_time_factor += status.real_time_factor;
+}
+
+}  // namespace palpate::deploy

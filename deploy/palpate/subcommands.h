@@ -1,0 +1,15 @@
+#pragma once
+// The subcommands of `palpate`, one per file. Each adds itself to the command line; its callback does the work and
+// leaves the exit code, or throws InputError for a person's mistake.
+
+#include <CLI/CLI.hpp>
+
+namespace palpate::deploy {
+
+void add_run(CLI::App& app, int& exit_code);
+void add_import(CLI::App& app, int& exit_code);
+void add_info(CLI::App& app, int& exit_code);
+void add_plot(CLI::App& app, int& exit_code);
+void add_doctor(CLI::App& app, int& exit_code);
+
+}  // namespace palpate::deploy

@@ -1,0 +1,68 @@
+#include <gtest/gtest.h>
+
+#include "deploy/palpate/status_board.h"
+#include "deploy/palpate/status_line.h"
+
+namespace palpate::deploy {
+namespace {
+
+NodeStatus status_of(NodeKind node, NodePhase phase, std::uint32_t pid) {
+  NodeStatus status;
+  status.node = node;
+  status.phase = phase;
+  status.pid = pid;
+  return status;
+}
+
+TEST(StatusBoard, KnowsOnlyTheProcessesThatWereStarted) {
+  StatusBoard board;
+  board.expect(NodeKind::physics, 12);
+  board.note(status_of(NodeKind::physics, NodePhase::running, 99));
+  board.note(status_of(NodeKind::haptic, NodePhase::running, 13));
+  EXPECT_FALSE(board.at(NodeKind::physics).newest);
+  EXPECT_FALSE(board.at(NodeKind::haptic).newest);
+  board.note(status_of(NodeKind::physics, NodePhase::ready, 12));
+  EXPECT_TRUE(board.at(NodeKind::physics).newest);
+  EXPECT_FALSE(board.at(NodeKind::physics).running());
+}
+
+TEST(StatusBoard, TakesMeansOverTheRunningPhaseOnly) {
+  StatusBoard board;
+  board.expect(NodeKind::physics, 12);
+  auto status = status_of(NodeKind::physics, NodePhase::loading, 12);
+  status.rate_Hz = 5;
+  board.note(status);
+  status.phase = NodePhase::running;
+  for (const double rate : {900.0, 1100.0}) {
+    status.rate_Hz = rate;
+    status.real_time_factor = rate / 1000;
+    board.note(status);
+  }
+  EXPECT_DOUBLE_EQ(board.at(NodeKind::physics).mean_rate_Hz(), 1000);
+  EXPECT_DOUBLE_EQ(board.at(NodeKind::physics).mean_real_time_factor(), 1);
+  EXPECT_DOUBLE_EQ(board.at(NodeKind::render).mean_rate_Hz(), 0);
+}
+
+TEST(StatusText, SaysWhatEachNodeDoes) {
+  StatusBoard board;
+  board.expect(NodeKind::physics, 1);
+  board.expect(NodeKind::haptic, 2);
+  board.expect(NodeKind::render, 3);
+  auto physics = status_of(NodeKind::physics, NodePhase::running, 1);
+  physics.rate_Hz = 999.6;
+  physics.real_time_factor = 0.984;
+  physics.warnings = 2;
+  auto haptic = status_of(NodeKind::haptic, NodePhase::running, 2);
+  haptic.rate_Hz = 1000;
+  haptic.loop_age_ms_p50 = 1.23;
+  board.note(physics);
+  board.note(haptic);
+  const std::vector<NodeKind> nodes = {NodeKind::physics, NodeKind::haptic, NodeKind::render};
+  EXPECT_EQ(status_text(board, nodes, 12.34),
+            "  12.3 s | physics 1000 Hz x0.98 | haptic 1000 Hz loop 1.2 ms | render starting | 2 warnings");
+  board.note(status_of(NodeKind::render, NodePhase::loading, 3));
+  EXPECT_EQ(status_text(board, {NodeKind::render}, 0), "   0.0 s | render loading");
+}
+
+}  // namespace
+}  // namespace palpate::deploy
