@@ -5,13 +5,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "common/error/error.h"
 #include "common/process/stop_flag.h"
-#include "common/report/json_file.h"
 #include "common/report/log.h"
 #include "common/time/clock.h"
 #include "haptic_node/loop/haptic_summary.h"
@@ -154,11 +151,8 @@ int HapticNode::leave() {
   look_at_tools();
   wire_->finish();
   publish_status(NodePhase::stopping);
-  if (!options_.out.empty()) {
-    std::filesystem::create_directories(options_.out + "/parts");
-    write_json(options_.out + "/parts/haptic.json",
-               haptic_summary(*loop_->stats(), reports_, wire_->trace_lost()));
-  }
+  if (!options_.out.empty())
+    write_haptic_summary(options_.out, *loop_->stats(), reports_, wire_->trace_lost());
   const bool faulty = std::any_of(reports_.begin(), reports_.end(),
                                   [](const SessionReport& report) { return report.counts.faults > 0; });
   return faulty ? exit_failed : exit_ok;

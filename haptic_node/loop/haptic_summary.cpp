@@ -1,8 +1,10 @@
 #include "haptic_node/loop/haptic_summary.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "common/report/json_file.h"
 #include "common/time/clock.h"
 
 namespace palpate::haptic {
@@ -49,6 +51,13 @@ nlohmann::json haptic_summary(const LoopStats& stats, const std::vector<SessionR
   if (stats.compute.total() > 0) haptic["compute_us"] = percentiles(stats.compute);
   if (stats.loop_age.total() > 0) haptic["loop_age_ms"] = percentiles(stats.loop_age);
   return {{"haptic", haptic}};
+}
+
+void write_haptic_summary(const std::string& out, const LoopStats& stats,
+                          const std::vector<SessionReport>& tools, std::uint64_t trace_lost) {
+  std::error_code already;  // write_json says what is wrong with the folder
+  std::filesystem::create_directories(out + "/parts", already);
+  write_json(out + "/parts/haptic.json", haptic_summary(stats, tools, trace_lost));
 }
 
 }  // namespace palpate::haptic

@@ -1,7 +1,9 @@
 #pragma once
 // The "haptic" part of summary.json.
 
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 #include <vector>
 
 #include "haptic_node/loop/loop_stats.h"
@@ -13,5 +15,9 @@ namespace palpate::haptic {
 /// over tools, the energy is the largest of them. loop_age_ms is absent if no patch answered.
 nlohmann::json haptic_summary(const LoopStats& stats, const std::vector<SessionReport>& tools,
                               std::uint64_t trace_lost);
+
+/// Writes it to OUT/parts/haptic.json. @throws InputError as write_json does
+void write_haptic_summary(const std::string& out, const LoopStats& stats,
+                          const std::vector<SessionReport>& tools, std::uint64_t trace_lost);
 
 }  // namespace palpate::haptic
