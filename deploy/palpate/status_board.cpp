@@ -10,8 +10,9 @@ void StatusBoard::expect(NodeKind node, int pid) {
 void StatusBoard::note(const NodeStatus& status) {
   Entry& entry = of(status.node);
   if (entry.pid == 0 || status.pid != entry.pid) return;
+  const bool was_running = entry.running();  // the first running status is about a period only partly run
   entry.newest = status;
-  if (status.phase != NodePhase::running) return;
+  if (!was_running || !entry.running()) return;
   ++entry.n_running;
   entry.sum_rate_Hz += status.rate_Hz;
   entry.sum_real_time_factor += status.real_time_factor;

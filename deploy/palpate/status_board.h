@@ -14,7 +14,7 @@ class StatusBoard {
   struct Entry {
     std::uint32_t pid = 0;             // of the process we started; 0: none
     std::optional<NodeStatus> newest;  // nothing: not seen yet
-    std::uint64_t n_running = 0;       // statuses with phase running
+    std::uint64_t n_running = 0;       // statuses with phase running, but for the first
     double sum_rate_Hz = 0;
     double sum_real_time_factor = 0;
 

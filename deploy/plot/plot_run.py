@@ -56,7 +56,7 @@ def read_traces(folder):
 def label(axes, quantity):
     axes.set_ylabel(quantity)
     axes.grid(True, color="0.9")
-    axes.legend(loc="upper right", fontsize="small", frameon=False)
+    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize="small", frameon=False)
     axes.spines[["top", "right"]].set_visible(False)
 
 
@@ -71,9 +71,11 @@ def draw_vector(axes, columns, letters, unit, symbol):
 
 
 def draw_position(axes, columns):
+    """Seen from the first touch, so that depths can be read; from the start if nothing was touched."""
+    first = next((i for i, contacts in enumerate(columns["contacts"]) if contacts > 0), 0)
     for axis in "xyz":
-        start = columns[f"{axis}_m"][0]
-        axes.plot(columns["t_s"], [1000 * (p - start) for p in columns[f"{axis}_m"]], linewidth=0.9, label=axis)
+        origin = columns[f"{axis}_m"][first]
+        axes.plot(columns["t_s"], [1000 * (p - origin) for p in columns[f"{axis}_m"]], linewidth=0.9, label=axis)
 
 
 def draw_tool(plt, name, columns, path):
@@ -83,7 +85,7 @@ def draw_tool(plt, name, columns, path):
     draw_vector(axes[0], columns, ["fx", "fy", "fz"], "N", "F")
     label(axes[0], "force on the tool [N]")
     draw_position(axes[1], columns)
-    label(axes[1], "way of the tip from its start [mm]")
+    label(axes[1], "tip, from the first touch [mm]")
     if moments:
         draw_vector(axes[2], columns, ["mx", "my", "mz"], "Nm", "M")
         label(axes[2], "moment [N m]")

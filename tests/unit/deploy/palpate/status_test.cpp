@@ -26,14 +26,14 @@ TEST(StatusBoard, KnowsOnlyTheProcessesThatWereStarted) {
   EXPECT_FALSE(board.at(NodeKind::physics).running());
 }
 
-TEST(StatusBoard, TakesMeansOverTheRunningPhaseOnly) {
+TEST(StatusBoard, TakesMeansOverWholePeriodsOfTheRunningPhaseOnly) {
   StatusBoard board;
   board.expect(NodeKind::physics, 12);
   auto status = status_of(NodeKind::physics, NodePhase::loading, 12);
   status.rate_Hz = 5;
   board.note(status);
   status.phase = NodePhase::running;
-  for (const double rate : {900.0, 1100.0}) {
+  for (const double rate : {300.0, 900.0, 1100.0}) {
     status.rate_Hz = rate;
     status.real_time_factor = rate / 1000;
     board.note(status);

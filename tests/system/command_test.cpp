@@ -1,0 +1,75 @@
+// What a person sees who types `palpate ...`: lines and exit codes.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <string>
+
+namespace palpate {
+namespace {
+
+using testing::HasSubstr;
+
+struct Answer {
+  int exit_code = -1;
+  std::string text;  // stdout and stderr
+};
+
+Answer palpate_says(const std::string& arguments) {
+  Answer answer;
+  std::FILE* pipe = popen((std::string(PALPATE) + " " + arguments + " 2>&1").c_str(), "r");
+  for (int letter = std::fgetc(pipe); letter != EOF; letter = std::fgetc(pipe)) {
+    answer.text += static_cast<char>(letter);
+  }
+  const int status = pclose(pipe);
+  if (WIFEXITED(status)) answer.exit_code = WEXITSTATUS(status);
+  return answer;
+}
+
+void expect_mistake(const std::string& arguments, const std::string& words) {
+  const Answer answer = palpate_says(arguments);
+  EXPECT_EQ(answer.exit_code, 2) << arguments;
+  EXPECT_THAT(answer.text, HasSubstr(words)) << arguments;
+  EXPECT_EQ(answer.text.find('\n'), answer.text.size() - 1) << "one line: " << answer.text;
+}
+
+TEST(Command, AnswersAMistakeWithOneLineAndExitCodeTwo) {
+  expect_mistake("", "give a subcommand");
+  expect_mistake("frob", "frob");
+  expect_mistake("run", "scene is required");
+  expect_mistake("run /no/such/scene.toml", "/no/such/scene.toml: no such file");
+  expect_mistake("info", "file is required");
+  expect_mistake("info /no/such/file.h5", "/no/such/file.h5: no such file");
+  expect_mistake("info " PALPATE, "is no file of palpate; give a volume");
+  expect_mistake("plot /no/such/folder", "/no/such/folder: has no summary.json");
+}
+
+TEST(Command, HelpsWithExitCodeZero) {
+  for (const char* arguments : {"--help", "run --help", "info --help", "plot --help", "doctor --help"}) {
+    const Answer answer = palpate_says(arguments);
+    EXPECT_EQ(answer.exit_code, 0) << arguments;
+    EXPECT_THAT(answer.text, HasSubstr("--help")) << arguments;
+  }
+}
+
+TEST(Command, HandsImportOverToTheImporter) {
+  const Answer answer = palpate_says("import --help");
+  EXPECT_EQ(answer.exit_code, 0) << answer.text;
+  EXPECT_THAT(answer.text, HasSubstr("--out"));
+}
+
+TEST(Doctor, SaysOneLineAboutEachThing) {
+  const Answer answer = palpate_says("doctor");
+  for (const char* name : {"nodes", "DDS", "GL", "drivers", "plots", "processor", "timer", "real time",
+                           "memory lock", "shared memory"}) {
+    EXPECT_THAT(answer.text, HasSubstr(" " + std::string(name) + " ")) << name;
+  }
+  EXPECT_THAT(answer.text, HasSubstr("messages pass, and only this machine is heard"));
+  const bool fails = answer.text.rfind("fails", 0) == 0 || answer.text.find("\nfails") != std::string::npos;
+  EXPECT_EQ(answer.exit_code, fails ? 1 : 0) << answer.text;
+}
+
+}  // namespace
+}  // namespace palpate
