@@ -95,7 +95,7 @@ struct ToolSpec {
   ToolShape shape = ToolShape::point;
   std::string device;             // name of a [device.NAME]
   Vec3 set_point = Vec3::Zero();  // moments are about this point [m]
-  double radius = 0.003;          // of the tip: contact spreads over it [m]
+  double radius = 0.003;          // of the tip: its force fades out over twice that [m]
   double stiffness = 400;         // of the contact spring between hand and proxy [N/m]
   double damping = 1.0;           // [N s/m]
   Place place;

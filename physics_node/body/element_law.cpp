@@ -8,12 +8,15 @@ namespace {
 
 constexpr std::array<std::array<int, 2>, 6> voigt{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
 
-/// Relative spring constants of a lattice, before they are scaled to a modulus.
+/// Relative spring constants of a lattice, before they are scaled to a modulus. On cubic cells, axes : diagonals =
+/// 7/6 : 1 gives C11 = 3 C44 and C12 = C44, an isotropic solid but for the coupling of stretch and shear that one-sided
+/// diagonals bring; on others each spring takes the same share of its direction's stiffness k L^2 / V.
 std::array<double, max_half> relative_constants(const Lattice& lattice) {
+  constexpr std::array<double, max_half> share{7.0 / 6, 7.0 / 6, 7.0 / 6, 2, 2, 2, 3};
   std::array<double, max_half> k{};
   for (std::size_t d = 0; d < static_cast<std::size_t>(lattice.n_half); ++d) {
     const double L = lattice.rest_length[d];
-    k[d] = lattice.kind == LatticeKind::fcc ? 1.0 : lattice.step.prod() / (L * L);
+    k[d] = lattice.kind == LatticeKind::fcc ? 1.0 : share[d] * lattice.step.prod() / (L * L);
   }
   return k;
 }

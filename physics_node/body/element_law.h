@@ -41,8 +41,7 @@ double volume_per_mass(const Lattice& lattice);
 /// Mean of Young's moduli along x, y and z [Pa].
 double axial_modulus(const Eigen::Matrix<double, 6, 6>& stiffness);
 
-/// Spring constants, damping and mass from a material. A modulus is met by the mean axial modulus of the lattice;
-/// on the voxel lattice with k_d = kappa V / L_d^2 in every direction.
+/// Spring constants, damping and mass from a material. A modulus is met by the mean axial modulus of the lattice.
 ElementLaw element_law(const Lattice& lattice, const MaterialSpec& material);
 
 }  // namespace palpate::physics

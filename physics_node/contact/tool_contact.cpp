@@ -38,7 +38,7 @@ ToolContact::ToolContact(const ContactSurface& surface, const MovingBody& moving
     : surface_(surface), moving_(moving) {
   const Lattice& lattice = moving.body().lattice;
   const double coarse = lattice.kind == LatticeKind::fcc ? lattice.rest_length[0] : lattice.step.maxCoeff();
-  radius_ = std::max(radius, 2 * coarse);
+  radius_ = std::max(2 * radius, 2 * coarse);
   reach_ = radius_ + search_margin;
   near_.reserve(room);
   facets_.reserve(room);

@@ -23,7 +23,7 @@ struct MassShare {
 
 class ToolContact {
  public:
-  /// @param radius  of the tip: facets within this distance shape the plane and take the force [m]
+  /// @param radius  of the tip: its force fades out smoothly over twice that, and over two cells at least [m]
   ToolContact(const ContactSurface& surface, const MovingBody& moving, double radius);
 
   /// Looks for facets around `p`; keeps what it found until the tool or the tissue may have left it.
@@ -33,7 +33,7 @@ class ToolContact {
   ///   w_f = A_f (1 - |c_f - q|^2 / R^2)^2,   point = sum w c / sum w,   normal = sum w n / |sum w n|
   /// q begins at the facet nearest to p and follows the projection of p onto the plane. Facets that face away from
   /// the nearest one do not count. Source: Adamson & Alexa 2003 (point set surfaces from weighted averages);
-  /// R = the tip's radius, so the plane is as smooth as the tip is round although voxel facets are steps.
+  /// R is twice the tip's radius, so the plane is smooth although voxel facets are steps.
   LocalPlane plane_under(const Vec3& p) const noexcept;
 
   /// Finds the masses that carry the plane under q and their shares: the weights of the plane's point, so that a force
@@ -43,7 +43,7 @@ class ToolContact {
 
   /// Distance from p to the nearest facet's centroid; infinite where none is near [m].
   double nearest_distance(const Vec3& p) const noexcept;
-  double radius() const { return radius_; }
+  double reach() const { return radius_; }  // R [m]
 
   /// Writes the facets nearest to p, each with its own plane, nearest first. @return how many triangles
   std::uint32_t write_facets(const Vec3& p, std::uint32_t body, PatchFacet* out, std::uint32_t room) noexcept;
@@ -64,8 +64,8 @@ class ToolContact {
 
   const ContactSurface& surface_;
   const MovingBody& moving_;
-  double radius_;
-  double reach_;  // facets within this distance are kept [m]
+  double radius_;  // R [m]
+  double reach_;   // facets within this distance are kept [m]
   Vec3 searched_at_ = Vec3::Constant(1e9);
   double searched_when_ = -1e9;
   std::vector<std::uint32_t> near_;

@@ -10,6 +10,9 @@ namespace {
 
 constexpr double force_cutoff_Hz = 5.0;    // of the hand's force on its way into the tissue
 constexpr double negligible_force = 1e-6;  // [N]; below this the tissue is let go
+constexpr double stiffness_slack = 2e-4;   // [m] of indentation, before which the first guess weighs more
+constexpr double stiffness_time = 0.030;   // [s]
+constexpr double stiffness_range = 50;     // times the first guess, either way
 
 Array3 array_of(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
 Vec3 vector_of(const Array3& p) { return {p[0], p[1], p[2]}; }
@@ -28,6 +31,7 @@ ToolCoupling::ToolCoupling(const ToolSpec& tool, std::uint32_t index,
 }
 
 void ToolCoupling::take(const ToolState* state, double dt) noexcept {
+  frame_dt_ = dt;
   Vec3 target = Vec3::Zero();
   if (state != nullptr) {
     seen_ = true;
@@ -46,6 +50,7 @@ void ToolCoupling::take(const ToolState* state, double dt) noexcept {
 std::uint32_t ToolCoupling::find_contact(double t) noexcept {
   forces_.clear();
   moving_share_ = 0;
+  indentation_.setZero();
   plane_velocity_.setZero();
   if (!seen_) return 0;
   double least = std::numeric_limits<double>::infinity();
@@ -61,17 +66,30 @@ std::uint32_t ToolCoupling::find_contact(double t) noexcept {
   for (const MassShare& share : contact.shares()) {
     moving_share_ += share.share;
     plane_velocity_ += share.share * moving_[touched_]->velocity(share.cell);
+    indentation_ += share.share * moving_[touched_]->displacement(share.cell);
     if (!force_.isZero()) forces_.push_back({share.cell, -share.share * force_});
   }
+  follow_stiffness(frame_dt_);
   return static_cast<std::uint32_t>(forces_.size());
 }
 
-double ToolCoupling::tissue_stiffness(std::size_t body) const noexcept {
+double ToolCoupling::first_stiffness(std::size_t body) const noexcept {
   constexpr double nu = 1.0 / 3.0;
-  const double a = 0.5 * contacts_[body].radius();
-  const double soft = 2 * moving_[body]->body().law.modulus * a / (1 - nu * nu);
-  // The share that lies on scenery does not give.
-  return moving_share_ > 0 ? std::min(soft / moving_share_, rigid_stiffness) : rigid_stiffness;
+  const double a = 0.5 * contacts_[body].reach();
+  return 2 * moving_[body]->body().law.modulus * a / (1 - nu * nu);
+}
+
+void ToolCoupling::follow_stiffness(double dt) noexcept {
+  const double K_0 = first_stiffness(touched_);
+  const double F_n = force_.norm();
+  if (K_o_ <= 0 || F_n <= negligible_force) {
+    K_o_ = K_0;
+    return;
+  }
+  const double d = std::max(0.0, -indentation_.dot(force_) / F_n);
+  const double measured = (F_n + K_0 * stiffness_slack) / (d + stiffness_slack);
+  const double K_o = std::clamp(measured, K_0 / stiffness_range, K_0 * stiffness_range);
+  K_o_ += (1 - std::exp(-dt / stiffness_time)) * (K_o - K_o_);
 }
 
 void ToolCoupling::write_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) noexcept {
@@ -87,7 +105,8 @@ void ToolCoupling::write_patch(ContactPatch& patch, std::uint64_t frame, std::in
   patch.n_facets = contact.write_facets(proxy_, static_cast<std::uint32_t>(touched_), patch.facets.data(),
                                         max_patch_facets);
   patch.contact_set = contact.contact_set();
-  const double K_o = tissue_stiffness(touched_);
+  // The share that lies on scenery does not give.
+  const double K_o = moving_share_ > 0 ? std::min(K_o_ / moving_share_, rigid_stiffness) : rigid_stiffness;
   for (std::uint32_t f = 0; f < patch.n_facets; ++f) {
     PatchFacet& facet = patch.facets[f];
     const Vec3 n = vector_of(facet.normal);

@@ -76,6 +76,7 @@ class LatticeBody final : public MovingBody {
   Vec3 position(Index cell) const noexcept override {
     return body_.lattice.rest_position(cell) + vector_of(state_.u, cell);
   }
+  Vec3 displacement(Index cell) const noexcept override { return vector_of(state_.u, cell); }
   Vec3 velocity(Index cell) const noexcept override { return vector_of(state_.v, cell); }
   Mask mask(Index cell) const noexcept override { return state_.mask[static_cast<std::size_t>(cell)]; }
   std::uint8_t flags(Index cell) const noexcept override {

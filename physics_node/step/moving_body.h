@@ -58,6 +58,7 @@ class MovingBody {
 
   // --- answers ---
   virtual Vec3 position(Index cell) const noexcept = 0;
+  virtual Vec3 displacement(Index cell) const noexcept = 0;  // from rest [m]
   virtual Vec3 velocity(Index cell) const noexcept = 0;
   virtual Mask mask(Index cell) const noexcept = 0;
   virtual std::uint8_t flags(Index cell) const noexcept = 0;

@@ -58,7 +58,7 @@ std::vector<Ring> stick_outline(float tip_radius, float length) {
     outline.push_back({tip_radius * std::sin(angle), tip_radius * (1 - std::cos(angle))});
   }
   const float neck = std::max(0.30F * length, 2 * tip_radius);
-  const float handle = 1.7F * tip_radius;
+  const float handle = 1.15F * tip_radius;
   outline.push_back({tip_radius, neck});
   outline.push_back({handle, neck + 1.5F * tip_radius});
   outline.push_back({handle, length});

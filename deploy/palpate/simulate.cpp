@@ -1,0 +1,80 @@
+// palpate simulate: a scene in simulated time, as fast as it goes, the same bits every time.
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "common/error/error.h"
+#include "common/process/stop_flag.h"
+#include "common/report/json_file.h"
+#include "common/scene/load_scene.h"
+#include "deploy/palpate/out_folder.h"
+#include "deploy/palpate/plotter.h"
+#include "deploy/palpate/subcommands.h"
+#include "deploy/palpate/virtual_session.h"
+
+namespace palpate::deploy {
+namespace {
+
+struct SimulateOptions {
+  std::string scene;
+  std::vector<std::string> settings;
+  std::string out;
+  std::string device;
+  double seconds = 0;
+  int threads = -1;
+  bool no_pictures = false;
+};
+
+/// A bar on a terminal, nothing elsewhere.
+void show_progress(double t, double seconds) {
+  if (isatty(STDERR_FILENO) == 0) return;
+  const int done = static_cast<int>(40 * t / seconds);
+  std::fprintf(stderr, "\r  [%-40s] %.2f of %.2f s", std::string(static_cast<std::size_t>(done), '=').c_str(),
+               t, seconds);
+  if (t >= seconds) std::fputc('\n', stderr);
+}
+
+int simulate(SimulateOptions options) {
+  if (options.threads >= 0) options.settings.push_back(fmt::format("physics.threads={}", options.threads));
+  const Scene scene = load_scene(options.scene, options.settings);
+  const std::filesystem::path out =
+      options.out.empty() ? default_out(options.scene) : std::filesystem::path(options.out);
+  const double seconds = options.seconds > 0 ? options.seconds : scene.natural_seconds();
+  prepare_out(out);
+  install_stop_handlers();
+
+  VirtualSession session(scene, {out, options.device, !options.no_pictures});
+  session.run(seconds, [&](double t) { show_progress(t, seconds); });
+  const nlohmann::json summary = session.finish();
+  write_json((out / "summary.json").string(), summary);
+  draw_plots(out);
+  fmt::print("{:.3f} s simulated in {:.2f} s ({:.2f} x real time), state {}\n",
+             summary["simulated_s"].get<double>(), summary["wall_s"].get<double>(),
+             summary["real_time_factor"].get<double>(), summary["state_hash"].get<std::string>());
+  fmt::print("summary  {}\n", (out / "summary.json").string());
+  if (std::filesystem::exists(out / "force.png")) fmt::print("plot     {}\n", (out / "force.png").string());
+  if (!options.no_pictures) fmt::print("pictures {}\n", (out / "frames").string());
+  return exit_ok;
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<SimulateOptions>();
+  CLI::App* command =
+      app.add_subcommand("simulate", "run a scene in simulated time, in one process, deterministic");
+  command->add_option("scene", options->scene, "scene file (TOML)")->required();
+  command->add_option("--seconds", options->seconds, "simulated time")->check(CLI::PositiveNumber);
+  command->add_option("--out", options->out, "folder for the results (default out/SCENE)");
+  command->add_option("--set", options->settings, "table.key=value over the scene; may be repeated")
+      ->allow_extra_args(false);
+  command->add_option("--threads", options->threads, "threads of physics, 0: as many as pay")
+      ->check(CLI::Range(0, 256));
+  command->add_option("--device", options->device, "driver instead of the scene's");
+  command->add_flag("--no-frames", options->no_pictures, "draw no pictures");
+  command->callback([options, &exit_code] { exit_code = simulate(*options); });
+}
+
+}  // namespace palpate::deploy

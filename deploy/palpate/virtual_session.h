@@ -1,0 +1,59 @@
+#pragma once
+// Tissue, hand and eye in one process, in simulated time: no threads of the nodes, no wire, no waiting. The objects
+// are those that the three nodes run.
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "common/scene/scene.h"
+#include "haptic_node/session.h"
+#include "physics_node/appearance/appearance.h"
+#include "physics_node/record/recorder.h"
+#include "physics_node/world.h"
+#include "render_node/picture.h"
+
+namespace palpate::deploy {
+
+struct VirtualOptions {
+  std::filesystem::path out;  // folder for the record and the pictures; empty: nothing is written
+  std::string device;         // driver instead of the scenes'; empty: the scene's
+  bool pictures = true;
+};
+
+class VirtualSession {
+ public:
+  /// @throws InputError
+  VirtualSession(const Scene& scene, const VirtualOptions& options);
+
+  /// Simulates until `seconds`, or until a signal comes. `progress` is called now and then with the time reached.
+  void run(double seconds, const std::function<void(double t)>& progress);
+
+  /// Closes the files. @return the summary of this run
+  nlohmann::json finish();
+
+ private:
+  static std::int64_t clock(void* self) { return static_cast<VirtualSession*>(self)->now_ns_; }
+  void tick_hands(std::int64_t until_ns);
+  void tell_hands();
+  void show();
+
+  Scene scene_;
+  VirtualOptions options_;
+  physics::World world_;
+  std::int64_t now_ns_ = 1'000'000'000;  // not zero: zero means "never" in messages
+  std::vector<std::unique_ptr<haptic::HapticSession>> hands_;
+  std::vector<std::int64_t> next_tick_ns_;
+  std::vector<ContactPatch> patches_;
+  std::vector<std::optional<ToolState>> states_;
+  std::vector<HapticTrace> traces_;
+  std::unique_ptr<physics::Recorder> recorder_;
+  std::unique_ptr<physics::Appearance> appearance_;
+  std::unique_ptr<render::Picture> picture_;
+  int frames_ = 0;
+  double wall_s_ = 0;
+};
+
+}  // namespace palpate::deploy
