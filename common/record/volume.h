@@ -10,25 +10,36 @@
 
 namespace palpate {
 
-inline constexpr std::int64_t volume_cells_limit = 1'000'000'000;  // refused from here on, before any memory is taken
+inline constexpr std::int64_t volume_cells_limit =
+    1'000'000'000;  // refused from here on, before any memory is taken
 
 /// One control point of a transfer function: from this intensity on, this colour (linear between points).
-struct TransferPoint { double intensity = 0; std::array<double, 4> rgba{}; };  // each 0..1
+struct TransferPoint {
+  double intensity = 0;
+  std::array<double, 4> rgba{};
+};  // each 0..1
 
 struct Volume {
-  std::array<int, 3> size{};                    // cells along x, y, z
-  Eigen::Vector3d spacing = {0, 0, 0};          // of the cells [m], all > 0
-  std::optional<Eigen::Matrix3d> orientation;   // columns: patient directions (LPS) of x, y, z; absent: unknown
-  Eigen::Vector3d origin = {0, 0, 0};           // patient position of the first cell's centre [m]
-  std::vector<float> intensity;                 // x fastest, then y, then z (nx * ny * nz)
-  std::vector<TransferPoint> transfer;          // sorted by intensity, at least two
-  std::string source;                           // file name (no folder) that it came from
-  std::uint64_t source_checksum = 0;            // FNV-1a of the bytes of the source file (of a series: of all files)
-  std::array<int, 3> source_size{};             // before resampling
+  std::array<int, 3> size{};            // cells along x, y, z
+  Eigen::Vector3d spacing = {0, 0, 0};  // of the cells [m], all > 0
+  std::optional<Eigen::Matrix3d>
+      orientation;                      // columns: patient directions (LPS) of x, y, z; absent: unknown
+  Eigen::Vector3d origin = {0, 0, 0};   // patient position of the first cell's centre [m]
+  std::vector<float> intensity;         // x fastest, then y, then z (nx * ny * nz)
+  std::vector<TransferPoint> transfer;  // sorted by intensity, at least two
+  std::string source;                   // file name (no folder) that it came from
+  std::uint64_t source_checksum = 0;    // FNV-1a of the bytes of the source file (of a series: of all files)
+  std::array<int, 3> source_size{};     // before resampling
 
-  std::size_t n_cells() const { return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(size[2]); }
+  std::size_t n_cells() const {
+    return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
+           static_cast<std::size_t>(size[2]);
+  }
   float at(int i, int j, int k) const {
-    return intensity[static_cast<std::size_t>(i) + static_cast<std::size_t>(size[0]) * (static_cast<std::size_t>(j) + static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(k))];
+    return intensity[static_cast<std::size_t>(i) +
+                     static_cast<std::size_t>(size[0]) *
+                         (static_cast<std::size_t>(j) +
+                          static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(k))];
   }
 };
 
@@ -46,7 +57,8 @@ Volume resample(const Volume& volume, std::array<int, 3> partition);
 /// Colour of an intensity, 0xAABBGGRR: linear between the points, the outermost colours beyond them.
 std::uint32_t rgba_of(const std::vector<TransferPoint>& transfer, double intensity);
 
-/// For CT in Hounsfield units: air clear, fat yellowish, skin, muscle, bone white. `lo`, `hi`: range of the image;
+/// For CT in Hounsfield units: air clear, fat yellowish, muscle reddish, bone white. The tones are close to each other: the cells at
+/// the skin are partly air, and strong colours would draw rings on it. `lo`, `hi`: range of the image;
 /// an image that does not look like CT (lo >= 0, say) gets a grey ramp.
 std::vector<TransferPoint> default_transfer(double lo, double hi);
 

@@ -64,6 +64,12 @@ Vec3 ContactSurface::centroid(std::uint32_t facet, const MovingBody& moving) con
   return sum / 4;
 }
 
+Vec3 ContactSurface::rest_centroid(std::uint32_t facet) const {
+  Vec3 sum = Vec3::Zero();
+  for (const std::uint32_t corner : surface_.facets[facet]) sum += surface_.rest[corner];
+  return sum / 4;
+}
+
 Vec3 ContactSurface::area_vector(std::uint32_t facet, const MovingBody& moving) const {
   const auto& c = surface_.facets[facet];
   const Vec3 p0 = surface_.position(c[0], moving);

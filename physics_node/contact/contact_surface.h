@@ -21,6 +21,7 @@ class ContactSurface {
                    std::vector<std::uint32_t>& out) const;
 
   Vec3 centroid(std::uint32_t facet, const MovingBody& moving) const;
+  Vec3 rest_centroid(std::uint32_t facet) const;
   /// Half the cross product of the diagonals: the normal times the area [m^2].
   Vec3 area_vector(std::uint32_t facet, const MovingBody& moving) const;
 

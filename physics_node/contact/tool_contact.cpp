@@ -58,7 +58,9 @@ void ToolContact::look(const Vec3& p, double t) noexcept {
   for (const std::uint32_t id : near_) {
     const Vec3 centroid = surface_.centroid(id, moving_);
     const double distance = (centroid - p).norm();
-    if (distance <= reach_) facets_.push_back({id, centroid, surface_.area_vector(id, moving_), distance});
+    if (distance <= reach_)
+      facets_.push_back(
+          {id, centroid, surface_.rest_centroid(id), surface_.area_vector(id, moving_), distance});
   }
 }
 
@@ -89,17 +91,20 @@ LocalPlane ToolContact::plane_at(const Vec3& q, const Vec3& facing) const noexce
   LocalPlane plane;
   double sum = 0;
   Vec3 point = Vec3::Zero();
+  Vec3 rest = Vec3::Zero();
   Vec3 normal = Vec3::Zero();
   for (const Facet& facet : facets_) {
     const double w = weight(facet, q, facing);
     if (w <= 0) continue;
     sum += w;
     point += w * facet.centroid;
+    rest += w * facet.rest;
     normal += w / facet.area.norm() * facet.area;
   }
   if (sum <= 0 || normal.norm() < 0.1 * sum) return plane;
   plane.found = true;
   plane.point = point / sum;
+  plane.rest = rest / sum;
   plane.normal = normal.normalized();
   return plane;
 }
@@ -139,7 +144,7 @@ void ToolContact::find_shares(const Vec3& q) noexcept {
 }
 
 std::uint32_t ToolContact::write_facets(const Vec3& p, std::uint32_t body, PatchFacet* out,
-                                        std::uint32_t n_room) noexcept {
+                                        std::uint32_t n_room, bool at_rest) noexcept {
   const auto closer = [&](const Facet& a, const Facet& b) {
     const double da = (a.centroid - p).squaredNorm();
     const double db = (b.centroid - p).squaredNorm();
@@ -163,7 +168,7 @@ std::uint32_t ToolContact::write_facets(const Vec3& p, std::uint32_t body, Patch
           half == 0 ? std::array<std::size_t, 3>{0, 1, 2} : std::array<std::size_t, 3>{0, 2, 3};
       for (std::size_t c = 0; c < 3; ++c)
         patch.corners[c] = array_of(surface_.surface().position(corners[of[c]], moving_));
-      patch.point = array_of(plane.point);
+      patch.point = array_of(at_rest ? plane.rest : plane.point);
       patch.normal = array_of(plane.normal);
       patch.body = body;
     }

@@ -11,7 +11,9 @@ namespace palpate::physics {
 /// A plane fitted to the facets near a point, and the share of each mass in it.
 struct LocalPlane {
   bool found = false;
-  Vec3 point = Vec3::Zero();    // on the tissue now [m]
+  Vec3 point = Vec3::Zero();  // on the tissue now [m]
+  Vec3 rest =
+      Vec3::Zero();  // the same weights over the facets at rest: where the point was before any force [m]
   Vec3 normal = Vec3::UnitZ();  // out of the tissue, unit
 };
 
@@ -45,8 +47,11 @@ class ToolContact {
   double nearest_distance(const Vec3& p) const noexcept;
   double reach() const { return radius_; }  // R [m]
 
-  /// Writes the facets nearest to p, each with its own plane, nearest first. @return how many triangles
-  std::uint32_t write_facets(const Vec3& p, std::uint32_t body, PatchFacet* out, std::uint32_t room) noexcept;
+  /// Writes the facets nearest to p, each with its own plane, nearest first.
+  /// @param at_rest  the planes' points at rest instead of now
+  /// @return how many triangles
+  std::uint32_t write_facets(const Vec3& p, std::uint32_t body, PatchFacet* out, std::uint32_t room,
+                             bool at_rest) noexcept;
 
   /// Hash of the facets that write_facets named last: the contact set.
   std::uint64_t contact_set() const { return contact_set_; }
@@ -54,7 +59,7 @@ class ToolContact {
  private:
   struct Facet {
     std::uint32_t id;
-    Vec3 centroid, area;
+    Vec3 centroid, rest, area;
     double distance;
   };
   void refresh(const Vec3& p) noexcept;

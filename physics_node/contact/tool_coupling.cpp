@@ -11,7 +11,7 @@ namespace {
 constexpr double force_cutoff_Hz = 5.0;    // of the hand's force on its way into the tissue
 constexpr double negligible_force = 1e-6;  // [N]; below this the tissue is let go
 constexpr double stiffness_slack = 2e-4;   // [m] of indentation, before which the first guess weighs more
-constexpr double stiffness_time = 0.030;   // [s]
+constexpr double stiffness_time = 0.150;   // [s]
 constexpr double stiffness_range = 50;     // times the first guess, either way
 
 Array3 array_of(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
@@ -79,6 +79,11 @@ double ToolCoupling::first_stiffness(std::size_t body) const noexcept {
   return 2 * moving_[body]->body().law.modulus * a / (1 - nu * nu);
 }
 
+bool ToolCoupling::remembers_rest() const noexcept {
+  const Body& body = moving_[touched_]->body();
+  return body.n_held > 0 && !body.law.yields;
+}
+
 void ToolCoupling::follow_stiffness(double dt) noexcept {
   const double K_0 = first_stiffness(touched_);
   const double F_n = force_.norm();
@@ -103,14 +108,15 @@ void ToolCoupling::write_patch(ContactPatch& patch, std::uint64_t frame, std::in
   if (!seen_ || contacts_.empty()) return;
   ToolContact& contact = contacts_[touched_];
   patch.n_facets = contact.write_facets(proxy_, static_cast<std::uint32_t>(touched_), patch.facets.data(),
-                                        max_patch_facets);
+                                        max_patch_facets, remembers_rest());
   patch.contact_set = contact.contact_set();
   // The share that lies on scenery does not give.
   const double K_o = moving_share_ > 0 ? std::min(K_o_ / moving_share_, rigid_stiffness) : rigid_stiffness;
   for (std::uint32_t f = 0; f < patch.n_facets; ++f) {
     PatchFacet& facet = patch.facets[f];
     const Vec3 n = vector_of(facet.normal);
-    facet.point = array_of(vector_of(facet.point) + std::max(0.0, force_.dot(n)) / K_o * n);
+    if (!remembers_rest())
+      facet.point = array_of(vector_of(facet.point) + std::max(0.0, force_.dot(n)) / K_o * n);
     facet.stiffness = K_o;
     facet.velocity = array_of(plane_velocity_);
   }

@@ -3,8 +3,9 @@
 //
 // The hand feels planes at 1 kHz (haptic_node); the tissue feels the force that the hand reports, low-passed, so that
 // a late network cannot pump energy through the coupling. Each plane goes out as a Norton equivalent: where it would
-// be without contact force, p_rest = p + F / K_o, and how stiffly the tissue answers, K_o. Whatever K_o is, the two
-// meet where the tissue's own force equals the hand's; K_o only shapes the way there.
+// be without contact force, and how stiffly the tissue answers, K_o = F / d. For held elastic tissue the first is the
+// surface at rest, so the tissue's own swinging drops out of the loop through the hand; for a body that is free or
+// yields it is p + F / K_o. Either way the two meet where the tissue's own force equals the hand's.
 // Source: HAPTICS recipe; Astley & Hayward 1998 (Norton equivalents), Mendoza & Laugier 2001 (facets for the hand).
 
 #include <memory>
@@ -44,12 +45,13 @@ class ToolCoupling {
   bool engaged() const { return seen_ && engaged_; }
 
  private:
-  /// Stiffness of the tissue under the tip: the force over the indentation d that it made, both along the normal,
-  ///   K_o := (F_n + K_0 e) / (d + e),   e = 0.2 mm, followed with a time constant of 30 ms.
-  /// With K_o exact, p + F / K_o is where the surface was before it was touched, whatever it does now: the motion of the
-  /// tissue drops out of the loop through the hand. K_0, for the first touch, is that of an elastic half space under a
-  /// round patch of the tip's radius: 2 E a / (1 - nu^2), nu = 1/3.
+  /// Stiffness of the tissue under the tip: the force over the indentation d that it made, both along the force,
+  ///   K_o := (F + K_0 e) / (d + e),   e = 0.2 mm, followed with a time constant of 150 ms.
+  /// K_0, for the first touch, is that of an elastic half space under a round patch of the tip's radius:
+  /// 2 E a / (1 - nu^2), nu = 1/3.
   void follow_stiffness(double dt) noexcept;
+  /// Does the touched body always come back to its rest shape? Then the plane at zero force is known exactly.
+  bool remembers_rest() const noexcept;
   double first_stiffness(std::size_t body) const noexcept;
 
   std::uint32_t index_;
