@@ -22,7 +22,7 @@ struct Patience {
   std::chrono::milliseconds whole;  // before what still runs is killed
 };
 inline constexpr Patience calm = {std::chrono::milliseconds(500), std::chrono::milliseconds(5000)};
-inline constexpr Patience hurried = {std::chrono::milliseconds(150), std::chrono::milliseconds(850)};
+inline constexpr Patience hurried = {std::chrono::milliseconds(120), std::chrono::milliseconds(700)};
 
 /// Ends all nodes and returns when none is left. A person's stop that comes meanwhile makes calm hurried.
 void stop_nodes(std::vector<RunningNode>& nodes, Patience patience);
