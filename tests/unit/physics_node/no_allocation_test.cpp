@@ -1,0 +1,78 @@
+// A frame takes no memory. Every way to operator new in this program is counted while a frame runs.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "tests/support/physics/pressed_world.h"
+
+namespace {
+
+thread_local bool in_frame = false;
+thread_local std::size_t allocations = 0;
+
+void* taken(std::size_t size) {
+  if (in_frame) ++allocations;
+  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  throw std::bad_alloc();
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return taken(size); }
+void* operator new[](std::size_t size) { return taken(size); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace palpate::physics::test {
+namespace {
+
+std::size_t allocations_in(World& world, const std::optional<ToolState>& hand, int frames) {
+  allocations = 0;
+  in_frame = true;
+  run(world, hand, frames);
+  ContactPatch patch;
+  ToolWrench wrench;
+  for (auto& tool : world.tools()) {
+    tool.write_patch(patch, 1, 1);
+    tool.write_wrench(wrench, 1, 1, 0);
+  }
+  in_frame = false;
+  return allocations;
+}
+
+TEST(AllocationCount, SeesAnAllocation) {
+  allocations = 0;
+  in_frame = true;
+  delete new int(3);
+  in_frame = false;
+  EXPECT_EQ(allocations, 1u);
+}
+
+TEST(World, TakesNoMemoryInAFrameWhateverHappens) {
+  World world(pressed_slab());
+  EXPECT_EQ(allocations_in(world, std::nullopt, 5), 0u);  // before the hand is there
+  auto hand = steady_hand({0, 0, 1});
+  EXPECT_EQ(allocations_in(world, hand, 50), 0u);
+  hand->proxy = {0.02, -0.02, slab_top};
+  EXPECT_EQ(allocations_in(world, hand, 50), 0u);  // elsewhere
+  hand->proxy = {0, 0, 0.5};
+  EXPECT_EQ(allocations_in(world, hand, 50), 0u);  // far away
+  EXPECT_EQ(allocations_in(world, std::nullopt, 50), 0u);
+}
+
+TEST(World, TakesNoMemoryWhileItYieldsAndBreaks) {
+  Recipe recipe;
+  recipe.body = "velocity_m_per_s = [0, 0, -3]";
+  recipe.material += "\nyield_ratio = 1.01\nbreak_ratio = 1.05";
+  recipe.world = floor_at(-21);
+  World world(scene_of(recipe));
+  EXPECT_EQ(allocations_in(world, std::nullopt, 100), 0u);
+  EXPECT_GT(world.report().broken, 0);
+}
+
+}  // namespace
+}  // namespace palpate::physics::test

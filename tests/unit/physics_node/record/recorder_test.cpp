@@ -1,0 +1,97 @@
+#include "physics_node/record/recorder.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "tests/support/image/scratch_folder.h"
+#include "tests/support/physics/pressed_world.h"
+
+namespace palpate::physics {
+namespace {
+
+using namespace test;
+using palpate::test::ScratchFolder;
+
+constexpr int n_frames = 100;
+
+/// Presses a slab for a tenth of a second and leaves the files behind.
+class Recording : public testing::Test {
+ protected:
+  void SetUp() override {
+    Recipe recipe = pressed_slab_recipe();
+    recipe.world += "[record]\nwhat = [\"positions\", \"forces\"]\nrate_Hz = 50\n";
+    World world(scene_of(recipe));
+    Recorder recorder(world, folder_.path(), Recorder::WhenBehind::wait);
+    for (int n = 0; n < n_frames; ++n) {
+      run(world, steady_hand({0, 0, 1.5}), 1);
+      recorder.frame(world);
+    }
+    recorder.finish();
+    n_masses_ = static_cast<std::uint64_t>(world.body(0).body().lattice.n_masses());
+    top_ = world.body(0).body().lattice.masses.back();
+    last_force_ = world.tools().front().force();
+    EXPECT_EQ(recorder.dropped(), 0u);
+    EXPECT_NEAR(recorder.force_peak(0), last_force_.norm(), 1e-12);
+  }
+  ScratchFolder folder_;
+  std::uint64_t n_masses_ = 0;
+  Index top_ = 0;
+  Vec3 last_force_;
+};
+
+std::vector<std::string> lines_of(const std::string& path) {
+  std::ifstream in(path);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST_F(Recording, LeavesOneRowPerFrame) {
+  const auto lines = lines_of(folder_ / Recorder::trace_name("tip"));
+  ASSERT_EQ(lines.size(), 1u + n_frames);
+  EXPECT_EQ(lines[0], "t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm,contacts");
+  EXPECT_EQ(lines[1].substr(0, 9), "0.001000,");
+  double t = 0, x = 0, y = 0, z = 0, fx = 0, fy = 0, fz = 0;
+  ASSERT_EQ(std::sscanf(lines.back().c_str(), "%lf,%lf,%lf,%lf,%lf,%lf,%lf", &t, &x, &y, &z, &fx, &fy, &fz),
+            7);
+  EXPECT_NEAR(t, 0.1, 1e-9);
+  EXPECT_NEAR(z, slab_top - 0.002, 1e-9);
+  EXPECT_NEAR(fz, last_force_.z(), 1e-8);
+}
+
+TEST_F(Recording, KeepsPositionsAtTheRateAskedFor) {
+  const Hdf5File file(folder_ / "record.h5", Hdf5File::Mode::read);
+  const auto times = file.read<double>("/bodies/body/time");
+  ASSERT_EQ(times.size(), 6u);  // the first frame, then every 20 ms
+  EXPECT_NEAR(times[0], 0.001, 1e-12);
+  EXPECT_NEAR(times[5], 0.1, 1e-9);
+  EXPECT_EQ(file.shape("/bodies/body/position"), (std::vector<std::uint64_t>{6, n_masses_, 3}));
+  EXPECT_EQ(file.shape("/bodies/body/rest"), (std::vector<std::uint64_t>{n_masses_, 3}));
+  EXPECT_EQ(file.shape("/tools/tip/t_p_force_moment"), (std::vector<std::uint64_t>{n_frames, 10}));
+  const auto positions = file.read<float>("/bodies/body/position");
+  const auto rest = file.read<float>("/bodies/body/rest");
+  float lowest = 0;
+  for (std::size_t n = 0; n < rest.size(); n += 3)
+    lowest = std::min(lowest, positions[5 * rest.size() + n + 2] - rest[n + 2]);
+  EXPECT_LT(lowest, -0.0005F);
+  for (const auto corner : file.read<std::uint32_t>("/bodies/body/facets")) ASSERT_LT(corner, n_masses_);
+}
+
+TEST_F(Recording, OpensInAViewer) {
+  const char* source = std::getenv("PALPATE_SOURCE");
+  const std::string script =
+      std::string(source == nullptr ? "." : source) + "/tests/unit/physics_node/record/open_record.py";
+  const std::string command =
+      "/usr/bin/python3 '" + script + "' '" + (folder_ / "record.xdmf") + "' 6 " + std::to_string(n_masses_);
+  EXPECT_EQ(std::system(command.c_str()), 0);
+}
+
+TEST(Recorder, SaysWhereItCannotWrite) {
+  const World world(pressed_slab());
+  EXPECT_THROW(Recorder(world, "/nowhere/at/all", Recorder::WhenBehind::drop), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace palpate::physics

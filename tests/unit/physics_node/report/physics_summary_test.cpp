@@ -1,0 +1,83 @@
+#include "physics_node/report/physics_summary.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/image/scratch_folder.h"
+#include "tests/support/physics/pressed_world.h"
+
+namespace palpate::physics {
+namespace {
+
+using namespace test;
+using nlohmann::json;
+
+void expect_keys(const json& part, const std::vector<const char*>& keys, const std::string& where) {
+  for (const char* key : keys) EXPECT_TRUE(part.contains(key)) << where << " lacks " << key;
+}
+
+void expect_no_null(const json& part, const std::string& where) {
+  EXPECT_FALSE(part.is_null()) << where;
+  if (part.is_object())
+    for (const auto& [key, value] : part.items()) expect_no_null(value, where + "." + key);
+}
+
+TEST(PhysicsSummary, HasTheKeysPromised) {
+  const palpate::test::ScratchFolder folder;
+  World world(pressed_slab());
+  Recorder recorder(world, folder.path(), Recorder::WhenBehind::wait);
+  const auto hand = steady_hand({0, 0, 1.5});
+  for (int n = 0; n < 1000; ++n) {
+    run(world, hand, 1);
+    recorder.frame(world);
+  }
+  const json summary = physics_summary(world, &recorder, 2.0);
+  expect_no_null(summary, "summary");
+  expect_keys(summary,
+              {"scene", "commit", "seed", "threads", "precision", "integrator", "simulated_s", "wall_s",
+               "real_time_factor", "steps", "dt_s", "state_hash", "stages", "bodies", "energy", "momentum",
+               "tools", "guard"},
+              "summary");
+  for (const char* stage : stage_names) {
+    ASSERT_TRUE(summary["stages"].contains(stage)) << stage;
+    expect_keys(summary["stages"][stage], {"total_s", "calls", "skipped"}, stage);
+  }
+  expect_keys(summary["bodies"]["body"],
+              {"masses", "elements", "live_elements", "broken_fraction", "shape_rms_m", "max_stretch"},
+              "body");
+  EXPECT_FALSE(summary["bodies"]["body"].contains("yielded_fraction")) << "it cannot yield";
+  expect_keys(summary["energy"], {"kinetic", "elastic", "gravitational", "tool_work"}, "energy");
+  expect_keys(summary["momentum"], {"linear", "angular"}, "momentum");
+  expect_keys(summary["guard"], {"nonfinite", "restored", "warnings"}, "guard");
+  expect_keys(summary["tools"]["tip"], {"contacts_max", "force_peak", "force_rms", "moment_peak", "trace"},
+              "tool");
+
+  EXPECT_NEAR(summary["simulated_s"].get<double>(), 1.0, 1e-9);
+  EXPECT_NEAR(summary["real_time_factor"].get<double>(), 0.5, 1e-9);
+  EXPECT_EQ(summary["precision"], "double");
+  EXPECT_EQ(summary["bodies"]["body"]["masses"], 13 * 13 * 6);
+  EXPECT_EQ(summary["bodies"]["body"]["broken_fraction"], 0.0);
+  EXPECT_NEAR(summary["tools"]["tip"]["force_peak"].get<double>(), 1.5, 1e-3);
+  EXPECT_LT(summary["tools"]["tip"]["force_rms"].get<double>(), 1.5);
+  EXPECT_GT(summary["energy"]["tool_work"].get<double>(), summary["energy"]["elastic"].get<double>());
+  EXPECT_GT(summary["energy"]["elastic"].get<double>(), 1e-5);
+  EXPECT_EQ(summary["state_hash"].get<std::string>().size(), 16u);
+}
+
+TEST(PhysicsSummary, TellsOfYieldAndBreak) {
+  Recipe recipe;
+  recipe.body = "velocity_m_per_s = [0, 0, -3]";
+  recipe.material += "\nyield_ratio = 1.01\nbreak_ratio = 1.05";
+  recipe.world = floor_at(-21);
+  World world(scene_of(recipe));
+  for (int n = 0; n < 100; ++n) world.frame({});
+  const json summary = physics_summary(world, nullptr, 1.0);
+  const json& body = summary["bodies"]["body"];
+  EXPECT_GT(body["yielded_fraction"].get<double>(), 0);
+  const double broken = 1 - body["live_elements"].get<double>() / body["elements"].get<double>();
+  EXPECT_GT(broken, 0);
+  EXPECT_NEAR(body["broken_fraction"].get<double>(), broken, 1e-12);
+  EXPECT_FALSE(summary.contains("tools"));
+}
+
+}  // namespace
+}  // namespace palpate::physics

@@ -1,0 +1,133 @@
+#include "physics_node/world.h"
+
+#include <gtest/gtest.h>
+
+#include "common/error/error.h"
+#include "tests/support/physics/pressed_world.h"
+
+namespace palpate::physics {
+namespace {
+
+using namespace test;
+
+void run_alone(World& world, int frames) {
+  for (int n = 0; n < frames; ++n) world.frame({});
+}
+
+TEST(World, SkipsTheStagesThatASceneLacks) {
+  Recipe recipe;
+  recipe.body = "velocity_m_per_s = [1, 0, 0]";
+  World world(scene_of(recipe));
+  run_alone(world, 20);
+  StepReport& report = world.report();
+  const std::int64_t steps = report.steps;
+  EXPECT_EQ(report.frames, 20);
+  EXPECT_GE(steps, 20);
+  for (const Stage stage : {Stage::contact_forces, Stage::yield_and_break, Stage::integrate}) {
+    EXPECT_EQ(report[stage].calls, 0) << stage_names[static_cast<std::size_t>(stage)];
+    EXPECT_EQ(report[stage].skipped, steps) << stage_names[static_cast<std::size_t>(stage)];
+  }
+  EXPECT_EQ(report[Stage::take_tools].skipped, 20);
+  EXPECT_EQ(report[Stage::find_contacts].skipped, 20);
+  EXPECT_EQ(report[Stage::element_forces].calls, steps);
+  EXPECT_EQ(report[Stage::guard_finite].calls, 20);
+}
+
+TEST(World, DoesTheStagesThatASceneHas) {
+  Recipe recipe = pressed_slab_recipe();
+  recipe.material += "\nyield_ratio = 1.5\nbreak_ratio = 2";
+  recipe.world += floor_at(-50);
+  World world(scene_of(recipe));
+  run(world, steady_hand({0, 0, 1}), 20);
+  StepReport& report = world.report();
+  for (const Stage stage : {Stage::take_tools, Stage::find_contacts}) EXPECT_EQ(report[stage].calls, 20);
+  for (const Stage stage : {Stage::contact_forces, Stage::yield_and_break})
+    EXPECT_EQ(report[stage].calls, report.steps);
+}
+
+TEST(World, FallsAsGalileiSays) {
+  Recipe recipe;
+  recipe.gravity = "[0, 0, -9.81]";
+  World world(scene_of(recipe));
+  run_alone(world, 100);
+  const Index cell = world.body(0).body().lattice.masses.front();
+  EXPECT_NEAR(world.t(), 0.1, 1e-12);
+  EXPECT_NEAR(world.body(0).velocity(cell).z(), -0.981, 1e-9);
+  EXPECT_NEAR(world.body(0).displacement(cell).z(), -0.5 * 9.81 * 0.01, 0.0006);  // first order in the step
+}
+
+TEST(World, BouncesOffTheFloorWithoutLoss) {
+  Recipe recipe;
+  recipe.world = floor_at(-21);
+  recipe.body = "velocity_m_per_s = [0, 0, -1]";
+  recipe.physics = "safety = 0.02";  // symplectic Euler is of first order
+  World world(scene_of(recipe));
+  const auto energy = [&] {
+    const Energies e = world.body(0).energies(Vec3::Zero());
+    return e.kinetic + e.elastic;
+  };
+  const double first = energy();
+  run_alone(world, 300);
+  EXPECT_GT(world.body(0).momenta().linear.z(), 0);
+  EXPECT_NEAR(energy() / first, 1, 0.05);
+}
+
+TEST(World, TakesAStepBelowTheStableOne) {
+  Recipe recipe;
+  recipe.material = "mass_g = 1\nk1_N_per_m = 20000";
+  recipe.physics = "safety = 0.5";
+  const World world(scene_of(recipe));
+  EXPECT_LE(world.step_seconds(), 0.5 * world.stable_step_seconds() * (1 + 1e-9));
+  EXPECT_GT(world.step_seconds(), 0.4 * world.stable_step_seconds());
+  EXPECT_TRUE(world.remarks().empty());
+}
+
+TEST(World, BringsTheLastGoodStateBackWhenNumbersBlowUp) {
+  Recipe recipe;
+  recipe.material = "mass_g = 1\nk1_N_per_m = 20000";
+  recipe.physics = "step_ms = 1";
+  recipe.body = "fixed = [\"-z\"]";
+  recipe.gravity = "[0, 0, -9.81]";
+  World world(scene_of(recipe));
+  ASSERT_GT(world.step_seconds(), 5 * world.stable_step_seconds());
+  EXPECT_EQ(world.remarks().size(), 1u);
+  run_alone(world, 2000);
+  EXPECT_GT(world.report().nonfinite, 0);
+  EXPECT_EQ(world.report().restored, world.report().nonfinite);
+  EXPECT_TRUE(world.body(0).is_finite());
+}
+
+TEST(World, StartsAfreshAfterReset) {
+  Recipe recipe;
+  recipe.body = "velocity_m_per_s = [0, 0, -2]";
+  recipe.material += "\nyield_ratio = 1.01\nbreak_ratio = 1.05";
+  recipe.world = floor_at(-21);
+  World world(scene_of(recipe));
+  const auto start = world.state_hash();
+  run_alone(world, 100);
+  const auto end = world.state_hash();
+  ASSERT_GT(world.report().broken, 0);
+  EXPECT_NE(end, start);
+  world.reset();
+  EXPECT_EQ(world.state_hash(), start);
+  run_alone(world, 100);
+  EXPECT_EQ(world.state_hash(), end);
+}
+
+TEST(World, RefusesAnIntegratorThatItDoesNotHave) {
+  Recipe recipe;
+  recipe.physics = "integrator = \"backward_euler\"";
+  EXPECT_THROW(World(scene_of(recipe)), InputError);
+}
+
+TEST(World, SaysThatBodiesDoNotYetTouchEachOther) {
+  Recipe recipe;
+  recipe.world = "[[body]]\nname = \"other\"\nspacing_mm = 10\nmaterial = \"m\"\nat_mm = [200, 0, 0]\n" +
+                 Recipe::sphere(30);
+  const World world(scene_of(recipe));
+  EXPECT_EQ(world.n_bodies(), 2u);
+  EXPECT_EQ(world.remarks().size(), 1u);
+}
+
+}  // namespace
+}  // namespace palpate::physics
