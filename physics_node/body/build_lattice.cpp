@@ -81,14 +81,16 @@ Lattice voxel_lattice(const Cells& cells) {
       }
   index_masses(lattice);
 
-  // An edge in direction d from grid point g lies in the cells g - s, where s runs over the axes that d leaves out.
+  // An edge in direction d from grid point g lies in the cells g + min(d, 0) - s, where s runs over the axes that d
+  // leaves out. Diagonals join even points.
   const auto directions = half_directions(LatticeKind::voxel);
   join_elements(lattice, [&](const Vec3i& grid, std::size_t d) {
     const Vec3i along = directions[d];
+    if (along.cwiseAbs().sum() == 2 && (grid.sum() & 1) != 0) return false;
     for (int s = 0; s < 8; ++s) {
       const Vec3i back(s & 1, s >> 1 & 1, s >> 2);
       if (back.cwiseProduct(along) != Vec3i::Zero()) continue;
-      const Vec3i at = grid + box.lo - back;
+      const Vec3i at = grid + box.lo + along.cwiseMin(0) - back;
       if (cells.is_deformable(at.x(), at.y(), at.z())) return true;
     }
     return false;

@@ -6,7 +6,7 @@
 
 namespace palpate::physics {
 
-/// Masses at the corners of deformable cells, elements along the edges of their Kuhn tetrahedra. The share of a mass is
+/// Masses at the corners of deformable cells, elements along the edges of their five tetrahedra. The share of a mass is
 /// as many eighths of a cell as it has deformable cells around it.
 Lattice voxel_lattice(const Cells& cells);
 

@@ -1,6 +1,7 @@
 #include "physics_node/body/cells.h"
 
 #include <fmt/format.h>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -61,6 +62,19 @@ void mark_deformable(Cells& cells, const DeformableRegion& region) {
         cells.deformable[cells.index(i, j, k)] = cells.filled[cells.index(i, j, k)];
 }
 
+void mirror_x(Cells& cells) {
+  const auto nx = static_cast<std::size_t>(cells.size.x());
+  for (std::size_t row = 0; row < cells.filled.size(); row += nx) {
+    const auto mirror = [&](auto& values) {
+      const auto first = values.begin() + static_cast<std::ptrdiff_t>(row);
+      std::reverse(first, first + static_cast<std::ptrdiff_t>(nx));
+    };
+    mirror(cells.filled);
+    mirror(cells.deformable);
+    mirror(cells.intensity);
+  }
+}
+
 Cells volume_cells(const BodySpec& body, const VolumeShape& shape) {
   Volume volume = read_volume(shape.file);
   if (shape.partition) volume = resample(volume, *shape.partition);
@@ -83,6 +97,8 @@ Cells volume_cells(const BodySpec& body, const VolumeShape& shape) {
   mark_deformable(cells, shape.deformable);
   cells.intensity = std::move(volume.intensity);
   cells.transfer = std::move(volume.transfer);
+  // An image whose axes are left-handed would stand in the world as its mirror image: a left ear on the right.
+  if (volume.orientation && volume.orientation->determinant() < 0) mirror_x(cells);
   return cells;
 }
 

@@ -36,7 +36,8 @@ struct Cells {
 };
 
 /// The cells of a body's shape. A volume is read from its file, resampled to the partition asked for, and
-/// thresholded; other shapes fill every cell whose centre lies inside.
+/// thresholded; other shapes fill every cell whose centre lies inside. The axes of the image are those of the world,
+/// but x is turned round where they are left-handed; center_voxel counts as the image does.
 /// @throws InputError: unreadable volume, nothing left within the window, nothing deformable
 Cells make_cells(const BodySpec& body);
 

@@ -8,11 +8,11 @@ namespace {
 
 constexpr std::array<std::array<int, 2>, 6> voigt{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
 
-/// Relative spring constants of a lattice, before they are scaled to a modulus. On cubic cells, axes : diagonals =
-/// 7/6 : 1 gives C11 = 3 C44 and C12 = C44, an isotropic solid but for the coupling of stretch and shear that one-sided
-/// diagonals bring; on others each spring takes the same share of its direction's stiffness k L^2 / V.
+/// Relative spring constants of a lattice, before they are scaled to a modulus. On cubic voxels, axes : diagonals =
+/// 1 : 2 gives C11 = 3 C12 = 3 C44, an isotropic solid of Poisson's ratio 1/4; on others each spring takes the same share
+/// of its direction's stiffness k L^2 / V.
 std::array<double, max_half> relative_constants(const Lattice& lattice) {
-  constexpr std::array<double, max_half> share{7.0 / 6, 7.0 / 6, 7.0 / 6, 2, 2, 2, 3};
+  constexpr std::array<double, max_half> share{1, 1, 1, 4, 4, 4, 4, 4, 4};
   std::array<double, max_half> k{};
   for (std::size_t d = 0; d < static_cast<std::size_t>(lattice.n_half); ++d) {
     const double L = lattice.rest_length[d];
@@ -36,7 +36,7 @@ Eigen::Matrix<double, 6, 6> homogenised_stiffness(const Lattice& lattice,
     const Vec3 n = lattice.rest_vector[d] / L;
     Eigen::Matrix<double, 6, 1> nn;
     for (std::size_t a = 0; a < 6; ++a) nn[static_cast<Eigen::Index>(a)] = n[voigt[a][0]] * n[voigt[a][1]];
-    C += k1[d] * L * L / volume_per_mass(lattice) * nn * nn.transpose();
+    C += elements_per_mass(lattice.kind, d) * k1[d] * L * L / volume_per_mass(lattice) * nn * nn.transpose();
   }
   return C;
 }

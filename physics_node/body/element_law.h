@@ -31,7 +31,7 @@ struct ElementLaw {
 };
 
 /// Stiffness of the homogenised lattice in Voigt order xx yy zz yz xz xy (engineering shear) [Pa]:
-///   C_ijkl = (1/V) sum over half directions of k L^2 n_i n_j n_k n_l,   V the volume of a mass.
+///   C_ijkl = (1/V) sum over half directions of e k L^2 n_i n_j n_k n_l,   V the volume of a mass, e its elements_per_mass.
 Eigen::Matrix<double, 6, 6> homogenised_stiffness(const Lattice& lattice,
                                                   const std::array<double, max_half>& k1);
 

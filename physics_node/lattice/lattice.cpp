@@ -15,7 +15,12 @@ std::vector<Vec3i> half_directions(LatticeKind kind) {
   if (kind == LatticeKind::fcc) {
     return {{1, 1, 0}, {-1, 1, 0}, {1, 0, 1}, {-1, 0, 1}, {0, 1, 1}, {0, -1, 1}};
   }
-  return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
+  return {{1, 0, 0}, {0, 1, 0},  {0, 0, 1}, {1, 1, 0}, {-1, 1, 0},
+          {1, 0, 1}, {-1, 0, 1}, {0, 1, 1}, {0, -1, 1}};
+}
+
+double elements_per_mass(LatticeKind kind, std::size_t half_direction) {
+  return kind == LatticeKind::voxel && half_direction >= 3 ? 0.5 : 1.0;
 }
 
 int Lattice::row_parity(Index cell) const {

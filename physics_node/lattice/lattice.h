@@ -8,9 +8,10 @@
 //   fcc    12 neighbours, 6 half directions (EQUATIONS C-12). Grid coordinates (X, Y, Z) with X + Y + Z even, in
 //          steps of L / sqrt(2) along the cubic axes; X is stored at i = (X - parity) / 2 with parity = (Y + Z) & 1, so
 //          the offsets are constant within a row and of two kinds.
-//   voxel  14 neighbours, 7 half directions: the edges of Kuhn's six tetrahedra per cell: axes, one diagonal per
-//          face, one per body. The split is the same in every cell and its face diagonals meet those of the next
-//          cell, so the mesh conforms. An element exists where a filled cell holds it.
+//   voxel  the edges of five tetrahedra per cell, mirrored from cell to cell (EQUATIONS C-38): 3 half directions
+//          along the axes, 6 along the diagonals of the faces. A face has the one diagonal that joins its corners of
+//          even i + j + k, so the cells on both sides agree on it and the mesh conforms: an even mass has up to 18
+//          neighbours, an odd one 6. An element exists where a filled cell holds it.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -58,6 +59,9 @@ struct Lattice {
 
 /// Half directions of a lattice in grid coordinates.
 std::vector<Vec3i> half_directions(LatticeKind kind);
+
+/// Elements of a half direction per mass, deep inside: 1, or 1/2 for the face diagonals of voxels.
+double elements_per_mass(LatticeKind kind, std::size_t half_direction);
 
 /// An empty lattice whose box holds the grid coordinates [0, extent) and a halo. `step` as above.
 Lattice make_lattice(LatticeKind kind, const Vec3i& extent, const Vec3& origin, const Vec3& step);

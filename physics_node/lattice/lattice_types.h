@@ -6,9 +6,9 @@
 namespace palpate::physics {
 
 using Index = std::int32_t;
-using Mask = std::uint16_t;
+using Mask = std::uint32_t;
 
-inline constexpr int max_half = 7;
+inline constexpr int max_half = 9;
 inline constexpr int max_directions = 2 * max_half;
 
 /// A run of storage cells that begins and ends with a mass and has no gap as long as a vector of cells.

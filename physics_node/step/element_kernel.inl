@@ -24,7 +24,7 @@ inline __attribute__((always_inline)) void add_element(const ElementContext<Real
                                                        const typename Pack<Real>::V (&v)[3], typename Pack<Real>::V (&f)[3]) {
   using P = Pack<Real>;
   using V = typename P::V;
-  constexpr int n_half = kind.fcc ? 6 : 7;
+  constexpr int n_half = kind.fcc ? 6 : 9;
   const V L = P::all(m.L[d]);
   const V d0 = P::load(m.u[0] + i + o) - u[0];
   const V d1 = P::load(m.u[1] + i + o) - u[1];
@@ -98,7 +98,7 @@ void step_rows(const ElementContext<Real>& m, Index first_row, Index last_row,
 template <class Real, bool fcc, bool damped, bool yields>
 void kernel(const ElementContext<Real>& m, Index first_row, Index last_row) {
   step_rows<Real, KernelKind{fcc, damped, yields}>(m, first_row, last_row,
-                                                   std::make_integer_sequence<int, fcc ? 12 : 14>());
+                                                   std::make_integer_sequence<int, fcc ? 12 : 18>());
 }
 
 template <class Real, bool fcc>

@@ -25,7 +25,7 @@ struct Pack {
   using Integer = std::conditional_t<sizeof(Real) == 4, std::int32_t, std::int64_t>;
   typedef Real V __attribute__((vector_size(vector_bytes)));
   typedef Integer I __attribute__((vector_size(vector_bytes)));
-  typedef std::uint16_t M __attribute__((vector_size(width * 2)));
+  typedef std::uint32_t M __attribute__((vector_size(width * 4)));
 
   static V load(const Real* p) {
     V v;
@@ -37,7 +37,7 @@ struct Pack {
   static V larger(V a, V b) { return a > b ? a : b; }
 
   /// The masks of `width` cells, one per lane.
-  static I load_masks(const std::uint16_t* p) {
+  static I load_masks(const std::uint32_t* p) {
     M m;
     std::memcpy(&m, p, sizeof(m));
     return __builtin_convertvector(m, I);
