@@ -156,11 +156,11 @@ TEST_F(PulledCorner, StillHoldsExactlyAtItsBreakRatio) {
   pull(0.5);
   EXPECT_EQ(yield_and_break(body_, state_, 1), 0);
   EXPECT_TRUE(alive(origin_, 0));
-  EXPECT_TRUE(alive(corner_, 7));
+  EXPECT_TRUE(alive(corner_, body_.lattice.n_half));
   pull(0.5 + 1e-15);
   EXPECT_EQ(yield_and_break(body_, state_, 1), 1);
   EXPECT_FALSE(alive(origin_, 0));
-  EXPECT_FALSE(alive(corner_, 7));
+  EXPECT_FALSE(alive(corner_, body_.lattice.n_half));
 }
 
 TEST(ElementLaw, AgreesAtBothEndsAfterACrash) {
