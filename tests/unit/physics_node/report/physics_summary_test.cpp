@@ -38,29 +38,30 @@ TEST(PhysicsSummary, HasTheKeysPromised) {
                "tools", "guard"},
               "summary");
   for (const char* stage : stage_names) {
-    ASSERT_TRUE(summary["stages"].contains(stage)) << stage;
-    expect_keys(summary["stages"][stage], {"total_s", "calls", "skipped"}, stage);
+    ASSERT_TRUE(summary.at("stages").contains(stage)) << stage;
+    expect_keys(summary.at("stages").at(stage), {"total_s", "calls", "skipped"}, stage);
   }
-  expect_keys(summary["bodies"]["body"],
+  expect_keys(summary.at("bodies").at("body"),
               {"masses", "elements", "live_elements", "broken_fraction", "shape_rms_m", "max_stretch"},
               "body");
-  EXPECT_FALSE(summary["bodies"]["body"].contains("yielded_fraction")) << "it cannot yield";
-  expect_keys(summary["energy"], {"kinetic", "elastic", "gravitational", "tool_work"}, "energy");
-  expect_keys(summary["momentum"], {"linear", "angular"}, "momentum");
-  expect_keys(summary["guard"], {"nonfinite", "restored", "warnings"}, "guard");
-  expect_keys(summary["tools"]["tip"], {"contacts_max", "force_peak", "force_rms", "moment_peak", "trace"},
-              "tool");
+  EXPECT_FALSE(summary.at("bodies").at("body").contains("yielded_fraction")) << "it cannot yield";
+  expect_keys(summary.at("energy"), {"kinetic", "elastic", "gravitational", "tool_work"}, "energy");
+  expect_keys(summary.at("momentum"), {"linear", "angular"}, "momentum");
+  expect_keys(summary.at("guard"), {"nonfinite", "restored", "warnings"}, "guard");
+  expect_keys(summary.at("tools").at("tip"),
+              {"contacts_max", "force_peak", "force_rms", "moment_peak", "trace"}, "tool");
 
-  EXPECT_NEAR(summary["simulated_s"].get<double>(), 1.0, 1e-9);
-  EXPECT_NEAR(summary["real_time_factor"].get<double>(), 0.5, 1e-9);
-  EXPECT_EQ(summary["precision"], "double");
-  EXPECT_EQ(summary["bodies"]["body"]["masses"], 13 * 13 * 6);
-  EXPECT_EQ(summary["bodies"]["body"]["broken_fraction"], 0.0);
-  EXPECT_NEAR(summary["tools"]["tip"]["force_peak"].get<double>(), 1.5, 1e-3);
-  EXPECT_LT(summary["tools"]["tip"]["force_rms"].get<double>(), 1.5);
-  EXPECT_GT(summary["energy"]["tool_work"].get<double>(), summary["energy"]["elastic"].get<double>());
-  EXPECT_GT(summary["energy"]["elastic"].get<double>(), 1e-5);
-  EXPECT_EQ(summary["state_hash"].get<std::string>().size(), 16u);
+  EXPECT_NEAR(summary.at("simulated_s").get<double>(), 1.0, 1e-9);
+  EXPECT_NEAR(summary.at("real_time_factor").get<double>(), 0.5, 1e-9);
+  EXPECT_EQ(summary.at("precision"), "double");
+  EXPECT_EQ(summary.at("bodies").at("body").at("masses"), 13 * 13 * 6);
+  EXPECT_EQ(summary.at("bodies").at("body").at("broken_fraction"), 0.0);
+  EXPECT_NEAR(summary.at("tools").at("tip").at("force_peak").get<double>(), 1.5, 1e-3);
+  EXPECT_LT(summary.at("tools").at("tip").at("force_rms").get<double>(), 1.5);
+  EXPECT_GT(summary.at("energy").at("tool_work").get<double>(),
+            summary.at("energy").at("elastic").get<double>());
+  EXPECT_GT(summary.at("energy").at("elastic").get<double>(), 1e-5);
+  EXPECT_EQ(summary.at("state_hash").get<std::string>().size(), 16u);
 }
 
 TEST(PhysicsSummary, TellsOfYieldAndBreak) {
@@ -71,11 +72,11 @@ TEST(PhysicsSummary, TellsOfYieldAndBreak) {
   World world(scene_of(recipe));
   for (int n = 0; n < 100; ++n) world.frame({});
   const json summary = physics_summary(world, nullptr, 1.0);
-  const json& body = summary["bodies"]["body"];
-  EXPECT_GT(body["yielded_fraction"].get<double>(), 0);
-  const double broken = 1 - body["live_elements"].get<double>() / body["elements"].get<double>();
+  const json& body = summary.at("bodies").at("body");
+  EXPECT_GT(body.at("yielded_fraction").get<double>(), 0);
+  const double broken = 1 - body.at("live_elements").get<double>() / body.at("elements").get<double>();
   EXPECT_GT(broken, 0);
-  EXPECT_NEAR(body["broken_fraction"].get<double>(), broken, 1e-12);
+  EXPECT_NEAR(body.at("broken_fraction").get<double>(), broken, 1e-12);
   EXPECT_FALSE(summary.contains("tools"));
 }
 
