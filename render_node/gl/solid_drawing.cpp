@@ -52,14 +52,17 @@ Eigen::Vector2f shared_normal(const Eigen::Vector2f& own, const Eigen::Vector2f&
 
 std::vector<Ring> stick_outline(float tip_radius, float length) {
   std::vector<Ring> outline;
-  constexpr int n = 8;
+  // A ball for a tip, then a thinner shaft, so that the tip does not hide what it presses; then the handle.
+  constexpr int n = 12;
+  constexpr float ball = 0.85F * std::numbers::pi_v<float>;
   for (int i = 0; i <= n; ++i) {
-    const float angle = 0.5F * std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(n);
+    const float angle = ball * static_cast<float>(i) / static_cast<float>(n);
     outline.push_back({tip_radius * std::sin(angle), tip_radius * (1 - std::cos(angle))});
   }
-  const float neck = std::max(0.30F * length, 2 * tip_radius);
-  const float handle = 1.15F * tip_radius;
-  outline.push_back({tip_radius, neck});
+  const float shaft = tip_radius * std::sin(ball);
+  const float neck = std::max(0.45F * length, 4 * tip_radius);
+  const float handle = 0.9F * tip_radius;
+  outline.push_back({shaft, neck});
   outline.push_back({handle, neck + 1.5F * tip_radius});
   outline.push_back({handle, length});
   outline.push_back({0, length});
