@@ -70,11 +70,14 @@ Vec3 ContactSurface::rest_centroid(std::uint32_t facet) const {
   return sum / 4;
 }
 
-Vec3 ContactSurface::area_vector(std::uint32_t facet, const MovingBody& moving) const {
+ContactSurface::CentroidAndArea ContactSurface::centroid_and_area(std::uint32_t facet,
+                                                                  const MovingBody& moving) const {
   const auto& c = surface_.facets[facet];
   const Vec3 p0 = surface_.position(c[0], moving);
   const Vec3 p1 = surface_.position(c[1], moving);
-  return 0.5 * (surface_.position(c[2], moving) - p0).cross(surface_.position(c[3], moving) - p1);
+  const Vec3 p2 = surface_.position(c[2], moving);
+  const Vec3 p3 = surface_.position(c[3], moving);
+  return {0.25 * (p0 + p1 + p2 + p3), 0.5 * (p2 - p0).cross(p3 - p1)};
 }
 
 }  // namespace palpate::physics

@@ -22,8 +22,11 @@ class ContactSurface {
 
   Vec3 centroid(std::uint32_t facet, const MovingBody& moving) const;
   Vec3 rest_centroid(std::uint32_t facet) const;
-  /// Half the cross product of the diagonals: the normal times the area [m^2].
-  Vec3 area_vector(std::uint32_t facet, const MovingBody& moving) const;
+  /// The centroid and, half the cross product of the diagonals, the normal times the area [m^2].
+  struct CentroidAndArea {
+    Vec3 centroid, area;
+  };
+  CentroidAndArea centroid_and_area(std::uint32_t facet, const MovingBody& moving) const;
 
  private:
   std::size_t bucket_of(const Vec3& p) const;

@@ -56,11 +56,10 @@ void ToolContact::look(const Vec3& p, double t) noexcept {
   }
   facets_.clear();
   for (const std::uint32_t id : near_) {
-    const Vec3 centroid = surface_.centroid(id, moving_);
-    const double distance = (centroid - p).norm();
-    if (distance <= reach_)
-      facets_.push_back(
-          {id, centroid, surface_.rest_centroid(id), surface_.area_vector(id, moving_), distance});
+    const auto [centroid, area] = surface_.centroid_and_area(id, moving_);
+    if ((centroid - p).squaredNorm() > reach_ * reach_) continue;
+    const double size = area.norm();
+    if (size > 0) facets_.push_back({id, centroid, surface_.rest_centroid(id), area / size, size});
   }
 }
 
@@ -82,9 +81,8 @@ double ToolContact::nearest_distance(const Vec3& p) const noexcept {
 double ToolContact::weight(const Facet& facet, const Vec3& q, const Vec3& facing) const noexcept {
   const double r2 = (facet.centroid - q).squaredNorm() / (radius_ * radius_);
   if (r2 >= 1) return 0;
-  const double area = facet.area.norm();
-  if (facet.area.dot(facing) < facing_limit * area) return 0;
-  return area * (1 - r2) * (1 - r2);
+  if (facet.normal.dot(facing) < facing_limit) return 0;
+  return facet.area * (1 - r2) * (1 - r2);
 }
 
 LocalPlane ToolContact::plane_at(const Vec3& q, const Vec3& facing) const noexcept {
@@ -99,7 +97,7 @@ LocalPlane ToolContact::plane_at(const Vec3& q, const Vec3& facing) const noexce
     sum += w;
     point += w * facet.centroid;
     rest += w * facet.rest;
-    normal += w / facet.area.norm() * facet.area;
+    normal += w * facet.normal;
   }
   if (sum <= 0 || normal.norm() < 0.1 * sum) return plane;
   plane.found = true;
@@ -113,7 +111,7 @@ LocalPlane ToolContact::plane_under(const Vec3& p) const noexcept {
   const Facet* start = nearest(p);
   if (start == nullptr) return {};
   // First the side that the neighbourhood faces: a single voxel facet may be the riser of a step.
-  LocalPlane plane = plane_at(start->centroid, start->area.normalized());
+  LocalPlane plane = plane_at(start->centroid, start->normal);
   for (int n = 0; n < 3 && plane.found; ++n) {
     const Vec3 q = p - plane.normal.dot(p - plane.point) * plane.normal;
     const LocalPlane next = plane_at(q, plane.normal);
@@ -158,7 +156,7 @@ std::uint32_t ToolContact::write_facets(const Vec3& p, std::uint32_t body, Patch
   for (std::size_t f = 0; f < n && under.found; ++f) {
     const Facet& facet = facets_[f];
     const LocalPlane plane = plane_at(facet.centroid, under.normal);
-    if (!plane.found || facet.area.dot(under.normal) < facing_limit * facet.area.norm()) continue;
+    if (!plane.found || facet.normal.dot(under.normal) < facing_limit) continue;
     const auto& corners = surface_.surface().facets[facet.id];
     for (std::size_t half = 0; half < 2; ++half) {
       if (half == 1 && corners[2] == corners[3]) continue;  // a triangle

@@ -59,8 +59,8 @@ class ToolContact {
  private:
   struct Facet {
     std::uint32_t id;
-    Vec3 centroid, rest, area;
-    double distance;
+    Vec3 centroid, rest, normal;
+    double area;
   };
   void refresh(const Vec3& p) noexcept;
   double weight(const Facet& facet, const Vec3& q, const Vec3& facing) const noexcept;

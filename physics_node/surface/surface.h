@@ -23,7 +23,7 @@ struct Surface {
   std::size_t n_moving() const { return cell.size(); }
   /// Position now: of a moving vertex from the body, of the scenery from rest.
   Vec3 position(std::size_t vertex, const MovingBody& moving) const {
-    return vertex < cell.size() ? moving.position(cell[vertex]) : rest[vertex];
+    return vertex < cell.size() ? Vec3(rest[vertex] + moving.displacement(cell[vertex])) : rest[vertex];
   }
 };
 
