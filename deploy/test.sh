@@ -1,10 +1,18 @@
 #!/bin/bash
-# Installs what is missing, builds, and runs the whole test suite; then the unit and property tests once more with the
-# address and undefined-behaviour sanitizers. The last line is "N passed, N failed".
+# Installs what is missing, builds, and runs the whole test suite. The last line is "N passed, N failed".
+#   deploy/test.sh [--sanitizers]    after that, the unit and property tests once more with the address and
+#                                    undefined-behaviour sanitizers: a second build, as long as the first
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit
 started=$SECONDS
 . deploy/step.sh
+sanitizers=no
+for word in "$@"; do
+  case $word in
+    --sanitizers) sanitizers=yes ;;
+    *) echo "deploy/test.sh: unknown option $word; --sanitizers is the only one" >&2; exit 2 ;;
+  esac
+done
 trap 'rm -f "$step_log"' EXIT
 jobs=$(nproc)
 export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
@@ -40,6 +48,7 @@ must step "head CT" deploy/fetch_head.sh
 must step "configure" cmake --preset ready
 must step "build" cmake --build --preset ready --parallel "$jobs"
 count_tests "tests" ctest --preset ready -j2
+[ "$sanitizers" = yes ] || finish
 must step "configure with sanitizers" cmake --preset asan
 must step "build with sanitizers" cmake --build --preset asan --parallel "$jobs"
 count_tests "tests with sanitizers" ctest --preset asan -j2 -L '^(unit|property)$'
