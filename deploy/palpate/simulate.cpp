@@ -49,6 +49,7 @@ int simulate(SimulateOptions options) {
   session.run(seconds, [&](double t) { show_progress(t, seconds); });
   const nlohmann::json summary = session.finish();
   write_json((out / "summary.json").string(), summary);
+  std::filesystem::remove(out / "parts");  // the nodes' folder, empty here
   draw_plots(out);
   fmt::print("{:.3f} s simulated in {:.2f} s ({:.2f} x real time), state {}\n",
              summary["simulated_s"].get<double>(), summary["wall_s"].get<double>(),
