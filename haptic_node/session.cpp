@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "common/error/error.h"
+#include "common/message/vec3.h"
 #include "common/time/clock.h"
-#include "haptic_node/contact/vec3.h"
 #include "haptic_node/device/driver_library.h"
 #include "haptic_node/device/driver_options.h"
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/message/vec3.h"
 #include "haptic_node/contact/facet_geometry.h"
-#include "haptic_node/contact/vec3.h"
 
 namespace palpate::haptic {
 namespace {

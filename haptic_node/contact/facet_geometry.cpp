@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "haptic_node/contact/vec3.h"
+#include "common/message/vec3.h"
 
 namespace palpate::haptic {
 

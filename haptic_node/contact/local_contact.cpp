@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "common/message/vec3.h"
 #include "haptic_node/contact/facet_geometry.h"
-#include "haptic_node/contact/vec3.h"
 
 namespace palpate::haptic {
 namespace {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/math/hash.h"
+#include "common/message/vec3.h"
 
 namespace palpate::physics {
 namespace {
@@ -29,8 +30,6 @@ void merge_equal_masses(std::vector<MassShare>& shares) noexcept {
   }
   shares.resize(n, MassShare{});
 }
-
-Array3 array_of(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
 
 }  // namespace
 
@@ -165,9 +164,9 @@ std::uint32_t ToolContact::write_facets(const Vec3& p, std::uint32_t body, Patch
       const std::array<std::size_t, 3> of =
           half == 0 ? std::array<std::size_t, 3>{0, 1, 2} : std::array<std::size_t, 3>{0, 2, 3};
       for (std::size_t c = 0; c < 3; ++c)
-        patch.corners[c] = array_of(surface_.surface().position(corners[of[c]], moving_));
-      patch.point = array_of(at_rest ? plane.rest : plane.point);
-      patch.normal = array_of(plane.normal);
+        patch.corners[c] = array(surface_.surface().position(corners[of[c]], moving_));
+      patch.point = array(at_rest ? plane.rest : plane.point);
+      patch.normal = array(plane.normal);
       patch.body = body;
     }
     contact_set_ = hash_bytes(&facet.id, sizeof(facet.id), contact_set_);

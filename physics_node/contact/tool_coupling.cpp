@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "common/message/vec3.h"
+
 namespace palpate::physics {
 namespace {
 
@@ -13,9 +15,6 @@ constexpr double negligible_force = 1e-6;  // [N]; below this the tissue is let 
 constexpr double stiffness_slack = 2e-4;   // [m] of indentation, before which the first guess weighs more
 constexpr double stiffness_time = 0.150;   // [s]
 constexpr double stiffness_range = 50;     // times the first guess, either way
-
-Array3 array_of(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
-Vec3 vector_of(const Array3& p) { return {p[0], p[1], p[2]}; }
 
 }  // namespace
 
@@ -38,9 +37,9 @@ void ToolCoupling::take(const ToolState* state, double dt) noexcept {
     engaged_ = state->engaged != 0;
     tick_ = state->tick;
     stamp_ns_ = state->stamp_ns;
-    tip_ = vector_of(state->p_WT);
-    proxy_ = vector_of(state->proxy);
-    if (engaged_) target = vector_of(state->force_on_hand);
+    tip_ = vec(state->p_WT);
+    proxy_ = vec(state->proxy);
+    if (engaged_) target = vec(state->force_on_hand);
   }
   // First-order low pass: F := F + (1 - e^(-2 pi f dt)) (target - F).
   force_ += (1 - std::exp(-2 * std::numbers::pi * force_cutoff_Hz * dt)) * (target - force_);
@@ -114,11 +113,10 @@ void ToolCoupling::write_patch(ContactPatch& patch, std::uint64_t frame, std::in
   const double K_o = moving_share_ > 0 ? std::min(K_o_ / moving_share_, rigid_stiffness) : rigid_stiffness;
   for (std::uint32_t f = 0; f < patch.n_facets; ++f) {
     PatchFacet& facet = patch.facets[f];
-    const Vec3 n = vector_of(facet.normal);
-    if (!remembers_rest())
-      facet.point = array_of(vector_of(facet.point) + std::max(0.0, force_.dot(n)) / K_o * n);
+    const Vec3 n = vec(facet.normal);
+    if (!remembers_rest()) facet.point = array(vec(facet.point) + std::max(0.0, force_.dot(n)) / K_o * n);
     facet.stiffness = K_o;
-    facet.velocity = array_of(plane_velocity_);
+    facet.velocity = array(plane_velocity_);
   }
 }
 
@@ -128,9 +126,9 @@ void ToolCoupling::write_wrench(ToolWrench& wrench, std::uint64_t frame, std::in
   wrench.tick = frame;
   wrench.stamp_ns = now_ns;
   wrench.t = t;
-  wrench.force = array_of(force_);
-  wrench.moment = array_of((tip_ - set_point_).cross(force_));
-  wrench.set_point = array_of(set_point_);
+  wrench.force = array(force_);
+  wrench.moment = array((tip_ - set_point_).cross(force_));
+  wrench.set_point = array(set_point_);
   wrench.n_contacts = static_cast<std::uint32_t>(forces_.size());
 }
 

@@ -4,13 +4,9 @@
 #include <chrono>
 #include <cmath>
 
+#include "common/message/vec3.h"
+
 namespace palpate::physics {
-namespace {
-
-Array3 array_of(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
-
-}  // namespace
-
 Recorder::Recorder(const World& world, const std::string& folder, WhenBehind when_behind)
     : folder_(folder),
       when_behind_(when_behind),
@@ -57,9 +53,9 @@ void Recorder::frame(const World& world) noexcept {
     ToolRow row{n,
                 static_cast<std::uint32_t>(tool.forces().size()),
                 world.t(),
-                array_of(tool.tip()),
-                array_of(tool.force()),
-                array_of((tool.tip() - world.scene().tools[n].set_point).cross(tool.force()))};
+                array(tool.tip()),
+                array(tool.force()),
+                array((tool.tip() - world.scene().tools[n].set_point).cross(tool.force()))};
     Tally& tally = tallies_[n];
     tally.peak = std::max(tally.peak, tool.force().norm());
     tally.moment_peak = std::max(tally.moment_peak, std::hypot(row.moment[0], row.moment[1], row.moment[2]));

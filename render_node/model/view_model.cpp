@@ -2,13 +2,9 @@
 
 #include <algorithm>
 
+#include "common/message/vec3.h"
+
 namespace palpate::render {
-namespace {
-
-Vec3 vector_of(const Array3& a) { return {a[0], a[1], a[2]}; }
-
-}  // namespace
-
 ViewModel::ViewModel(const Scene& scene) : bodies_(scene.bodies.size()), tools_(scene.tools.size()) {}
 
 void ViewModel::take(const BodySurface& chunk) {
@@ -34,8 +30,8 @@ void ViewModel::take(const ToolWrench& wrench) {
     return;
   }
   ToolView& tool = tools_[wrench.tool];
-  tool.force = vector_of(wrench.force);
-  tool.moment = vector_of(wrench.moment);
+  tool.force = vec(wrench.force);
+  tool.moment = vec(wrench.moment);
   tool.n_contacts = wrench.n_contacts;
   tool.on_tool.add(wrench.t, tool.force.norm());
   t_ = wrench.t;
@@ -49,9 +45,9 @@ void ViewModel::take(const HapticTrace& trace) {
   ToolView& tool = tools_[trace.tool];
   for (std::uint32_t i = 0; i < trace.n_samples; ++i) {
     const TraceSample& sample = trace.samples[i];
-    tool.on_hand.add(sample.t, vector_of(sample.force).norm());
-    tool.tip = vector_of(sample.p);
-    tool.proxy = vector_of(sample.proxy);
+    tool.on_hand.add(sample.t, vec(sample.force).norm());
+    tool.tip = vec(sample.p);
+    tool.proxy = vec(sample.proxy);
     tool.energy = sample.energy;
   }
 }

@@ -6,9 +6,9 @@
 #include "common/message/messages.h"
 #include "common/scene/scene.h"
 
-namespace palpate::haptic {
+namespace palpate {
 
 inline Vec3 vec(const Array3& a) noexcept { return {a[0], a[1], a[2]}; }
 inline Array3 array(const Vec3& v) noexcept { return {v.x(), v.y(), v.z()}; }
 
-}  // namespace palpate::haptic
+}  // namespace palpate
