@@ -36,6 +36,7 @@ class World {
   double stable_step_seconds() const { return stable_dt_; }
   std::size_t n_bodies() const { return bodies_.size(); }
   const MovingBody& body(std::size_t b) const { return *bodies_[b]; }
+  MovingBody& body(std::size_t b) { return *bodies_[b]; }  // to start a test or a benchmark from a given state
   std::vector<ToolCoupling>& tools() { return tools_; }
   const std::vector<ToolCoupling>& tools() const { return tools_; }
   StepReport& report() { return report_; }

@@ -73,6 +73,15 @@ class LatticeBody final : public MovingBody {
     save();
   }
 
+  void place(Index cell, const Vec3& displacement, const Vec3& velocity) noexcept override {
+    const auto c = static_cast<std::size_t>(cell);
+    if (state_.inverse_mass[c] == 0) return;
+    for (std::size_t a = 0; a < 3; ++a) {
+      state_.u[a][c] = static_cast<Real>(displacement[static_cast<Eigen::Index>(a)]);
+      state_.v[a][c] = static_cast<Real>(velocity[static_cast<Eigen::Index>(a)]);
+    }
+  }
+
   Vec3 position(Index cell) const noexcept override {
     return body_.lattice.rest_position(cell) + vector_of(state_.u, cell);
   }

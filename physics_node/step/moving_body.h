@@ -55,6 +55,8 @@ class MovingBody {
   virtual void save() noexcept = 0;     // remembers displacement and velocity
   virtual void restore() noexcept = 0;  // goes back to what was saved, at rest
   virtual void reset() noexcept = 0;    // as loaded
+  /// Puts one mass where a test, a benchmark or a tool wants it. A held mass stays.
+  virtual void place(Index cell, const Vec3& displacement, const Vec3& velocity) noexcept = 0;
 
   // --- answers ---
   virtual Vec3 position(Index cell) const noexcept = 0;
