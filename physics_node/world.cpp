@@ -33,7 +33,7 @@ World::World(const Scene& scene) : scene_(scene) {
   Index n_masses = 0;
   stable_dt_ = std::numeric_limits<double>::infinity();
   for (const BodySpec& spec : scene.bodies) {
-    Body body = build_body(spec, scene.material(spec.material));
+    Body body = build_body(spec, scene.materials);
     stable_dt_ = std::min(stable_dt_, stable_step(body));
     n_masses += body.lattice.n_masses();
     any_yields_ = any_yields_ || body.law.yields;

@@ -2,18 +2,45 @@
 #include <fmt/format.h>
 
 #include "common/math/units.h"
+#include "common/scene/near_miss.h"
 #include "common/scene/read_parts.h"
 
 namespace palpate {
 namespace {
 
-/// Complains if both of a pair of keys are there, or if none is and one must be.
-void check_pair(TableReader& reader, const std::string& a, const std::string& b, bool one_needed) {
-  if (reader.has(a) && reader.has(b))
-    reader.complain(
-        b, fmt::format("both \"{}\" and \"{}\" are given in {}; keep one of them", a, b, reader.title()));
-  else if (one_needed && !reader.has(a) && !reader.has(b))
-    reader.complain_lack(fmt::format("\"{}\" or \"{}\"", a, b), "give exactly one of them");
+/// Complains if several of a group of keys are there, or if none is and one must be.
+void check_group(TableReader& reader, const std::vector<std::string>& group, bool one_needed) {
+  std::vector<std::string> given;
+  for (const auto& key : group)
+    if (reader.has(key)) given.push_back(key);
+  if (given.size() > 1)
+    reader.complain(given.back(), fmt::format("{} {} are given in {}; keep one of them",
+                                              given.size() == 2 ? "both" : "all of",
+                                              quoted_list(given, "and"), reader.title()));
+  else if (one_needed && given.empty())
+    reader.complain_lack(quoted_list(group), "give exactly one of them");
+}
+
+void read_stiffness(TableReader& reader, MaterialSpec& spec) {
+  spec.k1 = reader.read_number("k1_N_per_m", positive);
+  if (const auto modulus_kPa = reader.read_number("modulus_kPa", positive))
+    spec.modulus = Pa_from_kPa(*modulus_kPa);
+  spec.lambda = reader.read_number("lambda_N", positive);
+  check_group(reader, {"k1_N_per_m", "modulus_kPa", "lambda_N"}, true);
+  set_if(spec.k2_ratio, reader.read_number("k2_ratio", {.lo = 0, .hi = 1}));
+}
+
+void read_damping(TableReader& reader, MaterialSpec& spec) {
+  spec.viscosity = reader.read_number("viscosity_N_s_per_m", not_negative);
+  spec.viscosity_bulk = reader.read_number("viscosity_Pa_s", not_negative);
+  check_group(reader, {"viscosity_N_s_per_m", "viscosity_Pa_s"}, false);
+  if (const auto word = reader.read_word("damper", {"axial", "relative", "drag"}))
+    spec.damper = static_cast<Damper>(*word);
+  if (reader.has("damper") && !reader.has("viscosity_N_s_per_m") && !reader.has("viscosity_Pa_s"))
+    reader.complain("damper", fmt::format("\"damper\" in {} has no constant; give viscosity_N_s_per_m or "
+                                          "viscosity_Pa_s too",
+                                          reader.title()));
+  set_if(spec.drag, reader.read_number("drag_N_s_per_m", not_negative));
 }
 
 void read_plasticity(TableReader& reader, MaterialSpec& spec) {
@@ -38,15 +65,9 @@ MaterialSpec read_material(TableReader& reader) {
   spec.place = reader.place();
   if (const auto mass_g = reader.read_number("mass_g", positive)) spec.mass = kg_from_g(*mass_g);
   spec.density = reader.read_number("density_kg_per_m3", positive);
-  check_pair(reader, "mass_g", "density_kg_per_m3", true);
-  spec.k1 = reader.read_number("k1_N_per_m", positive);
-  if (const auto modulus_kPa = reader.read_number("modulus_kPa", positive))
-    spec.modulus = Pa_from_kPa(*modulus_kPa);
-  check_pair(reader, "k1_N_per_m", "modulus_kPa", true);
-  set_if(spec.k2_ratio, reader.read_number("k2_ratio", {.lo = 0, .hi = 1}));
-  spec.viscosity = reader.read_number("viscosity_N_s_per_m", not_negative);
-  spec.viscosity_bulk = reader.read_number("viscosity_Pa_s", not_negative);
-  check_pair(reader, "viscosity_N_s_per_m", "viscosity_Pa_s", false);
+  check_group(reader, {"mass_g", "density_kg_per_m3"}, true);
+  read_stiffness(reader, spec);
+  read_damping(reader, spec);
   read_plasticity(reader, spec);
   reader.refuse_left_over();
   return spec;

@@ -27,6 +27,8 @@ void read_record(TableReader& root, ReadContext& context);     // [record]
 void read_shape(TableReader& body, ReadContext& context, BodySpec& spec);
 /// `fixed` of a body: faces and boxes.
 void read_fixed(TableReader& body, ReadContext& context, BodySpec& spec);
+/// `regions` of a body, whose shape and material are known by now.
+void read_regions(TableReader& body, ReadContext& context, BodySpec& spec);
 
 /// The tables of [[key]]; complains if the key holds anything else.
 std::vector<const toml::table*> tables_of_list(TableReader& root, const std::string& key, std::size_t most);

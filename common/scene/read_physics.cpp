@@ -36,6 +36,7 @@ void read_physics(TableReader& root, ReadContext& context) {
   if (const auto threads = reader.read_integer("threads", 0, 256))
     physics.threads = static_cast<int>(*threads);
   set_if(physics.frame_Hz, reader.read_number("frame_Hz", {.lo = 20, .hi = 20000}));
+  set_if(physics.sleep, reader.read_flag("sleep"));
   reader.refuse_left_over();
 }
 

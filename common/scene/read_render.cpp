@@ -47,9 +47,10 @@ void read_record(TableReader& root, ReadContext& context) {
   if (table == nullptr) return;
   TableReader reader(*table, "[record]", context.complaints);
   auto& record = context.scene.record;
-  if (const auto kept = reader.read_words("what", {"positions", "forces"})) {
+  if (const auto kept = reader.read_words("what", {"positions", "forces", "energy"})) {
     record.positions = (*kept)[0];
     record.forces = (*kept)[1];
+    record.energy = (*kept)[2];
   }
   set_if(record.rate_Hz, reader.read_number("rate_Hz", {.lo = 0, .hi = 20000, .without_lo = true}));
   reader.refuse_left_over();

@@ -33,19 +33,29 @@ struct PhysicsSpec {
   Precision precision = Precision::single_;
   int threads = 0;             // 0: as many as pay
   double frame_Hz = 1000;      // one take of the tools and one patch per frame
+  bool sleep = true;           // regions at rest are skipped until something moves them
   Place place;
 };
 
-/// Either per mass and spring (the papers' way) or per volume (a tissue). Exactly one of each pair is given.
+/// How a damper of constant c acts on mass i of an element toward j (EQUATIONS C-31).
+///   axial     c ((v_j - v_i) . u) u   along the element: sound                              P0
+///   relative  c (v_j - v_i)           the whole vector: takes angular momentum away           P3
+///   drag      -c v_i                  against the world: takes momentum away                  P2
+enum class Damper { axial, relative, drag };
+
+/// Either per mass and spring (the papers' way) or per volume (a tissue). Exactly one of each group is given.
 struct MaterialSpec {
   std::string name;
   std::optional<double> mass;            // of one mass [kg]          | one of these
   std::optional<double> density;         // [kg/m^3]                  |
   std::optional<double> k1;              // of one element [N/m]      | one of these
   std::optional<double> modulus;         // Young's modulus [Pa]      |
+  std::optional<double> lambda;          // force per stretch, k1 L of every element [N] |
   double k2_ratio = 1.0;                 // k2 / k1 in [0, 1]
   std::optional<double> viscosity;       // of one element [N s/m]    | at most one; none: no damper
   std::optional<double> viscosity_bulk;  // [Pa s]                    |
+  Damper damper = Damper::axial;
+  double drag = 0;                       // of every mass against the world, -b v [N s/m]
   std::optional<double> yield_ratio;     // y_p > 1 |  both or neither: purely elastic
   std::optional<double> break_ratio;     // b_p > y_p
   Place place;
@@ -72,11 +82,22 @@ enum class LatticeKind { fcc, voxel };
 
 struct FixedBox { Vec3 min = Vec3::Zero(), max = Vec3::Zero(); };  // world [m]
 
+/// A part of a body that is of another material: where the tissue rests, or how bright its image is.
+struct BoxRegion { Vec3 min = Vec3::Zero(), max = Vec3::Zero(); };     // world [m]
+struct BallRegion { Vec3 center = Vec3::Zero(); double radius = 0; };  // world [m]
+struct IntensityRegion { double lo = 0, hi = 0; };                     // inclusive; of a volume only
+struct RegionSpec {
+  std::string material;
+  std::variant<BoxRegion, BallRegion, IntensityRegion> where;
+  Place place;
+};
+
 struct BodySpec {
   std::string name;
   LatticeKind lattice = LatticeKind::fcc;
   std::optional<double> spacing;       // [m]; absent only for a volume, which brings its own
   std::string material;
+  std::vector<RegionSpec> regions;     // of other materials; later ones win
   Vec3 at = Vec3::Zero();              // centre of the shape [m]
   Vec3 velocity = Vec3::Zero();        // [m/s]
   std::array<bool, 6> fixed_faces{};   // -x +x -y +y -z +z: masses on that face of the shape are held
@@ -136,6 +157,7 @@ struct RenderSpec {
 struct RecordSpec {
   bool positions = false;              // positions of all masses
   bool forces = true;
+  bool energy = true;                  // where the energy is, over time
   double rate_Hz = 50;
 };
 

@@ -4,6 +4,7 @@
 
 #include "common/error/error.h"
 #include "physics_node/body/build_lattice.h"
+#include "physics_node/body/materials.h"
 
 namespace palpate::physics {
 namespace {
@@ -42,7 +43,7 @@ void hold_masses(const BodySpec& spec, Body& body) {
 
 }  // namespace
 
-Body build_body(const BodySpec& spec, const MaterialSpec& material) {
+Body build_body(const BodySpec& spec, const std::vector<MaterialSpec>& materials) {
   Body body;
   body.name = spec.name;
   body.velocity = spec.velocity;
@@ -57,15 +58,16 @@ Body build_body(const BodySpec& spec, const MaterialSpec& material) {
         fmt::format("{}: body \"{}\" has fewer than two masses; make it larger or spacing_mm smaller",
                     spec.place.text(), spec.name));
   }
-  body.law = element_law(body.lattice, material);
-
-  // All masses of a body weigh the same, as in the papers, and together what its tissue weighs.
-  if (material.density) body.law.mass *= body.lattice.total_share() / body.lattice.n_masses();
-  body.inverse_mass.assign(static_cast<std::size_t>(body.lattice.n_cells()), 0.0);
-  for (const Index cell : body.lattice.masses)
-    body.inverse_mass[static_cast<std::size_t>(cell)] = 1.0 / body.law.mass;
+  give_materials(body, spec, materials);
   hold_masses(spec, body);
   return body;
+}
+
+Body build_body(const BodySpec& spec, const MaterialSpec& material) {
+  BodySpec plain = spec;
+  plain.material = material.name;
+  plain.regions.clear();
+  return build_body(plain, std::vector<MaterialSpec>{material});
 }
 
 }  // namespace palpate::physics

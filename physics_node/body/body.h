@@ -1,6 +1,8 @@
 #pragma once
 // One [[body]] as it stands after loading: never changes while stepping.
 
+#include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,14 +16,32 @@ namespace palpate::physics {
 struct Body {
   std::string name;
   Lattice lattice;
-  ElementLaw law;
+  ElementLaw law;                // of its own material
+  std::vector<ElementLaw> laws;  // of each material in it; laws[0] is `law`
+  std::vector<std::uint8_t>
+      law_of;  // of each storage cell, an index of laws (n_cells); EMPTY: all masses have `law`
   std::optional<Cells> cells;        // of a voxel body; an fcc body has none
   std::vector<double> inverse_mass;  // of each storage cell, 0: held or empty [1/kg]  (n_cells)
   Vec3 velocity = Vec3::Zero();      // at the start [m/s]
   Index n_held = 0;                  // masses that do not move
 };
 
-/// Builds a body's lattice, law and held masses. @throws InputError
+/// The law of the mass in a storage cell.
+inline const ElementLaw& law_at(const Body& body, Index cell) {
+  return body.law_of.empty() ? body.law : body.laws[body.law_of[static_cast<std::size_t>(cell)]];
+}
+inline bool any_yields(const Body& body) {
+  return std::any_of(body.laws.begin(), body.laws.end(), [](const ElementLaw& law) { return law.yields; });
+}
+inline bool any_damped(const Body& body) {
+  return std::any_of(body.laws.begin(), body.laws.end(), [](const ElementLaw& law) { return law.damped; });
+}
+
+/// Builds a body's lattice, laws and held masses.
+/// @param materials  of the scene; the body and its regions name them, and they must be there
+/// @throws InputError
+Body build_body(const BodySpec& spec, const std::vector<MaterialSpec>& materials);
+/// A body of one material, whatever it is called.
 Body build_body(const BodySpec& spec, const MaterialSpec& material);
 
 }  // namespace palpate::physics

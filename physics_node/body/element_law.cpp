@@ -50,8 +50,9 @@ ElementLaw element_law(const Lattice& lattice, const MaterialSpec& material) {
   ElementLaw law;
   law.mass = material.mass ? *material.mass : *material.density * volume_per_mass(lattice);
   const auto n_half = static_cast<std::size_t>(lattice.n_half);
-  if (material.k1) {
-    for (std::size_t d = 0; d < n_half; ++d) law.k1[d] = *material.k1;
+  if (material.k1 || material.lambda) {
+    for (std::size_t d = 0; d < n_half; ++d)
+      law.k1[d] = material.k1 ? *material.k1 : *material.lambda / lattice.rest_length[d];
     law.modulus = axial_modulus(homogenised_stiffness(lattice, law.k1));
   } else {
     law.k1 = relative_constants(lattice);
@@ -64,6 +65,8 @@ ElementLaw element_law(const Lattice& lattice, const MaterialSpec& material) {
     if (material.viscosity_bulk) law.c[d] = *material.viscosity_bulk * law.k1[d] / law.modulus;
     law.damped = law.damped || law.c[d] > 0;
   }
+  law.damper = material.damper;
+  law.drag = material.drag;
   law.k2_ratio = material.k2_ratio;
   law.yields = material.yield_ratio.has_value();
   law.y_p = material.yield_ratio.value_or(0.0);

@@ -7,6 +7,9 @@
 //     l / L > b_p           the element is gone for good
 //     f = f_s + c l'        on mass i toward mass j
 //
+// A material may give instead of k1 the force per relative stretch: f_s = lambda (l - L) / L, so k1 = lambda / L by
+// direction; and a drag b of each mass, f_i = ... - b v_i (Mendoza & Laugier; EQUATIONS C-20, C-21, C-23).
+//
 // Source: Wakamatsu & Honma 2011, eqs. (1) to (3).
 // Deviation: the paper prints - c l', which feeds energy in; and leaves open which f enters l_c: the static one.
 
@@ -23,9 +26,11 @@ struct ElementLaw {
   std::array<double, max_half> k1{};  // by half direction [N/m]
   std::array<double, max_half> c{};   // by half direction [N s/m]
   double k2_ratio = 1;                // k2 / k1
+  Damper damper = Damper::axial;      // how c acts; one kind in a body
+  double drag = 0;                    // b of every mass: f_i -= b v_i [N s/m]
   double y_p = 0;                     // yield ratio, for materials that yield
   double b_p = 0;                     // break ratio
-  bool damped = false;
+  bool damped = false;                // any c > 0; says nothing of the drag
   bool yields = false;
   double modulus = 0;  // mean Young's modulus along the axes [Pa]
 };
@@ -41,7 +46,8 @@ double volume_per_mass(const Lattice& lattice);
 /// Mean of Young's moduli along x, y and z [Pa].
 double axial_modulus(const Eigen::Matrix<double, 6, 6>& stiffness);
 
-/// Spring constants, damping and mass from a material. A modulus is met by the mean axial modulus of the lattice.
+/// Spring constants, damping and mass from a material. A modulus is met by the mean axial modulus of the lattice;
+/// the mass is that of a whole mass deep inside.
 ElementLaw element_law(const Lattice& lattice, const MaterialSpec& material);
 
 }  // namespace palpate::physics

@@ -25,7 +25,7 @@ Scene scene_of(const Recipe& recipe) {
 
 Body body_of(const Recipe& recipe) {
   const Scene scene = scene_of(recipe);
-  return build_body(scene.bodies.front(), scene.materials.front());
+  return build_body(scene.bodies.front(), scene.materials);
 }
 
 Recipe pair_of_masses(const std::string& material) {

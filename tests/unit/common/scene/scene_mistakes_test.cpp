@@ -76,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(Materials, SceneMistakes, testing::ValuesIn(std::vector
     {"density_kg_per_m3 = 1060.0", "", "13:1", "[material.skin] lacks \"mass_g\" or \"density_kg_per_m3\"; give exactly one"},
     {"mass_g = 2.0", "mass_g = 2.0\ndensity_kg_per_m3 = 1", "21:21", "both \"mass_g\" and \"density_kg_per_m3\" are given"},
     {"modulus_kPa = 20", "modulus_kPa = 20\nk1_N_per_m = 3", "15:15", "both \"k1_N_per_m\" and \"modulus_kPa\" are given"},
-    {"k1_N_per_m = 800", "", "19:1", "lacks \"k1_N_per_m\" or \"modulus_kPa\""},
+    {"k1_N_per_m = 800", "", "19:1", "lacks \"k1_N_per_m\", \"modulus_kPa\" or \"lambda_N\""},
     {"modulus_kPa = 20", "modulus_kPa = -20", "15:15", "is -20; write a number above 0"},
     {"k2_ratio = 0.5", "k2_ratio = 1.01", "16:12", "write a number from 0 to 1"},
     {"viscosity_Pa_s = 150.0", "viscosity_Pa_s = 1\nviscosity_N_s_per_m = 1", "17:18", "keep one of them"},
@@ -145,7 +145,7 @@ INSTANTIATE_TEST_SUITE_P(Views, SceneMistakes, testing::ValuesIn(std::vector<Mis
     {"pitch_deg = 30", "pitch_deg = 91", "101:38", "\"pitch_deg\" in camera of [render] is 91; write a number from -90 to 90"},
     {"threshold = 226", "threshold = \"bone\"", "102:13", "write a finite number"},
     {"\"wire\"", "\"wires\"", "103:18", "write \"tool\", \"force\", \"panels\" or \"wire\""},
-    {"what = [\"positions\"]", "what = \"positions\"", "107:8", "write a list of \"positions\" and \"forces\""},
+    {"what = [\"positions\"]", "what = \"positions\"", "107:8", "write a list of \"positions\", \"forces\" and \"energy\""},
 }));
 
 INSTANTIATE_TEST_SUITE_P(Syntax, SceneMistakes, testing::ValuesIn(std::vector<Mistake>{

@@ -1,0 +1,132 @@
+// `regions` of a body: parts of other materials, by a box or a ball in the world or by the intensity of the image.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/scene/near_miss.h"
+#include "common/scene/read_parts.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::size_t most_regions = 64;
+constexpr std::string_view form =
+    "{ material = \"NAME\" } with box_min_mm and box_max_mm, center_mm and radius_mm, or intensity";
+
+void read_box(TableReader& reader, RegionSpec& region) {
+  reader.require("box_min_mm", "give the lowest corner of the box as [x, y, z]");
+  reader.require("box_max_mm", "give the highest corner of the box as [x, y, z]");
+  BoxRegion box;
+  const auto min = reader.read_vector_mm("box_min_mm");
+  const auto max = reader.read_vector_mm("box_max_mm");
+  set_if(box.min, min);
+  set_if(box.max, max);
+  if (min && max && (min->array() > max->array()).any())
+    reader.complain("box_max_mm", "\"box_max_mm\" lies below \"box_min_mm\"; swap the corners of the box");
+  region.where = box;
+}
+
+void read_ball(TableReader& reader, RegionSpec& region) {
+  reader.require("center_mm", "give the middle of the ball as [x, y, z]");
+  reader.require("radius_mm", "give the radius of the ball");
+  BallRegion ball;
+  set_if(ball.center, reader.read_vector_mm("center_mm"));
+  set_if(ball.radius, reader.read_length_mm("radius_mm"));
+  region.where = ball;
+}
+
+void read_intensity(TableReader& reader, bool is_volume, RegionSpec& region) {
+  IntensityRegion window;
+  if (!is_volume)
+    reader.complain("intensity",
+                    "\"intensity\" needs an image, and this body's shape is no \"volume\"; give a "
+                    "box or a ball instead");
+  if (const auto ends = reader.read_numbers("intensity", 2, "[lowest, highest]")) {
+    window = {(*ends)[0], (*ends)[1]};
+    if (window.lo > window.hi)
+      reader.complain("intensity",
+                      fmt::format("\"intensity\" in {} runs from {} down to {}; write [lowest, highest]",
+                                  reader.title(), window.lo, window.hi));
+  }
+  region.where = window;
+}
+
+/// Exactly one way to say where.
+void read_where(TableReader& reader, bool is_volume, RegionSpec& region) {
+  const bool box = reader.has("box_min_mm") || reader.has("box_max_mm");
+  const bool ball = reader.has("center_mm") || reader.has("radius_mm");
+  const bool intensity = reader.has("intensity");
+  const int ways = static_cast<int>(box) + static_cast<int>(ball) + static_cast<int>(intensity);
+  constexpr std::string_view advice =
+      "give box_min_mm and box_max_mm, or center_mm and radius_mm, or intensity = [lowest, highest]";
+  if (ways == 0) reader.complain_lack("a place", advice);
+  if (ways > 1)
+    reader.complain_at(reader.place(), fmt::format("{} has {} places; {}", reader.title(), ways, advice));
+  if (box) read_box(reader, region);
+  if (ball) read_ball(reader, region);
+  if (intensity) read_intensity(reader, is_volume, region);
+  reader.allow({"box_min_mm", "box_max_mm", "center_mm", "radius_mm", "intensity"});
+}
+
+bool has_damper(const MaterialSpec& material) {
+  return material.viscosity.value_or(0) > 0 || material.viscosity_bulk.value_or(0) > 0;
+}
+
+/// The dampers of one body are of one kind: the law between two materials is a mean of two alike.
+void refuse_other_damper(TableReader& reader, const ReadContext& context, const BodySpec& spec,
+                         const std::string& name) {
+  const auto find = [&](const std::string& wanted) -> const MaterialSpec* {
+    const auto& all = context.scene.materials;
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const MaterialSpec& m) { return m.name == wanted; });
+    return found != all.end() && has_damper(*found) ? &*found : nullptr;
+  };
+  const auto* mine = find(name);
+  if (mine == nullptr) return;
+  std::vector<std::string> others = {spec.material};
+  for (const auto& region : spec.regions) others.push_back(region.material);
+  for (const auto& other : others) {
+    const auto* theirs = find(other);
+    if (theirs == nullptr || theirs->damper == mine->damper) continue;
+    reader.complain("material",
+                    fmt::format("materials \"{}\" and \"{}\" of one body have different dampers; give both "
+                                "the same damper",
+                                other, name));
+    return;
+  }
+}
+
+void read_region(const toml::table& table, TableReader& body, ReadContext& context, BodySpec& spec) {
+  TableReader reader(table, fmt::format("regions of {}", body.title()), context.complaints);
+  RegionSpec region;
+  region.place = reader.place();
+  reader.require("material", "name a [material.NAME] of this scene");
+  read_where(reader, std::holds_alternative<VolumeShape>(spec.shape), region);
+  if (const auto material = reader.read_text("material")) {
+    region.material = *material;
+    refuse_unknown_reference(reader, "material", *material, names_of(context.scene.materials));
+    refuse_other_damper(reader, context, spec, *material);
+  }
+  reader.refuse_left_over();
+  spec.regions.push_back(std::move(region));
+}
+
+}  // namespace
+
+void read_regions(TableReader& body, ReadContext& context, BodySpec& spec) {
+  const auto* list = body.read_array("regions", fmt::format("a list of {}", form));
+  if (list == nullptr) return;
+  if (list->size() > most_regions) {
+    body.complain("regions",
+                  fmt::format("{} regions in {}; at most {}", list->size(), body.title(), most_regions));
+    return;
+  }
+  for (const auto& item : *list) {
+    if (item.is_table())
+      read_region(*item.as_table(), body, context, spec);
+    else
+      body.complain_value("regions", item, form);
+  }
+}
+
+}  // namespace palpate
