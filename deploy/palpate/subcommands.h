@@ -6,6 +6,7 @@
 
 namespace palpate::deploy {
 
+void add_bench(CLI::App& app, int& exit_code);
 void add_run(CLI::App& app, int& exit_code);
 void add_simulate(CLI::App& app, int& exit_code);
 void add_import(CLI::App& app, int& exit_code);

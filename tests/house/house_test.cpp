@@ -107,23 +107,24 @@ TEST_P(PlantedDoor, IsTheOnlyOne) {
 
 INSTANTIATE_TEST_SUITE_P(
     House, PlantedDoor,
-    testing::Values(DoorCase{"dds/dds.h", "common/wire/topic.h", "common/record/a.h", "DDS"},
-                    DoorCase{"dds/dds.h", "haptic_node/wire.cpp", "haptic_node/loop/a.cpp", "DDS"},
-                    DoorCase{"palpate.h", "common/wire/topic.cpp", "render_node/view/a.cpp", "DDS"},
-                    DoorCase{"hdf5.h", "common/record/a.cpp", "physics_node/a.cpp", "HDF5"},
-                    DoorCase{"toml++/toml.h", "common/scene/a.cpp", "common/record/a.cpp", "toml++"},
-                    DoorCase{"toml++/toml.h", "common/scene/b.h", "tests/unit/a.cpp", "toml++"},
-                    DoorCase{"GLFW/glfw3.h", "render_node/ui/a.cpp", "render_node/view/a.cpp", "GL"},
-                    DoorCase{"epoxy/gl.h", "render_node/gl/a.cpp", "deploy/palpate/a.cpp", "GL"},
-                    DoorCase{"imgui.h", "render_node/ui/a.cpp", "render_node/main.cpp", "GL"},
-                    DoorCase{"EGL/egl.h", "render_node/gl/a.cpp", "common/time/a.cpp", "GL"},
-                    DoorCase{"itkImage.h", "deploy/import/read_itk.cpp", "deploy/import/read_raw.cpp", "ITK"},
-                    DoorCase{"archive.h", "deploy/import/a.cpp", "deploy/palpate/a.cpp", "libarchive"},
-                    DoorCase{"dlfcn.h", "haptic_node/device/a.cpp", "haptic_node/loop/a.cpp", "dlopen"},
-                    DoorCase{"dlfcn.h", "deploy/palpate/doctor.cpp", "deploy/palpate/run.cpp", "dlopen"},
-                    DoorCase{"nlohmann/json.hpp", "common/report/a.h", "haptic_node/proxy/a.h", "JSON"},
-                    DoorCase{"nlohmann/json.hpp", "haptic_node/loop/haptic_summary.h", "common/time/a.h",
-                             "JSON"}));
+    testing::Values(
+        DoorCase{"dds/dds.h", "common/wire/topic.h", "common/record/a.h", "DDS"},
+        DoorCase{"dds/dds.h", "haptic_node/wire.cpp", "haptic_node/loop/a.cpp", "DDS"},
+        DoorCase{"palpate.h", "common/wire/topic.cpp", "render_node/view/a.cpp", "DDS"},
+        DoorCase{"hdf5.h", "common/record/a.cpp", "physics_node/a.cpp", "HDF5"},
+        DoorCase{"toml++/toml.h", "common/scene/a.cpp", "common/record/a.cpp", "toml++"},
+        DoorCase{"toml++/toml.h", "common/scene/b.h", "tests/unit/a.cpp", "toml++"},
+        DoorCase{"GLFW/glfw3.h", "render_node/ui/a.cpp", "render_node/view/a.cpp", "GL"},
+        DoorCase{"epoxy/gl.h", "render_node/gl/a.cpp", "deploy/palpate/a.cpp", "GL"},
+        DoorCase{"imgui.h", "render_node/ui/a.cpp", "render_node/main.cpp", "GL"},
+        DoorCase{"EGL/egl.h", "render_node/gl/a.cpp", "common/time/a.cpp", "GL"},
+        DoorCase{"itkImage.h", "deploy/import/read_itk.cpp", "deploy/import/read_raw.cpp", "ITK"},
+        DoorCase{"archive.h", "deploy/import/a.cpp", "deploy/palpate/a.cpp", "libarchive"},
+        DoorCase{"dlfcn.h", "haptic_node/device/a.cpp", "haptic_node/loop/a.cpp", "dlopen"},
+        DoorCase{"dlfcn.h", "deploy/palpate/doctor.cpp", "deploy/palpate/run.cpp", "dlopen"},
+        DoorCase{"benchmark/benchmark.h", "bench/kernel/a.cpp", "tests/a.cpp", "Google Benchmark"},
+        DoorCase{"nlohmann/json.hpp", "common/report/a.h", "haptic_node/proxy/a.h", "JSON"},
+        DoorCase{"nlohmann/json.hpp", "haptic_node/loop/haptic_summary.h", "common/time/a.h", "JSON"}));
 
 TEST_F(PlantedHouse, RefusesLongFiles) {
   std::string lines;

@@ -46,6 +46,7 @@ const std::vector<Door>& doors() {
       {"dlopen", std::regex("^dlfcn\\.h$"),
        std::regex("^(haptic_node/device/|deploy/palpate/(doctor|probe_))"),
        "haptic_node/device and the doctor of deploy/palpate"},
+      {"Google Benchmark", std::regex("^benchmark/"), std::regex("^bench/"), "bench"},
       {"JSON", std::regex("^nlohmann/"), std::regex("report|summary|part|json_file|^deploy/|^tests/|^bench/"),
        "files about reports and summaries, and deploy"},
   };

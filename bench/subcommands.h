@@ -1,0 +1,12 @@
+#pragma once
+// The subcommands of `palpate bench`, one per folder. Each adds itself to the command line; its callback does the work
+// and leaves the exit code, or throws InputError for a person's mistake.
+
+#include <CLI/CLI.hpp>
+
+namespace palpate::bench {
+
+void add_machine(CLI::App& app, int& exit_code);
+void add_peers(CLI::App& app, int& exit_code);  // only where PALPATE_BENCH_PEERS is defined
+
+}  // namespace palpate::bench
