@@ -16,6 +16,9 @@ namespace {
 
 constexpr Index masses_worth_a_team = 20000;  // below, waking a second thread costs more than it brings
 constexpr std::int64_t frames_between_saves = 50;
+constexpr double largest_growth = 2;          // of the energy that was ever put in, before the guard acts
+constexpr double negligible_energy = 1e-12;   // [J]
+constexpr int most_recoveries = 6;            // each halves the step
 
 int choose_threads(const Scene& scene, Index n_masses) {
   const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -23,24 +26,44 @@ int choose_threads(const Scene& scene, Index n_masses) {
   return n_masses >= masses_worth_a_team ? cores : 1;
 }
 
+Energies sum_energies(const std::vector<std::unique_ptr<MovingBody>>& bodies, const Vec3& gravity) {
+  Energies sum;
+  for (const auto& body : bodies) {
+    const Energies e = body->energies(gravity);
+    sum.kinetic += e.kinetic;
+    sum.elastic += e.elastic;
+    sum.gravitational += e.gravitational;
+  }
+  return sum;
+}
+
+Losses sum_losses(const std::vector<std::unique_ptr<MovingBody>>& bodies) {
+  Losses sum;
+  for (const auto& body : bodies) {
+    const Losses lost = body->losses();
+    sum.viscous += lost.viscous;
+    sum.plastic += lost.plastic;
+    sum.broken += lost.broken;
+    sum.breaks += lost.breaks;
+  }
+  return sum;
+}
+
 }  // namespace
 
 World::World(const Scene& scene) : scene_(scene) {
-  if (scene.physics.integrator != Integrator::symplectic_euler) {
-    throw InputError(fmt::format("{}: this version integrates with \"symplectic_euler\" only",
-                                 scene.physics.place.text()));
-  }
+  const Integrator integrator = scene.physics.integrator;
   Index n_masses = 0;
   stable_dt_ = std::numeric_limits<double>::infinity();
   for (const BodySpec& spec : scene.bodies) {
     Body body = build_body(spec, scene.materials);
-    stable_dt_ = std::min(stable_dt_, stable_step(body));
+    stable_dt_ = std::min(stable_dt_, stable_step(stiffest_mode(body), integrator));
     n_masses += body.lattice.n_masses();
-    any_yields_ = any_yields_ || body.law.yields;
+    any_yields_ = any_yields_ || any_yields(body);
     const Lattice& lattice = body.lattice;
     const double bucket =
         4 * (lattice.kind == LatticeKind::fcc ? lattice.rest_length[0] : lattice.step.maxCoeff());
-    bodies_.push_back(make_moving_body(std::move(body), scene.physics.precision));
+    bodies_.push_back(make_moving_body(std::move(body), scene.physics.precision, integrator));
     touchable_.push_back({bodies_.back().get(), std::make_unique<ContactSurface>(*bodies_.back(), bucket)});
   }
   for (std::uint32_t n = 0; n < scene.tools.size(); ++n) tools_.emplace_back(scene.tools[n], n, touchable_);
@@ -57,13 +80,41 @@ World::World(const Scene& scene) : scene_(scene) {
                     scene.physics.place.text(), 1e3 * dt_, 1e3 * stable_dt_));
   }
   if (bodies_.size() > 1) remarks_.emplace_back("bodies touch tools and the floor, not yet each other");
-  for (auto& body : bodies_) body->save();
+  restart_ledger();
 }
 
-void World::step(double dt) noexcept {
+void World::restart_ledger() {
+  start_ = sum_energies(bodies_, scene_.gravity);
+  start_losses_ = sum_losses(bodies_);
+  start_work_ = report_.tool_work;
+  start_exchange_ = report_.tool_exchange;
+  guard_energy_ = 0;
+  save_all();
+}
+
+EnergyLedger World::ledger() const {
+  const Energies now = sum_energies(bodies_, scene_.gravity);
+  const Losses lost = sum_losses(bodies_);
+  EnergyLedger ledger;
+  ledger.kinetic = now.kinetic;
+  ledger.elastic = now.elastic;
+  ledger.gravitational = now.gravitational;
+  ledger.dissipated = lost.viscous - start_losses_.viscous;
+  ledger.plastic = lost.plastic - start_losses_.plastic;
+  ledger.broken = lost.broken - start_losses_.broken;
+  ledger.tool_work = report_.tool_work - start_work_;
+  ledger.guard = guard_energy_;
+  ledger.start = start_.kinetic + start_.elastic + start_.gravitational;
+  ledger.exchanged = start_.kinetic + start_.elastic + (report_.tool_exchange - start_exchange_) +
+                     std::abs(now.gravitational - start_.gravitational);
+  return ledger;
+}
+
+void World::step(double dt, bool watch) noexcept {
+  const ExplicitStep how{dt, scene_.gravity, threads_, scene_.physics.integrator == Integrator::velocity_verlet, watch};
   for (auto& body : bodies_) {
     const StageTimer timer(report_, Stage::element_forces);
-    body->element_forces_and_integrate(dt, scene_.gravity, threads_);
+    report_.broken += body->element_forces_and_integrate(how);
   }
   bool any_force = scene_.floor.has_value();
   for (const auto& tool : tools_) any_force = any_force || !tool.forces().empty();
@@ -71,42 +122,78 @@ void World::step(double dt) noexcept {
     const StageTimer timer(report_, Stage::contact_forces);
     for (const auto& tool : tools_) {
       if (tool.forces().empty()) continue;
-      auto& body = *bodies_[tool.touched_body()];
-      body.kick(tool.forces(), dt);
-      for (const auto& nodal : tool.forces())
-        report_.tool_work += dt * nodal.force.dot(body.velocity(nodal.cell));
+      const double work = bodies_[tool.touched_body()]->kick(tool.forces(), dt);
+      report_.tool_work += work;
+      report_.tool_exchange += std::abs(work);
     }
     if (scene_.floor)
       for (auto& body : bodies_) body->bounce_off_floor(scene_.floor->height);
   } else {
     ++report_[Stage::contact_forces].skipped;
   }
-  ++report_[Stage::integrate].skipped;  // fused with the forces
-
-  if (any_yields_) {
-    const StageTimer timer(report_, Stage::yield_and_break);
-    for (auto& body : bodies_)
-      if (body->body().law.yields) report_.broken += body->yield_and_break(threads_);
-  } else {
-    ++report_[Stage::yield_and_break].skipped;
-  }
+  ++report_[Stage::integrate].skipped;        // fused with the forces
+  ++report_[Stage::yield_and_break].skipped;  // likewise
   ++report_.steps;
+}
+
+void World::save_all() noexcept {
+  for (auto& body : bodies_) body->save();
+}
+
+double World::energy_put_in() const noexcept {
+  double fallen = 0;
+  for (const auto& body : bodies_) fallen += body->watch().fallen;
+  return start_.kinetic + start_.elastic + (report_.tool_exchange - start_exchange_) +
+         std::abs(fallen + start_.gravitational);
 }
 
 void World::guard() noexcept {
   const StageTimer timer(report_, Stage::guard_finite);
-  for (auto& body : bodies_) {
-    if (body->is_finite()) {
-      if (report_.frames % frames_between_saves == 0) body->save();
-      continue;
+  double kinetic = 0;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (!bodies_[b]->is_finite()) {
+      ++report_.nonfinite;
+      return recover(b);
     }
-    ++report_.nonfinite;
-    ++report_.restored;
-    body->restore();
+    kinetic += bodies_[b]->watch().kinetic;
   }
+  if (!(kinetic <= largest_growth * energy_put_in() + negligible_energy)) {
+    ++report_.grown;
+    std::size_t fastest = 0;
+    for (std::size_t b = 1; b < bodies_.size(); ++b)
+      if (bodies_[b]->watch().speed > bodies_[fastest]->watch().speed) fastest = b;
+    return recover(fastest);
+  }
+  if (report_.frames % frames_between_saves == 0) save_all();
+}
+
+void World::recover(std::size_t culprit) noexcept {
+  // Tools and gravity did work on a state that is thrown away: what is booked starts anew from the state restored.
+  for (auto& body : bodies_) body->restore();
+  ++report_.restored;
+  const EnergyLedger after = ledger();
+  guard_energy_ += after.start + after.tool_work - after.dissipated - after.plastic - after.broken - after.guard -
+                   after.kinetic - after.elastic - after.gravitational;
+  if (recoveries_ == most_recoveries) {
+    given_up_ = culprit;
+    return;
+  }
+  ++recoveries_;
+  n_substeps_ *= 2;
+  dt_ = frame_dt_ / n_substeps_;
+  ++report_.halved;
+}
+
+std::optional<std::string> World::stopped() const {
+  if (!given_up_) return std::nullopt;
+  return fmt::format(
+      "body \"{}\" cannot be stepped: its energy grew or was not finite {} times although the step was halved to "
+      "{:.3g} ms; look at its material, its first positions and what its tools do",
+      bodies_[*given_up_]->body().name, report_.restored, 1e3 * dt_);
 }
 
 void World::frame(std::span<const std::optional<ToolState>> tools) noexcept {
+  if (given_up_) return;
   if (tools_.empty()) {
     ++report_[Stage::take_tools].skipped;
     ++report_[Stage::find_contacts].skipped;
@@ -121,14 +208,22 @@ void World::frame(std::span<const std::optional<ToolState>> tools) noexcept {
     const StageTimer timer(report_, Stage::find_contacts);
     for (auto& tool : tools_) tool.find_contact(t_);
   }
-  for (int n = 0; n < n_substeps_; ++n) step(dt_);
+  const int n_substeps = n_substeps_;
+  for (int n = 1; n <= n_substeps; ++n) step(dt_, n == n_substeps);
   guard();
+  if (scene_.physics.sleep)
+    for (auto& body : bodies_) body->sleep_and_wake(frame_dt_);
   t_ += frame_dt_;
   ++report_.frames;
 }
 
 void World::reset() noexcept {
   for (auto& body : bodies_) body->reset();
+  n_substeps_ = std::max(1, n_substeps_ >> recoveries_);
+  dt_ = frame_dt_ / n_substeps_;
+  recoveries_ = 0;
+  given_up_.reset();
+  restart_ledger();
 }
 
 std::uint64_t World::state_hash() const noexcept {

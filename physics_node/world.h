@@ -11,6 +11,7 @@
 #include "common/message/messages.h"
 #include "common/scene/scene.h"
 #include "physics_node/contact/tool_coupling.h"
+#include "physics_node/step/energy_ledger.h"
 #include "physics_node/step/moving_body.h"
 #include "physics_node/step/step_report.h"
 
@@ -42,12 +43,22 @@ class World {
   StepReport& report() { return report_; }
   const StepReport& report() const { return report_; }
   std::uint64_t state_hash() const noexcept;
+  /// Where the energy went; a pass over all elements.
+  EnergyLedger ledger() const;
+  /// Begins the ledger, and what the guard measures growth by, from the present state; for who has placed masses.
+  void restart_ledger();
+  /// Why the scene was given up, if it was: then frames no longer move anything, and the state is the last good one.
+  std::optional<std::string> stopped() const;
   /// What a person should know about this scene: one line each.
   const std::vector<std::string>& remarks() const { return remarks_; }
 
  private:
-  void step(double dt) noexcept;
+  void step(double dt, bool watch) noexcept;
   void guard() noexcept;
+  void save_all() noexcept;
+  /// Back to the last good state, with half the step; gives up after the step has been halved too often.
+  void recover(std::size_t culprit) noexcept;
+  double energy_put_in() const noexcept;
 
   Scene scene_;
   std::vector<std::unique_ptr<MovingBody>> bodies_;
@@ -62,6 +73,13 @@ class World {
   int n_substeps_ = 1;
   int threads_ = 1;
   bool any_yields_ = false;
+  Energies start_;          // of all bodies, when the ledger began
+  Losses start_losses_;     // of all bodies, when the ledger began
+  double start_work_ = 0;
+  double start_exchange_ = 0;
+  double guard_energy_ = 0;  // taken out by the guard [J]
+  int recoveries_ = 0;       // since the step was last chosen
+  std::optional<std::size_t> given_up_;  // the body that could not be stepped
 };
 
 }  // namespace palpate::physics

@@ -73,7 +73,7 @@ bool Appearance::poll() {
     broken_seen_ = report.broken;
     frames_seen_ = report.frames;
     for (std::size_t b = 0; b < views_.size(); ++b) {
-      if (world_.body(b).body().cells || !world_.body(b).body().law.yields) continue;
+      if (world_.body(b).body().cells || !any_yields(world_.body(b).body())) continue;
       show(b, make_surface(world_.body(b), std::nullopt, plain[b % plain.size()]));
       ++views_[b].revision;
       fresh = true;

@@ -28,9 +28,9 @@ void join_elements(Lattice& lattice, const Holds& holds) {
   const auto directions = half_directions(lattice.kind);
   for (const Index cell : lattice.masses) {
     const Vec3i grid = lattice.grid_of(cell);
-    const auto parity = static_cast<std::size_t>(lattice.row_parity(cell));
+    const auto kind = static_cast<std::size_t>(lattice.row_kind(cell));
     for (std::size_t d = 0; d < directions.size(); ++d) {
-      const auto other = static_cast<std::size_t>(cell + lattice.offset[parity][d]);
+      const auto other = static_cast<std::size_t>(cell + lattice.offset[kind][d]);
       if (lattice.mass_share[other] <= 0 || !holds(grid, d)) continue;
       auto& mine = lattice.mask[static_cast<std::size_t>(cell)];
       auto& theirs = lattice.mask[other];

@@ -80,7 +80,7 @@ double ToolCoupling::first_stiffness(std::size_t body) const noexcept {
 
 bool ToolCoupling::remembers_rest() const noexcept {
   const Body& body = moving_[touched_]->body();
-  return body.n_held > 0 && !body.law.yields;
+  return body.n_held > 0 && !any_yields(body);
 }
 
 void ToolCoupling::follow_stiffness(double dt) noexcept {

@@ -10,8 +10,12 @@
 //          the offsets are constant within a row and of two kinds.
 //   voxel  the edges of five tetrahedra per cell, mirrored from cell to cell (EQUATIONS C-38): 3 half directions
 //          along the axes, 6 along the diagonals of the faces. A face has the one diagonal that joins its corners of
-//          even i + j + k, so the cells on both sides agree on it and the mesh conforms: an even mass has up to 18
-//          neighbours, an odd one 6. An element exists where a filled cell holds it.
+//          even X + Y + Z, so the cells on both sides agree on it and the mesh conforms: an even mass has up to 18
+//          neighbours, an odd one 6. An element exists where a filled cell holds it. Each row is stored as two, the masses
+//          of even X before those of odd X, so that the masses of a row all have the same neighbours and no vector of
+//          masses carries idle lanes: four kinds of row.
+//
+// No row has two neighbours in it, and every element is stepped from the end that comes first in storage.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -34,11 +38,14 @@ struct Lattice {
   Vec3 origin = Vec3::Zero();  // rest position of grid coordinate (0, 0, 0) [m]
   Vec3 step = Vec3::Zero();    // of a grid coordinate [m]
 
-  std::array<std::array<Index, max_directions>, 2> offset{};  // to the neighbour, by row parity
+  std::array<std::array<Index, max_directions>, max_row_kinds> offset{};  // to the neighbour, by row kind
+  /// Directions in which a mass can have elements and is the first of the two in storage, by row kind.
+  std::array<std::vector<int>, max_row_kinds> forward{};
   std::array<Vec3, max_directions> rest_vector{};             // to the neighbour at rest [m]
   std::array<double, max_directions> rest_length{};           // L [m]
 
   std::vector<RowSegment> rows;   // in storage order
+  std::vector<Chunk> chunks;      // of rows, in order
   std::vector<Index> masses;      // storage cell of each mass, in storage order  (n_masses)
   std::vector<Mask> mask;         // elements of each storage cell at the start   (n_cells)
   std::vector<float> mass_share;  // mass of each storage cell in units of a cell's, 0 where empty (n_cells)
@@ -54,7 +61,9 @@ struct Lattice {
   /// The storage cell of the mass at a grid coordinate, or -1 where there is none. Any coordinate may be asked.
   Index mass_at(const Vec3i& grid) const;
   Vec3 rest_position(Index cell) const { return origin + step.cwiseProduct(grid_of(cell).cast<double>()); }
-  int row_parity(Index cell) const;
+  int row_kind(Index cell) const;
+  /// Does direction d lead to the next plane of z?
+  bool leads_up(int d) const;
 };
 
 /// Half directions of a lattice in grid coordinates.
@@ -66,7 +75,7 @@ double elements_per_mass(LatticeKind kind, std::size_t half_direction);
 /// An empty lattice whose box holds the grid coordinates [0, extent) and a halo. `step` as above.
 Lattice make_lattice(LatticeKind kind, const Vec3i& extent, const Vec3& origin, const Vec3& step);
 
-/// Fills rows and masses from mass_share > 0.
+/// Fills rows, chunks and masses from mass_share > 0.
 void index_masses(Lattice& lattice);
 
 }  // namespace palpate::physics

@@ -10,12 +10,21 @@ using Mask = std::uint32_t;
 
 inline constexpr int max_half = 9;
 inline constexpr int max_directions = 2 * max_half;
+inline constexpr int max_row_kinds = 4;
 
 /// A run of storage cells that begins and ends with a mass and has no gap as long as a vector of cells.
 struct RowSegment {
   Index first = 0;
   Index count = 0;
-  int parity = 0;  // of the row; always 0 on the voxel lattice
+  int kind = 0;  // which offsets lead to the neighbours: Lattice::row_kind
+};
+
+/// Consecutive rows in whole planes of z, at least two planes, that one thread may step. Where the cuts are depends on the
+/// body alone, so the order of every sum does too, whatever the number of threads.
+struct Chunk {
+  Index first_row = 0;
+  Index top_row = 0;  // the first row of the last plane, whose upward elements cross into the next chunk
+  Index last_row = 0;
 };
 
 }  // namespace palpate::physics

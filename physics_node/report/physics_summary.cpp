@@ -20,14 +20,23 @@ nlohmann::json body_part(const MovingBody& moving) {
                          {"live_elements", counts.live_elements},
                          {"broken_fraction", 1.0 - static_cast<double>(counts.live_elements) / elements},
                          {"max_stretch", counts.max_stretch},
-                         {"shape_rms_m", counts.shape_rms}};
-  if (moving.body().law.yields)
+                         {"shape_rms_m", counts.shape_rms},
+                         {"sleeping_fraction", moving.sleeping_fraction()}};
+  if (any_yields(moving.body()))
     part["yielded_fraction"] = static_cast<double>(counts.yielded_masses) / n_masses;
   if (moving.body().cells) {
     part["voxels"] = moving.body().cells->n_filled();
     part["deformable_voxels"] = moving.body().cells->n_deformable();
   }
   return part;
+}
+
+nlohmann::json energy_part(const EnergyLedger& ledger) {
+  return {{"kinetic", ledger.kinetic},     {"elastic", ledger.elastic},
+          {"dissipated", ledger.dissipated}, {"gravitational", ledger.gravitational},
+          {"plastic", ledger.plastic},     {"broken", ledger.broken},
+          {"tool_work", ledger.tool_work}, {"guard", ledger.guard},
+          {"exchanged", ledger.exchanged}, {"balance_error", ledger.balance_error()}};
 }
 
 nlohmann::json stages_part(const StepReport& report) {
@@ -39,6 +48,11 @@ nlohmann::json stages_part(const StepReport& report) {
                             {"skipped", time.skipped}};
   }
   return part;
+}
+
+const char* integrator_name(Integrator integrator) {
+  constexpr const char* names[] = {"symplectic_euler", "velocity_verlet", "backward_euler"};
+  return names[static_cast<int>(integrator)];
 }
 
 const char* precision_name(Precision precision) {
@@ -56,7 +70,7 @@ nlohmann::json physics_summary(const World& world, const Recorder* recorder, dou
                          {"seed", scene.seed},
                          {"threads", world.threads()},
                          {"precision", precision_name(scene.physics.precision)},
-                         {"integrator", "symplectic_euler"},
+                         {"integrator", integrator_name(scene.physics.integrator)},
                          {"simulated_s", world.t()},
                          {"wall_s", wall_s},
                          {"real_time_factor", wall_s > 0 ? world.t() / wall_s : 0.0},
@@ -65,26 +79,20 @@ nlohmann::json physics_summary(const World& world, const Recorder* recorder, dou
                          {"stable_dt_s", world.stable_step_seconds()},
                          {"state_hash", hex_of(world.state_hash())},
                          {"stages", stages_part(world.report())}};
-  Energies energies;
   Momenta momenta;
   for (std::size_t b = 0; b < world.n_bodies(); ++b) {
     const MovingBody& moving = world.body(b);
     part["bodies"][moving.body().name] = body_part(moving);
-    const Energies e = moving.energies(scene.gravity);
-    energies.kinetic += e.kinetic;
-    energies.elastic += e.elastic;
-    energies.gravitational += e.gravitational;
     const Momenta p = moving.momenta();
     momenta.linear += p.linear;
     momenta.angular += p.angular;
   }
-  part["energy"] = {{"kinetic", energies.kinetic},
-                    {"elastic", energies.elastic},
-                    {"gravitational", energies.gravitational},
-                    {"tool_work", world.report().tool_work}};
+  part["energy"] = energy_part(world.ledger());
   part["momentum"] = {{"linear", triple(momenta.linear)}, {"angular", triple(momenta.angular)}};
   part["guard"] = {{"nonfinite", world.report().nonfinite},
+                   {"grown", world.report().grown},
                    {"restored", world.report().restored},
+                   {"halved", world.report().halved},
                    {"warnings", world.report().warnings + static_cast<std::int64_t>(world.remarks().size())}};
   for (std::size_t n = 0; recorder != nullptr && n < scene.tools.size(); ++n) {
     part["tools"][scene.tools[n].name] = {{"contacts_max", recorder->contacts_max(n)},

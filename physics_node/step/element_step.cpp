@@ -2,48 +2,61 @@
 
 #include <cstdlib>
 #include <cstring>
-#include <utility>
 
-#include "physics_node/step/element_context.h"
+#include "physics_node/step/mirror_breaks.h"
 
 namespace palpate::physics {
 namespace {
 
 template <class Real>
-ElementContext<Real> make_context(const Body& body, LatticeState<Real>& s, double dt, const Vec3& gravity) {
+void point_at_constants(ElementContext<Real>& m, const VariedConstants<Real>& varied) {
+  for (std::size_t h = 0; h < max_half; ++h) {
+    m.k1[h] = varied.k1[h].data();
+    m.k2[h] = varied.k2[h].data();
+    m.c[h] = varied.c[h].data();
+    m.yield[h] = varied.yield[h].data();
+    m.snap[h] = varied.snap[h].data();
+  }
+  m.drag_of = varied.drag.data();
+}
+
+template <class Real>
+ElementContext<Real> make_context(const Body& body, LatticeState<Real>& s, const ExplicitStep& step) {
   ElementContext<Real> m = {};
+  m.rows = body.lattice.rows.data();
+  m.row_state = s.row_state.data();
+  m.ledger = s.ledger.data();
+  m.all = s.all.data();
+  m.level = s.level.data();
+  m.up = s.up.data();
   for (std::size_t a = 0; a < 3; ++a) {
     m.u[a] = s.u[a].data();
     m.v[a] = s.v[a].data();
-    m.next_u[a] = s.next_u[a].data();
-    m.next_v[a] = s.next_v[a].data();
-    m.g[a] = static_cast<Real>(gravity[static_cast<Eigen::Index>(a)]);
+    m.f[a] = s.f[a].data();
+    m.v_half[a] = s.v_half[a].data();
+    m.g[a] = static_cast<Real>(step.gravity[static_cast<Eigen::Index>(a)]);
   }
-  m.rows = body.lattice.rows.data();
-  for (std::size_t parity = 0; parity < 2; ++parity)
-    for (std::size_t d = 0; d < max_directions; ++d) m.offset[parity][d] = body.lattice.offset[parity][d];
   m.inverse_mass = s.inverse_mass.data();
   m.mask = s.mask.data();
-  m.dt = static_cast<Real>(dt);
-  const auto n_half = static_cast<std::size_t>(body.lattice.n_half);
-  for (std::size_t d = 0; d < 2 * n_half; ++d) {
-    for (std::size_t a = 0; a < 3; ++a)
-      m.D[a][d] = static_cast<Real>(body.lattice.rest_vector[d][static_cast<Eigen::Index>(a)]);
-    m.L[d] = static_cast<Real>(body.lattice.rest_length[d]);
-    m.k1[d] = static_cast<Real>(body.law.k1[d % n_half]);
-    m.k2[d] = static_cast<Real>(body.law.k1[d % n_half] * body.law.k2_ratio);
-    m.c[d] = static_cast<Real>(body.law.c[d % n_half]);
+  for (std::size_t h = 0; h < max_half; ++h) {
+    m.l_c[h] = s.l_c[h].data();
+    m.hardening[h] = s.hardening[h].data();
   }
-  for (std::size_t d = 0; d < n_half; ++d) {
-    m.l_c[d] = s.l_c[d].data();
-    m.y_p[d] = s.y_p[d].data();
-  }
+  point_at_constants(m, s.varied);
+  m.dt = static_cast<Real>(step.dt);
+  m.kick = static_cast<Real>(s.v_half_known ? step.dt : 0.5 * step.dt);
+  m.drag = static_cast<Real>(body.law.drag);
+  m.relative = body.law.damper == Damper::relative;
+  m.watch = step.watch;
   return m;
 }
 
 template <class Real>
-ElementKernel<Real> choose_kernel(const Body& body) {
-  const KernelKind kind{body.lattice.kind == LatticeKind::fcc, body.law.damped, body.law.yields};
+ElementKernel<Real> choose_kernel(const Body& body, bool verlet) {
+  const DamperKind damper = !any_damped(body)                        ? DamperKind::none
+                            : body.law.damper == Damper::axial ? DamperKind::axial
+                                                                     : DamperKind::other;
+  const KernelKind kind{damper, any_yields(body), !body.law_of.empty(), verlet};
   switch (instruction_set()) {
     case InstructionSet::avx512:
       return avx512::element_kernel<Real>(kind);
@@ -59,9 +72,20 @@ InstructionSet find_instruction_set() noexcept {
   const char* wanted = std::getenv("PALPATE_ISA");
   const bool sse2_wanted = wanted != nullptr && std::strcmp(wanted, "sse2") == 0;
   const bool avx2_wanted = wanted != nullptr && std::strcmp(wanted, "avx2") == 0;
-  if (!sse2_wanted && !avx2_wanted && __builtin_cpu_supports("avx512f") != 0) return InstructionSet::avx512;
-  if (!sse2_wanted && __builtin_cpu_supports("avx2") != 0) return InstructionSet::avx2;
-  return InstructionSet::sse2;
+  const bool has_avx2 = __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0;
+  if (!sse2_wanted && !avx2_wanted && has_avx2 && __builtin_cpu_supports("avx512f") != 0)
+    return InstructionSet::avx512;
+  return !sse2_wanted && has_avx2 ? InstructionSet::avx2 : InstructionSet::sse2;
+}
+
+/// Every chunk but the last hands the elements above it to the sweep of cuts.
+template <class Real>
+void sweep_chunk(ElementKernel<Real> kernel, const ElementContext<Real>& m, const std::vector<Chunk>& chunks,
+                 std::size_t n) {
+  const Chunk& chunk = chunks[n];
+  const bool last = n + 1 == chunks.size();
+  kernel(m, chunk.first_row, last ? chunk.last_row : chunk.top_row, Sweep::all);
+  if (!last) kernel(m, chunk.top_row, chunk.last_row, Sweep::level);
 }
 
 }  // namespace
@@ -77,27 +101,25 @@ const char* name_of(InstructionSet set) noexcept {
 }
 
 template <class Real>
-void element_step(const Body& body, LatticeState<Real>& state, double dt, const Vec3& gravity,
-                  int threads) noexcept {
-  const ElementContext<Real> m = make_context(body, state, dt, gravity);
-  const ElementKernel<Real> kernel = choose_kernel<Real>(body);
-  const auto n_rows = static_cast<Index>(body.lattice.rows.size());
-  if (threads <= 1) {
-    kernel(m, 0, n_rows);
-  } else {
-#pragma omp parallel for schedule(static) num_threads(threads)
-    for (int part = 0; part < threads; ++part) {
-      const auto at = [&](int p) {
-        return static_cast<Index>(static_cast<std::int64_t>(n_rows) * p / threads);
-      };
-      kernel(m, at(part), at(part + 1));
-    }
+std::int64_t element_step(const Body& body, LatticeState<Real>& state, const ExplicitStep& step) noexcept {
+  const ElementContext<Real> m = make_context(body, state, step);
+  const ElementKernel<Real> kernel = choose_kernel<Real>(body, step.verlet);
+  const std::vector<Chunk>& chunks = body.lattice.chunks;
+  const std::size_t n = chunks.size();
+  const std::size_t n_cuts = n > 0 ? n - 1 : 0;
+#pragma omp parallel num_threads(step.threads) if (step.threads > 1 && n > 1)
+  {
+#pragma omp for schedule(static)
+    for (std::size_t cut = 0; cut < n_cuts; ++cut)
+      kernel(m, chunks[cut].top_row, chunks[cut].last_row, Sweep::up);
+#pragma omp for schedule(static)
+    for (std::size_t c = 0; c < n; ++c) sweep_chunk(kernel, m, chunks, c);
   }
-  std::swap(state.u, state.next_u);
-  std::swap(state.v, state.next_v);
+  state.v_half_known = step.verlet;
+  return any_yields(body) ? mirror_breaks(body, state) : 0;
 }
 
-template void element_step(const Body&, LatticeState<float>&, double, const Vec3&, int) noexcept;
-template void element_step(const Body&, LatticeState<double>&, double, const Vec3&, int) noexcept;
+template std::int64_t element_step(const Body&, LatticeState<float>&, const ExplicitStep&) noexcept;
+template std::int64_t element_step(const Body&, LatticeState<double>&, const ExplicitStep&) noexcept;
 
 }  // namespace palpate::physics

@@ -1,29 +1,36 @@
 #pragma once
-// The hot kernel: forces of all elements of every mass, gathered, and the step of the mass, in one pass.
+// The hot kernel: forces of all elements, and the step of every mass, in one pass over memory.
 
 #include "physics_node/step/state.h"
 
 namespace palpate::physics {
 
-/// One step of symplectic Euler of every mass of a body:
+struct ExplicitStep {
+  double dt = 0;               // [s]
+  Vec3 gravity = Vec3::Zero(); // [m/s^2]
+  int threads = 1;             // 1: no team
+  bool verlet = false;         // velocity_verlet; else symplectic Euler
+  bool watch = false;          // note the speeds and accelerations of rows in state.ledger
+};
+
+/// One step of every mass of a body, in place:
 ///
 ///   f_i = sum over live elements (i, j) of f(l, l') u_ij,   u_ij = (x_j - x_i) / l,   l' = (v_j - v_i) . u_ij
-///   v_i := v_i + dt (f_i / m_i + g),   x_i := x_i + dt v_i
+///   symplectic Euler:  v_i := v_i + dt (f_i / m_i + g),   x_i := x_i + dt v_i
+///   velocity Verlet:   v_i(t + dt/2) = v_i(t - dt/2) + dt (f_i / m_i + g),  x_i := x_i + dt v_i(t + dt/2);
+///                      dampers use v_i(t) ~ v_i(t - dt/2) + dt/2 (f_i / m_i + g)(t - dt), which keeps the second order
 ///
-/// Reads state.u, v, mask, l_c, y_p; writes state.next_u, next_v, then swaps. Every mass sums its own elements in
-/// the order of the stencil, so the bits do not depend on the number of threads. An element is computed twice,
-/// once from each end: that needs no scatter and no colours. Displacements, not positions, are stored, so that in
-/// single precision the stretch of an element is as exact as the displacements are.
+/// Yield and break are committed where the force is computed, from the static force, once per step.
+/// An element is computed once, from the end that comes first in storage; when the sweep reaches a mass, all elements
+/// before it have added their share, so it moves at once and no second copy of the state is needed. Chunks are swept
+/// by different threads; the elements between chunks are computed before, so every sum has one order whatever the
+/// number of threads. Displacements, not positions, are stored, so that in single precision the stretch of an element
+/// is as exact as the displacements are.
 /// Source: Wakamatsu & Honma 2011, eqs. (1), (2); Takada & Abe, "Euler method".
 /// Deviation: semi-implicit where the papers' Euler is explicit, which gains energy (EQUATIONS C-32).
-/// @param threads  1: no team
+/// Cost: bench/kernel. Contract: allocates, locks and throws nothing.
+/// @return elements broken in this step
 template <class Real>
-void element_step(const Body& body, LatticeState<Real>& state, double dt, const Vec3& gravity,
-                  int threads) noexcept;
-
-/// Commits yield and break once per step, from the static force at the positions reached. Only for bodies that
-/// yield. @return how many elements broke in this step
-template <class Real>
-std::int64_t yield_and_break(const Body& body, LatticeState<Real>& state, int threads) noexcept;
+std::int64_t element_step(const Body& body, LatticeState<Real>& state, const ExplicitStep& step) noexcept;
 
 }  // namespace palpate::physics

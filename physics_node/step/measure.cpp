@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 
+#include "physics_node/body/element_constants.h"
+
 namespace palpate::physics {
 namespace {
 
@@ -15,26 +17,35 @@ Vec3 vector_of(const Three<Real>& three, Index cell) {
           static_cast<double>(three[2][c])};
 }
 
-/// Calls visit(cell, half direction, stretch l / L, static force) for every live element.
+struct ElementNow {
+  double stretch;  // l / L
+  double f_s, k1;  // static force [N], spring constant [N/m]
+};
+
+/// Calls visit(element) for every live element.
 template <class Real, class Visit>
 void for_each_element(const Body& body, const LatticeState<Real>& s, const Visit& visit) {
   const Lattice& lattice = body.lattice;
+  const bool yields = any_yields(body);
   for (const Index i : lattice.masses) {
     const auto c = static_cast<std::size_t>(i);
-    const auto parity = static_cast<std::size_t>(lattice.row_parity(i));
+    const auto& offset = lattice.offset[static_cast<std::size_t>(lattice.row_kind(i))];
     for (std::size_t d = 0; d < static_cast<std::size_t>(lattice.n_half); ++d) {
       if (((s.mask[c] >> d) & 1) == 0) continue;
-      const Index j = i + lattice.offset[parity][d];
+      const Index j = i + offset[d];
+      const ElementConstants e = element_constants(body, i, j, d);
       const double L = lattice.rest_length[d];
-      const double l = (lattice.rest_vector[d] + vector_of(s.u, j) - vector_of(s.u, i)).norm();
-      double f = body.law.k1[d] * (l - L);
-      if (body.law.yields) {
+      const Vec3 stretch = vector_of(s.u, j) - vector_of(s.u, i);
+      const double q = stretch.dot(2 * lattice.rest_vector[d] + stretch);
+      const double l = std::sqrt(std::max(L * L + q, 1e-6 * L * L));
+      const double longer = q / (l + L);
+      ElementNow now{l / L, e.k1 * longer, e.k1};
+      if (yields) {
         const auto l_c = static_cast<double>(s.l_c[d][c]);
-        const double l_y = static_cast<double>(s.y_p[d][c]) * L;
-        f = l > l_y ? body.law.k1[d] * (l_y - L - l_c) + body.law.k1[d] * body.law.k2_ratio * (l - l_y)
-                    : body.law.k1[d] * (l - L - l_c);
+        const double s_y = (e.y_p - 1) * L + static_cast<double>(s.hardening[d][c]);
+        now.f_s = longer > s_y ? e.k1 * (s_y - l_c) + e.k2 * (longer - s_y) : e.k1 * (longer - l_c);
       }
-      visit(i, d, l / L, f);
+      visit(now);
     }
   }
 }
@@ -45,21 +56,32 @@ template <class Real>
 Energies measure_energies(const Body& body, const LatticeState<Real>& state, const Vec3& gravity) {
   Energies e;
   for (const Index i : body.lattice.masses) {
-    if (body.inverse_mass[static_cast<std::size_t>(i)] == 0) continue;
-    e.kinetic += 0.5 * body.law.mass * vector_of(state.v, i).squaredNorm();
-    e.gravitational -= body.law.mass * gravity.dot(vector_of(state.u, i));
+    const double w = body.inverse_mass[static_cast<std::size_t>(i)];
+    if (w == 0) continue;
+    e.kinetic += 0.5 / w * vector_of(state.v, i).squaredNorm();
+    e.gravitational -= gravity.dot(vector_of(state.u, i)) / w;
   }
-  for_each_element(body, state, [&](Index, std::size_t d, double, double f) {
-    e.elastic += f * f / (2 * body.law.k1[d]);
-  });
+  for_each_element(body, state, [&](const ElementNow& now) { e.elastic += now.f_s * now.f_s / (2 * now.k1); });
   return e;
+}
+
+template <class Real>
+Losses measure_losses(const LatticeState<Real>& state) {
+  Losses sum;
+  for (const RowLedger& row : state.ledger) {
+    sum.viscous += row.viscous;
+    sum.plastic += row.plastic;
+    sum.broken += row.broken;
+    sum.breaks += row.breaks;
+  }
+  return sum;
 }
 
 template <class Real>
 Momenta measure_momenta(const Body& body, const LatticeState<Real>& state) {
   Momenta p;
   for (const Index i : body.lattice.masses) {
-    const Vec3 mv = body.law.mass * vector_of(state.v, i);
+    const Vec3 mv = law_at(body, i).mass * vector_of(state.v, i);
     p.linear += mv;
     p.angular += (body.lattice.rest_position(i) + vector_of(state.u, i)).cross(mv);
   }
@@ -70,15 +92,16 @@ template <class Real>
 BodyCounts measure_counts(const Body& body, const LatticeState<Real>& state) {
   BodyCounts counts;
   counts.elements = body.lattice.n_elements();
-  for_each_element(body, state, [&](Index, std::size_t, double stretch, double) {
+  for_each_element(body, state, [&](const ElementNow& now) {
     ++counts.live_elements;
-    counts.max_stretch = std::max(counts.max_stretch, stretch);
+    counts.max_stretch = std::max(counts.max_stretch, now.stretch);
   });
+  const bool yields = any_yields(body);
   Eigen::Matrix3Xd rest(3, body.lattice.n_masses());
   Eigen::Matrix3Xd now(3, body.lattice.n_masses());
   Eigen::Index column = 0;
   for (const Index i : body.lattice.masses) {
-    if ((state.flags[static_cast<std::size_t>(i)] & mass_yielded) != 0) ++counts.yielded_masses;
+    if (yields && has_yielded(body, state, i)) ++counts.yielded_masses;
     rest.col(column) = body.lattice.rest_position(i);
     now.col(column++) = body.lattice.rest_position(i) + vector_of(state.u, i);
   }
@@ -95,6 +118,8 @@ double rigid_fit_rms(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to) {
 
 template Energies measure_energies(const Body&, const LatticeState<float>&, const Vec3&);
 template Energies measure_energies(const Body&, const LatticeState<double>&, const Vec3&);
+template Losses measure_losses(const LatticeState<float>&);
+template Losses measure_losses(const LatticeState<double>&);
 template Momenta measure_momenta(const Body&, const LatticeState<float>&);
 template Momenta measure_momenta(const Body&, const LatticeState<double>&);
 template BodyCounts measure_counts(const Body&, const LatticeState<float>&);

@@ -7,9 +7,13 @@
 namespace palpate::physics {
 
 /// Kinetic (1/2) m v^2; elastic f_s^2 / (2 k1) per live element, which is what unloading gives back; gravitational
-/// - m g . u. Held masses count for nothing.
+/// - m g . u. Held masses count for nothing. One pass over masses and elements in double precision.
 template <class Real>
 Energies measure_energies(const Body& body, const LatticeState<Real>& state, const Vec3& gravity);
+
+/// What elements have given away since the start.
+template <class Real>
+Losses measure_losses(const LatticeState<Real>& state);
 
 template <class Real>
 Momenta measure_momenta(const Body& body, const LatticeState<Real>& state);

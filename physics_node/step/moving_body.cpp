@@ -1,10 +1,13 @@
 #include "physics_node/step/moving_body.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/math/hash.h"
 #include "physics_node/step/element_step.h"
 #include "physics_node/step/measure.h"
+#include "physics_node/step/saved_state.h"
+#include "physics_node/step/sleep.h"
 #include "physics_node/step/state.h"
 
 namespace palpate::physics {
@@ -13,73 +16,110 @@ namespace {
 template <class Real>
 class LatticeBody final : public MovingBody {
  public:
-  explicit LatticeBody(Body body)
-      : body_(std::move(body)), state_(body_), saved_u_(rest()), saved_v_(rest()) {}
+  LatticeBody(Body body, bool verlet)
+      : body_(std::move(body)), state_(body_), sleep_(body_), saved_(body_, state_) {
+    if (verlet)
+      for (auto& axis : state_.v_half) axis = ZeroedArray<Real>(n_cells());
+    reset();
+  }
 
   const Body& body() const noexcept override { return body_; }
 
-  void element_forces_and_integrate(double dt, const Vec3& gravity, int threads) noexcept override {
-    element_step(body_, state_, dt, gravity, threads);
+  std::int64_t element_forces_and_integrate(const ExplicitStep& step) noexcept override {
+    return element_step(body_, state_, step);
   }
 
-  void kick(std::span<const NodalForce> forces, double dt) noexcept override {
+  double kick(std::span<const NodalForce> forces, double dt) noexcept override {
+    double work = 0;
     for (const auto& nodal : forces) {
       const auto c = static_cast<std::size_t>(nodal.cell);
+      if (state_.inverse_mass[c] == 0) continue;
+      sleep_.wake_cell(body_, state_, nodal.cell);
+      const bool verlet = state_.v_half[0].size() > 0;
       for (std::size_t a = 0; a < 3; ++a) {
         const Real dv =
             static_cast<Real>(dt * nodal.force[static_cast<Eigen::Index>(a)]) * state_.inverse_mass[c];
-        state_.v[a][c] += dv;
+        // With velocity_verlet v is half a step ahead of the velocity that moves the mass.
+        state_.v[a][c] += verlet ? Real(1.5) * dv : dv;
         state_.u[a][c] += static_cast<Real>(dt) * dv;
+        if (verlet) state_.v_half[a][c] += dv;
       }
+      work += dt * nodal.force.dot(vector_of(verlet ? state_.v_half : state_.v, nodal.cell));  // F . dx
     }
+    return work;
   }
 
   std::int64_t bounce_off_floor(double height) noexcept override {
     std::int64_t bounced = 0;
-    for (const Index cell : body_.lattice.masses) {
-      const auto c = static_cast<std::size_t>(cell);
-      if (state_.v[2][c] >= 0 || position(cell).z() >= height) continue;
-      state_.v[2][c] = -state_.v[2][c];
-      ++bounced;
+    for (const RowSegment& row : body_.lattice.rows) {
+      const double z = body_.lattice.rest_position(row.first).z();  // of all masses of a row
+      for (Index cell = row.first; cell < row.first + row.count; ++cell) {
+        const auto c = static_cast<std::size_t>(cell);
+        if (state_.v[2][c] >= 0 || z + static_cast<double>(state_.u[2][c]) >= height) continue;
+        state_.v[2][c] = -state_.v[2][c];
+        if (state_.v_half[2].size() > 0) state_.v_half[2][c] = -state_.v_half[2][c];
+        ++bounced;
+      }
     }
     return bounced;
   }
 
-  std::int64_t yield_and_break(int threads) noexcept override {
-    return palpate::physics::yield_and_break(body_, state_, threads);
+  void sleep_and_wake(double frame_seconds) noexcept override { sleep_.look(body_, state_, frame_seconds); }
+  void wake_all() noexcept override { sleep_.wake_all(body_, state_); }
+  double sleeping_fraction() const noexcept override {
+    return static_cast<double>(sleep_.sleeping_masses()) / static_cast<double>(body_.lattice.n_masses());
   }
 
   bool is_finite() const noexcept override {
     // NaN and infinity survive multiplication by zero, so one sum tells of all.
     Real sum = 0;
-    for (const auto& row : body_.lattice.rows)
+    for (std::size_t r = 0; r < body_.lattice.rows.size(); ++r) {
+      if (state_.row_state[r] == RowState::asleep) continue;
+      const auto first = static_cast<std::size_t>(body_.lattice.rows[r].first);
+      const std::size_t last = first + static_cast<std::size_t>(body_.lattice.rows[r].count);
       for (std::size_t a = 0; a < 3; ++a)
-        for (Index i = row.first; i < row.first + row.count; ++i)
-          sum +=
-              Real(0) * (state_.u[a][static_cast<std::size_t>(i)] + state_.v[a][static_cast<std::size_t>(i)]);
+        for (std::size_t i = first; i < last; ++i) sum += Real(0) * (state_.u[a][i] + state_.v[a][i]);
+    }
     return sum == Real(0);
   }
 
-  void save() noexcept override { copy_masses(state_.u, saved_u_), copy_masses(state_.v, saved_v_); }
+  Watch watch() const noexcept override {
+    Watch sum;
+    for (const RowLedger& row : state_.ledger) {
+      sum.kinetic += row.kinetic;
+      sum.fallen += row.fallen;
+      sum.speed = std::max(sum.speed, row.speed2);
+    }
+    sum.speed = std::sqrt(sum.speed);
+    return sum;
+  }
 
+  void save() noexcept override { saved_.take(body_, state_); }
   void restore() noexcept override {
-    copy_masses(saved_u_, state_.u);
-    for (const Index cell : body_.lattice.masses)
-      for (std::size_t a = 0; a < 3; ++a) state_.v[a][static_cast<std::size_t>(cell)] = 0;
+    sleep_.wake_all(body_, state_);
+    saved_.bring_back(body_, state_);
   }
 
   void reset() noexcept override {
+    sleep_.wake_all(body_, state_);
     state_.reset(body_);
+    for (const Index cell : body_.lattice.masses)
+      for (std::size_t a = 0; a < 3; ++a)
+        if (state_.v_half[a].size() > 0)
+          state_.v_half[a][static_cast<std::size_t>(cell)] = state_.v[a][static_cast<std::size_t>(cell)];
     save();
   }
 
   void place(Index cell, const Vec3& displacement, const Vec3& velocity) noexcept override {
     const auto c = static_cast<std::size_t>(cell);
     if (state_.inverse_mass[c] == 0) return;
+    sleep_.wake_cell(body_, state_, cell);
     for (std::size_t a = 0; a < 3; ++a) {
       state_.u[a][c] = static_cast<Real>(displacement[static_cast<Eigen::Index>(a)]);
       state_.v[a][c] = static_cast<Real>(velocity[static_cast<Eigen::Index>(a)]);
+      if (state_.v_half[a].size() > 0) state_.v_half[a][c] = state_.v[a][c];
     }
+    state_.v_half_known = false;
   }
 
   Vec3 position(Index cell) const noexcept override {
@@ -89,10 +129,15 @@ class LatticeBody final : public MovingBody {
   Vec3 velocity(Index cell) const noexcept override { return vector_of(state_.v, cell); }
   Mask mask(Index cell) const noexcept override { return state_.mask[static_cast<std::size_t>(cell)]; }
   std::uint8_t flags(Index cell) const noexcept override {
-    return state_.flags[static_cast<std::size_t>(cell)];
+    std::uint8_t flags = 0;
+    if (state_.mask[static_cast<std::size_t>(cell)] != body_.lattice.mask[static_cast<std::size_t>(cell)])
+      flags |= mass_broken;
+    if (any_yields(body_) && has_yielded(body_, state_, cell)) flags |= mass_yielded;
+    return flags;
   }
 
   Energies energies(const Vec3& gravity) const override { return measure_energies(body_, state_, gravity); }
+  Losses losses() const override { return measure_losses(state_); }
   Momenta momenta() const override { return measure_momenta(body_, state_); }
   BodyCounts counts() const override { return measure_counts(body_, state_); }
 
@@ -105,27 +150,17 @@ class LatticeBody final : public MovingBody {
         seed = hash_bytes(&state_.v[a][first], count * sizeof(Real), seed);
       }
       seed = hash_bytes(&state_.mask[first], count * sizeof(Mask), seed);
-      if (!body_.law.yields) continue;
+      if (!any_yields(body_)) continue;
       for (std::size_t d = 0; d < static_cast<std::size_t>(body_.lattice.n_half); ++d) {
         seed = hash_bytes(&state_.l_c[d][first], count * sizeof(Real), seed);
-        seed = hash_bytes(&state_.y_p[d][first], count * sizeof(Real), seed);
+        seed = hash_bytes(&state_.hardening[d][first], count * sizeof(Real), seed);
       }
     }
     return seed;
   }
 
  private:
-  Three<Real> rest() const {
-    Three<Real> three;
-    for (auto& array : three) array = ZeroedArray<Real>(static_cast<std::size_t>(body_.lattice.n_cells()));
-    return three;
-  }
-  void copy_masses(const Three<Real>& from, Three<Real>& to) noexcept {
-    for (const auto& row : body_.lattice.rows)
-      for (std::size_t a = 0; a < 3; ++a)
-        std::copy_n(&from[a][static_cast<std::size_t>(row.first)], row.count,
-                    &to[a][static_cast<std::size_t>(row.first)]);
-  }
+  std::size_t n_cells() const { return static_cast<std::size_t>(body_.lattice.n_cells()); }
   static Vec3 vector_of(const Three<Real>& three, Index cell) noexcept {
     const auto c = static_cast<std::size_t>(cell);
     return {static_cast<double>(three[0][c]), static_cast<double>(three[1][c]),
@@ -134,14 +169,16 @@ class LatticeBody final : public MovingBody {
 
   Body body_;
   LatticeState<Real> state_;
-  Three<Real> saved_u_, saved_v_;
+  Sleep sleep_;
+  SavedState<Real> saved_;
 };
 
 }  // namespace
 
-std::unique_ptr<MovingBody> make_moving_body(Body body, Precision precision) {
-  if (precision == Precision::single_) return std::make_unique<LatticeBody<float>>(std::move(body));
-  return std::make_unique<LatticeBody<double>>(std::move(body));
+std::unique_ptr<MovingBody> make_moving_body(Body body, Precision precision, Integrator integrator) {
+  const bool verlet = integrator == Integrator::velocity_verlet;
+  if (precision == Precision::single_) return std::make_unique<LatticeBody<float>>(std::move(body), verlet);
+  return std::make_unique<LatticeBody<double>>(std::move(body), verlet);
 }
 
 }  // namespace palpate::physics

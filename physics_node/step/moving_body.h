@@ -6,6 +6,7 @@
 #include <span>
 
 #include "physics_node/body/body.h"
+#include "physics_node/step/element_step.h"
 #include "physics_node/step/mass_flags.h"
 
 namespace palpate::physics {
@@ -20,6 +21,21 @@ struct Energies {
   double kinetic = 0;
   double elastic = 0;        // recoverable
   double gravitational = 0;  // relative to the rest position
+};
+
+/// What elements have given away since the start; never comes back.
+struct Losses {
+  double viscous = 0;        // in dampers and drag [J]
+  double plastic = 0;        // in yielding [J]
+  double broken = 0;         // elastic energy of elements when they broke [J]
+  std::int64_t breaks = 0;   // elements
+};
+
+/// What the last watched step saw; cheap.
+struct Watch {
+  double kinetic = 0;  // [J]
+  double fallen = 0;   // energy that gravity has given since the start [J]
+  double speed = 0;    // of the fastest mass [m/s]
 };
 
 struct Momenta {
@@ -41,18 +57,25 @@ class MovingBody {
   virtual const Body& body() const noexcept = 0;
 
   // --- stages of a step ---
-  virtual void element_forces_and_integrate(double dt, const Vec3& gravity, int threads) noexcept = 0;
-  /// Adds forces that act during the step just integrated. Held masses ignore them.
-  virtual void kick(std::span<const NodalForce> forces, double dt) noexcept = 0;
+  /// An explicit step: forces of all elements, yield and break, motion. @return elements broken
+  virtual std::int64_t element_forces_and_integrate(const ExplicitStep& step) noexcept = 0;
+  /// Adds forces that act during the step just integrated. Held masses ignore them; sleeping rows wake.
+  /// @return work done by the forces [J]
+  virtual double kick(std::span<const NodalForce> forces, double dt) noexcept = 0;
   /// Perfectly elastic exchange with the plane z = height: masses below it and approaching are reflected.
   /// @return how many
   virtual std::int64_t bounce_off_floor(double height) noexcept = 0;
-  /// @return elements broken; must only be called for bodies that yield
-  virtual std::int64_t yield_and_break(int threads) noexcept = 0;
+  /// Lets quiet rows sleep and disturbed ones wake, from what the last watched step saw.
+  /// @param frame_seconds  since the last call
+  virtual void sleep_and_wake(double frame_seconds) noexcept = 0;
+  virtual void wake_all() noexcept = 0;
+  /// Fraction of the masses that sleep.
+  virtual double sleeping_fraction() const noexcept = 0;
 
   // --- guard ---
   virtual bool is_finite() const noexcept = 0;
-  virtual void save() noexcept = 0;     // remembers displacement and velocity
+  virtual Watch watch() const noexcept = 0;
+  virtual void save() noexcept = 0;     // remembers the state
   virtual void restore() noexcept = 0;  // goes back to what was saved, at rest
   virtual void reset() noexcept = 0;    // as loaded
   /// Puts one mass where a test, a benchmark or a tool wants it. A held mass stays.
@@ -65,12 +88,14 @@ class MovingBody {
   virtual Mask mask(Index cell) const noexcept = 0;
   virtual std::uint8_t flags(Index cell) const noexcept = 0;
   virtual Energies energies(const Vec3& gravity) const = 0;
+  virtual Losses losses() const = 0;
   virtual Momenta momenta() const = 0;
   virtual BodyCounts counts() const = 0;
   /// Hash of displacement, velocity, live elements and plastic state of all masses, continued from `seed`.
   virtual std::uint64_t hash(std::uint64_t seed) const noexcept = 0;
 };
 
-std::unique_ptr<MovingBody> make_moving_body(Body body, Precision precision);
+std::unique_ptr<MovingBody> make_moving_body(Body body, Precision precision,
+                                             Integrator integrator = Integrator::symplectic_euler);
 
 }  // namespace palpate::physics

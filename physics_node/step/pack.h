@@ -1,6 +1,6 @@
 #pragma once
-// W numbers side by side, in the widest vectors that the including file is compiled for. Plain IEEE operations only,
-// so that every width gives the same bits.
+// W numbers side by side, in the widest vectors that the including file is compiled for. Only operations that IEEE 754
+// rounds in one way, so that every width gives the same bits.
 
 #include <immintrin.h>
 
@@ -35,6 +35,45 @@ struct Pack {
   static void store(Real* p, V v) { std::memcpy(p, &v, sizeof(v)); }
   static V all(Real value) { return V{} + value; }
   static V larger(V a, V b) { return a > b ? a : b; }
+  static bool any(I lanes) {
+    Integer bits = 0;
+    for (int n = 0; n < width; ++n) bits |= lanes[n];
+    return bits != 0;
+  }
+  static Real sum(V v) {
+    Real total = 0;
+    for (int n = 0; n < width; ++n) total += v[n];
+    return total;
+  }
+  static Real largest(V v) {
+    Real most = v[0];
+    for (int n = 1; n < width; ++n) most = v[n] > most ? v[n] : most;
+    return most;
+  }
+
+  /// a b + c, rounded once. Without the instruction: twice.
+  static V fma(V a, V b, V c) {
+#if defined(__AVX512F__)
+    if constexpr (sizeof(Real) == 4)
+      return reinterpret_cast<V>(_mm512_fmadd_ps(reinterpret_cast<__m512>(a), reinterpret_cast<__m512>(b),
+                                                 reinterpret_cast<__m512>(c)));
+    else
+      return reinterpret_cast<V>(_mm512_fmadd_pd(reinterpret_cast<__m512d>(a), reinterpret_cast<__m512d>(b),
+                                                 reinterpret_cast<__m512d>(c)));
+#elif defined(__FMA__)
+    if constexpr (sizeof(Real) == 4)
+      return reinterpret_cast<V>(_mm256_fmadd_ps(reinterpret_cast<__m256>(a), reinterpret_cast<__m256>(b),
+                                                 reinterpret_cast<__m256>(c)));
+    else
+      return reinterpret_cast<V>(_mm256_fmadd_pd(reinterpret_cast<__m256d>(a), reinterpret_cast<__m256d>(b),
+                                                 reinterpret_cast<__m256d>(c)));
+#else
+    return a * b + c;
+#endif
+  }
+  static V fma_all(V a, Real b, V c) { return fma(a, all(b), c); }
+  /// c - a b, rounded once.
+  static V fnma(V a, V b, V c) { return fma(-a, b, c); }
 
   /// The masks of `width` cells, one per lane.
   static I load_masks(const std::uint32_t* p) {
@@ -42,8 +81,10 @@ struct Pack {
     std::memcpy(&m, p, sizeof(m));
     return __builtin_convertvector(m, I);
   }
-  /// v in the lanes whose mask has the bit, zero elsewhere.
-  static V where_bit(I masks, int bit, V v) { return (masks & (Integer{1} << bit)) != 0 ? v : V{}; }
+  /// All ones in the lanes whose mask has the bit, zero elsewhere.
+  static I lanes_with(I masks, std::uint32_t bit) { return (masks & static_cast<Integer>(bit)) != 0; }
+  /// v in the chosen lanes, zero elsewhere.
+  static V where(I lanes, V v) { return lanes != 0 ? v : V{}; }
 
   static V square_root(V v) {
 #if defined(__AVX512F__)

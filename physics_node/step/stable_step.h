@@ -1,17 +1,31 @@
 #pragma once
 // How large an explicit step may be.
 
+#include "common/scene/scene.h"
 #include "physics_node/body/body.h"
 
 namespace palpate::physics {
 
-/// Bound of the stable step of symplectic Euler, from the stiffness and mass actually present [s].
-///
-///   Every row of the dynamical matrix is at most  omega^2 = 2 sum k / m  and  gamma = 2 sum c / m  (Gershgorin, sums
-///   over the elements of a mass). One oscillator v := v - dt (omega^2 x + gamma v), x := x + dt v  is stable for
-///   dt < (sqrt(gamma^2 + 4 omega^2) - gamma) / omega^2.
-///
-/// Infinite where nothing can move.
-double stable_step(const Body& body);
+/// Largest squared frequency and damping rate of a body that only axial forces act in [1/s^2, 1/s].
+struct StiffestMode {
+  double omega2 = 0;
+  double gamma = 0;
+};
+
+/// At rest: the smaller of two upper bounds,
+///   Bloch       largest_eigenvalue of the lattice with the stiffest constants present, over the lightest mass;
+///   Gershgorin  2 sum k / m, 2 sum c / m over the live elements of a mass (EQUATIONS C-32).
+/// The first is sharp for one material, the second does without the lattice's order where many meet.
+StiffestMode stiffest_mode(const Body& body);
+
+/// However the body is stretched, compressed or folded: Gershgorin's bound alone, since no element is stiffer than k1 in
+/// any direction unless it is stretched to more than its length without bound.
+StiffestMode stiffest_mode_anyhow(const Body& body);
+
+/// Bound of the stable step [s]; infinite where nothing can move.
+///   symplectic_euler  dt < (sqrt(gamma^2 + 4 omega^2) - gamma) / omega^2
+///   velocity_verlet   the same with 2 gamma, since its dampers see a predicted velocity
+///   backward_euler    none: infinite
+double stable_step(const StiffestMode& mode, Integrator integrator);
 
 }  // namespace palpate::physics

@@ -2,50 +2,74 @@
 
 #include <algorithm>
 
+#include "physics_node/step/element_slots.h"
+
 namespace palpate::physics {
 
 template <class Real>
 LatticeState<Real>::LatticeState(const Body& body) {
   const auto n = static_cast<std::size_t>(body.lattice.n_cells());
-  for (auto* three : {&u, &v, &next_u, &next_v})
-    for (auto& array : *three) array = ZeroedArray<Real>(n);
-  mask = ZeroedArray<Mask>(n);
-  flags = ZeroedArray<std::uint8_t>(n);
-  inverse_mass = ZeroedArray<Real>(n);
-  if (body.law.yields) {
-    for (std::size_t d = 0; d < static_cast<std::size_t>(body.lattice.n_half); ++d) {
-      l_c[d] = ZeroedArray<Real>(n);
-      y_p[d] = ZeroedArray<Real>(n);
+  const auto n_half = static_cast<std::size_t>(body.lattice.n_half);
+  std::size_t colour = 0;
+  for (auto* three : {&u, &v, &f})
+    for (auto& array : *three) array = ZeroedArray<Real>(n, colour++);
+  mask = ZeroedArray<Mask>(n, colour++);
+  inverse_mass = ZeroedArray<Real>(n, colour++);
+  if (any_yields(body)) {
+    for (std::size_t h = 0; h < n_half; ++h) {
+      l_c[h] = ZeroedArray<Real>(n, colour++);
+      hardening[h] = ZeroedArray<Real>(n, colour++);
     }
   }
   for (const Index cell : body.lattice.masses) {
     const auto c = static_cast<std::size_t>(cell);
     inverse_mass[c] = static_cast<Real>(body.inverse_mass[c]);
   }
+  make_slots(body, all, level, up);
+  if (!body.law_of.empty()) varied = make_varied_constants<Real>(body, colour);
+  row_state.resize(body.lattice.rows.size());
+  ledger.resize(body.lattice.rows.size());
   reset(body);
 }
 
 template <class Real>
 void LatticeState<Real>::reset(const Body& body) {
+  const bool yields = any_yields(body);
   for (const Index cell : body.lattice.masses) {
     const auto c = static_cast<std::size_t>(cell);
     const bool held = body.inverse_mass[c] == 0;
     for (std::size_t a = 0; a < 3; ++a) {
-      u[a][c] = next_u[a][c] = 0;
-      v[a][c] = next_v[a][c] =
-          held ? Real(0) : static_cast<Real>(body.velocity[static_cast<Eigen::Index>(a)]);
+      const auto start = static_cast<Real>(body.velocity[static_cast<Eigen::Index>(a)]);
+      u[a][c] = f[a][c] = 0;
+      v[a][c] = held ? Real(0) : start;
     }
     mask[c] = body.lattice.mask[c];
-    flags[c] = 0;
-    if (!body.law.yields) continue;
-    for (std::size_t d = 0; d < static_cast<std::size_t>(body.lattice.n_half); ++d) {
-      l_c[d][c] = 0;
-      y_p[d][c] = static_cast<Real>(body.law.y_p);
+    for (std::size_t h = 0; yields && h < static_cast<std::size_t>(body.lattice.n_half); ++h) {
+      if (l_c[h][c] != 0) l_c[h][c] = 0;  // only what was written: untouched pages stay free
+      if (hardening[h][c] != 0) hardening[h][c] = 0;
     }
   }
+  v_half_known = false;
+  breaks = 0;
+  std::fill(row_state.begin(), row_state.end(), RowState::awake);
+  std::fill(ledger.begin(), ledger.end(), RowLedger{});
+}
+
+template <class Real>
+bool has_yielded(const Body& body, const LatticeState<Real>& state, Index cell) noexcept {
+  const auto n_half = static_cast<std::size_t>(body.lattice.n_half);
+  const auto& offset = body.lattice.offset[static_cast<std::size_t>(body.lattice.row_kind(cell))];
+  for (std::size_t d = 0; d < 2 * n_half; ++d) {
+    if ((body.lattice.mask[static_cast<std::size_t>(cell)] >> d & 1) == 0) continue;
+    const Index owner = d < n_half ? cell : cell + offset[d];
+    if (state.hardening[d % n_half][static_cast<std::size_t>(owner)] > 0) return true;
+  }
+  return false;
 }
 
 template struct LatticeState<float>;
 template struct LatticeState<double>;
+template bool has_yielded(const Body&, const LatticeState<float>&, Index) noexcept;
+template bool has_yielded(const Body&, const LatticeState<double>&, Index) noexcept;
 
 }  // namespace palpate::physics

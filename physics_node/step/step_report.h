@@ -11,10 +11,10 @@ namespace palpate::physics {
 enum class Stage : std::size_t {
   take_tools,
   find_contacts,
-  element_forces,  // gathers the forces of all elements and integrates in the same pass
+  element_forces,  // forces of all elements, yield, break and motion, in the same pass
   contact_forces,
-  integrate,  // what is left to integrate after the pass: nothing with symplectic Euler
-  yield_and_break,
+  integrate,        // what is left to integrate after the pass: nothing but with backward_euler
+  yield_and_break,  // what is left of it after the pass: nothing
   guard_finite,
   publish,
 };
@@ -34,10 +34,13 @@ struct StepReport {
   std::int64_t frames = 0;
   std::int64_t steps = 0;
   std::int64_t nonfinite = 0;  // frames in which a number was not finite
+  std::int64_t grown = 0;      // frames in which energy had grown beyond what was put in
   std::int64_t restored = 0;   // times the last good state was brought back
+  std::int64_t halved = 0;     // times the step was halved
   std::int64_t warnings = 0;
   std::int64_t broken = 0;  // elements
-  double tool_work = 0;     // done by tools on tissue [J]
+  double tool_work = 0;      // done by tools on tissue [J]
+  double tool_exchange = 0;  // sum of its magnitude over all steps [J]
 
   StageTime& operator[](Stage stage) { return stages[static_cast<std::size_t>(stage)]; }
 };

@@ -1,0 +1,158 @@
+// The force of one kind of element on a pack of masses. Part of element_kernel.inl.
+//
+// Per element from mass i to mass j, with D the rest vector, L its length, d = u_j - u_i, x = D + d:
+//
+//   q   = d . (2 D + d)                   = l^2 - L^2, without the cancellation of l - L
+//   l   = sqrt(L^2 + q),   l - L = q / (l + L)
+//   elastic:  f_s / l = k1 (l - L) / l    = k1 q / (l^2 + L l)
+//   damper:   c l' / l = c (dv . x) / l^2
+//
+// so a stretch of one part in a million is as exact in single precision as the displacements are.
+
+namespace palpate::physics::PALPATE_KERNEL {
+namespace {
+
+/// A pack of masses at the first end of their elements.
+template <class Real>
+struct Masses {
+  using V = typename Pack<Real>::V;
+  Index i;                     // first cell
+  typename Pack<Real>::I mask;
+  V u[3], v[3], f[3];
+  V viscous{};                 // power lost in dampers so far [W]
+};
+
+/// The pack's elements in one direction, at their present length.
+template <class Real>
+struct Elements {
+  using V = typename Pack<Real>::V;
+  V x[3];  // vector to the other ends [m]
+  V q, l2, l;
+};
+
+/// The constants of the elements: the body's, or their own where several materials meet.
+template <class Real, bool varied>
+typename Pack<Real>::V constant(const Real* of_each, Real of_all, Index owner) {
+  if constexpr (varied) return Pack<Real>::load(of_each + owner);
+  return Pack<Real>::all(of_all);
+}
+
+/// Stage 2 and 3 of the law, lane by lane, for the few elements that are there: commits l_c and the yield stretch from the
+/// static force, books what is lost, and takes broken elements out of the mask. (EQUATIONS C-2 to C-6)
+///
+///   stretch s = l - L,  s_y = yield + hardening,  f_s = k1 (s_y - l_c) + k2 (s - s_y)
+///   lost in yielding: (f_y + f_s) / 2 (1 - k2 / k1) (s - s_y);   then  s_y := s,  l_c := s - f_s / k1
+///   s > snap: gone, with its elastic energy f_s^2 / (2 k1)
+template <class Real, bool varied>
+__attribute__((noinline)) void commit_yield(const ElementContext<Real>& m, const ElementSlot<Real>& e, Index i,
+                                            typename Pack<Real>::I beyond, typename Pack<Real>::V stretch,
+                                            RowLedger& ledger) {
+  const auto pick = [&](const Real* of_each, Real of_all, Index owner) { return varied ? of_each[owner] : of_all; };
+  for (int lane = 0; lane < Pack<Real>::width; ++lane) {
+    if (beyond[lane] == 0) continue;
+    const Index owner = i + e.memory + lane;
+    const Real k1 = pick(m.k1[e.half], e.k1, owner);
+    const Real k2 = pick(m.k2[e.half], e.k2, owner);
+    const Real s_y = pick(m.yield[e.half], e.yield, owner) + m.hardening[e.half][owner];
+    const Real f_y = k1 * (s_y - m.l_c[e.half][owner]);
+    const Real f_s = f_y + k2 * (stretch[lane] - s_y);
+    ledger.plastic += 0.5 * static_cast<double>(f_y + f_s) * (1 - static_cast<double>(k2 / k1)) *
+                      static_cast<double>(stretch[lane] - s_y);
+    m.hardening[e.half][owner] += stretch[lane] - s_y;
+    m.l_c[e.half][owner] = stretch[lane] - f_s / k1;
+    if (!(stretch[lane] > pick(m.snap[e.half], e.snap, owner))) continue;
+    ledger.broken += static_cast<double>(f_s) * static_cast<double>(f_s) / (2 * static_cast<double>(k1));
+    ++ledger.breaks;
+    m.mask[i + lane] &= ~e.bit;
+  }
+}
+
+/// Static force over length, f_s / l, of elements that may yield; commits what yields. `live` loses what breaks.
+template <class Real, bool varied>
+inline __attribute__((always_inline)) typename Pack<Real>::V yielding_force(
+    const ElementContext<Real>& m, const ElementSlot<Real>& e, Masses<Real>& p, const Elements<Real>& at,
+    typename Pack<Real>::I& live, RowLedger& ledger) {
+  using P = Pack<Real>;
+  using V = typename P::V;
+  const Index owner = p.i + e.memory;
+  const V k1 = constant<Real, varied>(m.k1[e.half], e.k1, owner);
+  const V l_c = P::load(m.l_c[e.half] + owner);
+  const V s_y = constant<Real, varied>(m.yield[e.half], e.yield, owner) + P::load(m.hardening[e.half] + owner);
+  const V stretch = at.q / (at.l + e.L);
+  const typename P::I beyond = (stretch > s_y) & live;
+  V force = k1 * (stretch - l_c);
+  if (__builtin_expect(P::any(beyond), 0)) {
+    const V k2 = constant<Real, varied>(m.k2[e.half], e.k2, owner);
+    const V plastic = P::fma(k2, stretch - s_y, k1 * (s_y - l_c));
+    force = beyond != 0 ? plastic : force;
+    commit_yield<Real, varied>(m, e, p.i, beyond, stretch, ledger);
+    p.mask = P::load_masks(m.mask + p.i);
+    live = P::lanes_with(p.mask, e.bit);
+  }
+  return force / at.l;
+}
+
+/// Adds the forces of one kind of element at both of its ends.
+template <class Real, DamperKind damper, bool yields, bool varied>
+inline __attribute__((always_inline)) void add_elements(const ElementContext<Real>& m,
+                                                        const ElementSlot<Real>& e, Masses<Real>& p,
+                                                        RowLedger& ledger) {
+  using P = Pack<Real>;
+  using V = typename P::V;
+  const Index j = p.i + e.offset;
+  const Index owner = p.i + e.memory;
+  typename P::I live = P::lanes_with(p.mask, e.bit);
+  Elements<Real> at;
+  const V d[3] = {P::load(m.u[0] + j) - p.u[0], P::load(m.u[1] + j) - p.u[1], P::load(m.u[2] + j) - p.u[2]};
+  for (int a = 0; a < 3; ++a) at.x[a] = d[a] + e.D[a];
+  at.q = P::fma(d[2], at.x[2] + e.D[2], P::fma(d[1], at.x[1] + e.D[1], d[0] * (at.x[0] + e.D[0])));
+  // A collapsed element has no direction: l is never taken below L / 1000.
+  at.q = P::larger(at.q, P::all(e.least_q));
+  at.l2 = at.q + e.L2;
+  at.l = P::square_root(at.l2);
+
+  V s;  // force over length
+  V w[3] = {};  // velocity of the far end, relative
+  if constexpr (damper != DamperKind::none)
+    for (int a = 0; a < 3; ++a) w[a] = P::load(m.v[a] + j) - p.v[a];
+  const V c = constant<Real, varied>(m.c[e.half], e.c, owner);
+  if constexpr (damper == DamperKind::axial) {
+    const V rate = P::fma(w[2], at.x[2], P::fma(w[1], at.x[1], w[0] * at.x[0]));  // l l'
+    if constexpr (yields) {
+      s = yielding_force<Real, varied>(m, e, p, at, live, ledger);
+      const V viscous = c * rate / at.l2;
+      s += viscous;
+      p.viscous += P::where(live, viscous * rate);
+    } else {
+      const V k1 = constant<Real, varied>(m.k1[e.half], e.k1, owner);
+      const V h = P::fma_all(at.l, e.L, at.l2);
+      const V over = P::all(Real(1)) / (h * at.l2);
+      const V viscous = c * rate * h;
+      s = P::fma(k1 * at.q, at.l2, viscous) * over;
+      p.viscous = P::fma(P::where(live, viscous * over), rate, p.viscous);
+    }
+  } else if constexpr (yields) {
+    s = yielding_force<Real, varied>(m, e, p, at, live, ledger);
+  } else {
+    s = constant<Real, varied>(m.k1[e.half], e.k1, owner) * at.q / P::fma_all(at.l, e.L, at.l2);
+  }
+  s = P::where(live, s);
+  for (int a = 0; a < 3; ++a) {
+    V mine = s * at.x[a];
+    V theirs = -mine;
+    if constexpr (damper == DamperKind::other) {
+      // Deviation of the papers, offered as printed: the second is drag (EQUATIONS C-31).
+      const V c_live = P::where(live, c);
+      const V far = m.relative ? -(c_live * w[a]) : -(c_live * P::load(m.v[a] + j));
+      const V near = m.relative ? c_live * w[a] : -(c_live * p.v[a]);
+      mine += near;
+      theirs += far;
+      p.viscous += -(near * p.v[a]) - far * P::load(m.v[a] + j);
+    }
+    p.f[a] += mine;
+    P::store(m.f[a] + j, P::load(m.f[a] + j) + theirs);
+  }
+}
+
+}  // namespace
+}  // namespace palpate::physics::PALPATE_KERNEL
