@@ -17,7 +17,8 @@ const std::vector<std::string> keys_of_shapes = {
     "radius_mm", "size_mm",    "outer_radius_mm", "inner_radius_mm", "length_mm",         "axis",
     "file",      "keep",       "partition",       "deformable",      "largest_component", "height_mm",
     "theta_deg", "diameter_mm"};
-constexpr int most_cells = 4096;  // along an axis
+constexpr int most_cells = 4096;         // along an axis
+constexpr int most_nearest = 1'000'000;  // cells
 
 SphereShape read_sphere(TableReader& body) {
   SphereShape sphere;
@@ -51,32 +52,54 @@ TubeShape read_tube(TableReader& body) {
   return tube;
 }
 
+/// center_voxel = [i, j, k] or center = "gravity".
+void read_center(TableReader& reader, DeformableRegion& region) {
+  if (const auto center = reader.read_integers("center_voxel", 3, "[i, j, k]", 0, most_cells - 1))
+    std::copy(center->begin(), center->end(), region.center_voxel.begin());
+  region.gravity_center = reader.read_word("center", {"gravity"}).has_value();
+  if (reader.has("center") && reader.has("center_voxel"))
+    reader.complain("center", "both \"center\" and \"center_voxel\" are given; keep one of them");
+  else if (!reader.has("center") && !reader.has("center_voxel"))
+    reader.complain_lack("\"center_voxel\" or \"center\"",
+                         "give the middle of the region as [i, j, k], or center = \"gravity\"");
+}
+
+/// radius_voxels = n or nearest = n.
+void read_extent(TableReader& reader, DeformableRegion& region) {
+  if (const auto radius = reader.read_integer("radius_voxels", 1, most_cells))
+    region.radius_voxels = static_cast<int>(*radius);
+  if (const auto nearest = reader.read_integer("nearest", 1, most_nearest))
+    region.nearest = static_cast<int>(*nearest);
+  if (reader.has("nearest") && reader.has("radius_voxels"))
+    reader.complain("nearest", "both \"radius_voxels\" and \"nearest\" are given; keep one of them");
+}
+
 DeformableRegion read_deformable(TableReader& body, ReadContext& context) {
   DeformableRegion region;
   const auto* value = body.find("deformable");
   if (value == nullptr || value->value_or(std::string()) == "all") return region;
   if (!value->is_table()) {
-    body.complain_value("deformable", *value, "\"all\" or { center_voxel = [i, j, k], radius_voxels = n }");
+    body.complain_value("deformable", *value,
+                        "\"all\" or { center_voxel = [i, j, k] or center = \"gravity\", radius_voxels = n }");
     return region;
   }
   TableReader reader(*value->as_table(), fmt::format("deformable of {}", body.title()), context.complaints);
   region.all = false;
-  reader.require("center_voxel", "give the middle of the region as [i, j, k]");
-  if (const auto center = reader.read_integers("center_voxel", 3, "[i, j, k]", 0, most_cells - 1))
-    std::copy(center->begin(), center->end(), region.center_voxel.begin());
-  if (const auto radius = reader.read_integer("radius_voxels", 1, most_cells))
-    region.radius_voxels = static_cast<int>(*radius);
+  read_center(reader, region);
+  read_extent(reader, region);
   reader.refuse_left_over();
   return region;
 }
 
-/// The image file, found from the folder of the scene.
+/// The image file, found from the folder of the scene, or from here where it is given by --set.
 void read_volume_file(TableReader& body, const std::string& scene_path, VolumeShape& volume) {
   namespace fs = std::filesystem;
   body.require("file", "name a volume made by \"palpate import\"");
   const auto file = body.read_text("file");
   if (!file) return;
-  const auto resolved = (fs::path(scene_path).parent_path() / *file).lexically_normal();
+  const bool is_set = place_of(body.find("file")->source()).file.starts_with(setting_prefix);
+  const auto folder = is_set ? fs::path() : fs::path(scene_path).parent_path();
+  const auto resolved = (folder / *file).lexically_normal();
   volume.file = resolved.string();
   std::error_code error;
   if (!fs::is_regular_file(resolved, error))

@@ -65,9 +65,11 @@ struct SphereShape { double radius = 0; };
 struct BoxShape { Vec3 size = Vec3::Zero(); };
 struct TubeShape { double outer_radius = 0, inner_radius = 0, length = 0; int axis = 2; };
 struct DeformableRegion {
-  bool all = true;                    // or the cells within radius_voxels (Chebyshev) of center_voxel
+  bool all = true;                    // or the kept cells within radius_voxels (Chebyshev) of the centre
   std::array<int, 3> center_voxel{};  // in the partition used
   int radius_voxels = 10;
+  bool gravity_center = false;        // centre: of gravity of all kept cells, not center_voxel
+  std::optional<int> nearest{};       // instead of the radius: so many kept cells, the nearest to the centre
 };
 struct VolumeShape {
   std::string file;                               // found from the folder of the scene file

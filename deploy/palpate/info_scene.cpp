@@ -30,7 +30,9 @@ std::string body_text(const BodySpec& body) {
       fmt::format("body         {}: {}, {} lattice", body.name, std::visit(ShapeText{}, body.shape),
                   body.lattice == LatticeKind::fcc ? "fcc" : "voxel");
   if (body.spacing) text += fmt::format(" of {:.6g} mm", mm_from_m(*body.spacing));
-  return text + fmt::format(", material {}\n", body.material);
+  text += fmt::format(", material {}", body.material);
+  for (const auto& region : body.regions) text += fmt::format(", {} in a region", region.material);
+  return text + "\n";
 }
 
 std::string material_text(const MaterialSpec& material) {
@@ -39,6 +41,7 @@ std::string material_text(const MaterialSpec& material) {
   if (material.density) text += fmt::format(" {:.6g} kg/m^3,", *material.density);
   if (material.k1) text += fmt::format(" k1 {:.6g} N/m,", *material.k1);
   if (material.modulus) text += fmt::format(" modulus {:.6g} kPa,", *material.modulus * 1e-3);
+  if (material.lambda) text += fmt::format(" {:.6g} N per stretch,", *material.lambda);
   text += fmt::format(" k2/k1 {:.6g}", material.k2_ratio);
   if (material.yield_ratio) text += fmt::format(", yields at {:.6g}", *material.yield_ratio);
   if (material.break_ratio) text += fmt::format(", breaks at {:.6g}", *material.break_ratio);

@@ -8,6 +8,7 @@
 
 #include "common/error/error.h"
 #include "common/math/units.h"
+#include "physics_node/body/deformable.h"
 
 namespace palpate::physics {
 namespace {
@@ -47,19 +48,6 @@ Cells solid_cells(const BodySpec& body, const S& shape) {
       }
   cells.deformable = cells.filled;
   return cells;
-}
-
-void mark_deformable(Cells& cells, const DeformableRegion& region) {
-  cells.deformable = cells.filled;
-  if (region.all) return;
-  std::fill(cells.deformable.begin(), cells.deformable.end(), std::uint8_t{0});
-  const Vec3i centre(region.center_voxel[0], region.center_voxel[1], region.center_voxel[2]);
-  const Vec3i lo = (centre.array() - region.radius_voxels).max(0);
-  const Vec3i hi = (centre.array() + region.radius_voxels).min(cells.size.array() - 1);
-  for (int k = lo.z(); k <= hi.z(); ++k)
-    for (int j = lo.y(); j <= hi.y(); ++j)
-      for (int i = lo.x(); i <= hi.x(); ++i)
-        cells.deformable[cells.index(i, j, k)] = cells.filled[cells.index(i, j, k)];
 }
 
 void mirror_x(Cells& cells) {

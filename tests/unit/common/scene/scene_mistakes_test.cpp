@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(Volumes, SceneMistakes, testing::ValuesIn(std::vector<M
     {"keep = [-200, 3071]", "keep = [3071, -200]", "30:8", "runs from 3071 down to -200; write [lowest, highest]"},
     {"keep = [-200, 3071]\n", "", "26:1", "lacks \"keep\""},
     {"[120, 120, 70]", "[120, 120, 0]", "31:24", "is 0; write a whole number from 1 to 4096"},
-    {"{ center_voxel = [60, 20, 35], radius_voxels = 12 }", "\"some\"", "32:14", "write \"all\" or { center_voxel"},
+    {"{ center_voxel = [60, 20, 35], radius_voxels = 12 }", "\"some\"", "32:14", "write \"all\" or { center_voxel = [i, j, k] or center"},
     {"radius_voxels = 12", "radius_voxel = 12", "32:45", "unknown key \"radius_voxel\" in deformable of [[body]] \"head\""},
     {"keep = [", "spacing_mm = 1\nkeep = [", "30:14", "a volume brings its own spacing"},
     {"keep = [", "lattice = \"fcc\"\nkeep = [", "30:11", "write \"voxel\""},

@@ -172,5 +172,48 @@ TEST(Record, KeepsTheEnergyUnlessAListLeavesItOut) {
   EXPECT_FALSE(record.forces);
 }
 
+std::string image_with(const std::string& deformable) { return image + "; deformable = " + deformable; }
+
+TEST(Deformable, MayBeCentredOnGravityAndCountNearestCells) {
+  const auto region_of = [](const std::string& deformable) {
+    return std::get<VolumeShape>(parsed(scene_with("", image_with(deformable))).bodies.at(0).shape)
+        .deformable;
+  };
+  const auto round = region_of("{ center = \"gravity\", radius_voxels = 4 }");
+  EXPECT_FALSE(round.all);
+  EXPECT_TRUE(round.gravity_center);
+  EXPECT_EQ(round.radius_voxels, 4);
+  EXPECT_FALSE(round.nearest);
+  const auto ten = region_of("{ center_voxel = [1, 2, 3], nearest = 10 }");
+  EXPECT_FALSE(ten.gravity_center);
+  EXPECT_THAT(ten.center_voxel, ElementsAre(1, 2, 3));
+  EXPECT_THAT(ten.nearest, Optional(10));
+}
+
+TEST(Deformable, SaysWhatIsWrong) {
+  const auto complaint = [](const std::string& deformable) {
+    return one_complaint(scene_with("", image_with(deformable)));
+  };
+  EXPECT_THAT(
+      complaint("{ radius_voxels = 4 }"),
+      HasSubstr("lacks \"center_voxel\" or \"center\"; give the middle of the region as [i, j, k], or"));
+  EXPECT_THAT(complaint("{ center = \"middle\" }"), HasSubstr("is \"middle\"; write \"gravity\""));
+  EXPECT_THAT(complaint("{ center = \"gravity\", center_voxel = [1, 2, 3] }"), HasSubstr("keep one of them"));
+  EXPECT_THAT(complaint("{ center = \"gravity\", radius_voxels = 4, nearest = 10 }"),
+              HasSubstr("keep one of them"));
+  EXPECT_THAT(complaint("{ center = \"gravity\", nearest = 0 }"),
+              HasSubstr("is 0; write a whole number from 1 to"));
+}
+
+TEST(VolumeFile, GivenOnTheCommandLineIsFoundFromThere) {
+  // The scene looks beside itself; a person who types --set looks from where he stands.
+  const auto text = scene_with("", image);
+  const auto here = test::scene_folder() + "/scan.h5";
+  const auto scene = parsed(text, {"body.b.file=" + here});
+  EXPECT_EQ(std::get<VolumeShape>(scene.bodies.at(0).shape).file, here);
+  EXPECT_THAT(one_complaint(text, {"body.b.file=scan.h5"}),
+              HasSubstr("there is no file scan.h5; make it with \"palpate import"));
+}
+
 }  // namespace
 }  // namespace palpate
