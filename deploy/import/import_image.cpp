@@ -12,6 +12,7 @@
 #include "deploy/import/meta_header.h"
 #include "deploy/import/nifti_header.h"
 #include "deploy/import/nrrd_header.h"
+#include "deploy/import/phantom.h"
 #include "deploy/import/read_dicom.h"
 #include "deploy/import/read_inv3.h"
 
@@ -73,9 +74,18 @@ std::vector<TransferPoint> transfer_of(const std::string& name, const std::vecto
   return name == "grey" ? grey_transfer(a, b) : default_transfer(a, b);
 }
 
+Volume import_phantom(const ImportOptions& options) {
+  const auto size = options.raw.size.value_or(
+      std::array<std::int64_t, 3>{phantom_size[0], phantom_size[1], phantom_size[2]});
+  Volume volume = aneurysm_phantom(check_size("--size", size));
+  if (!options.transfer.empty()) volume.transfer = transfer_of(options.transfer, volume.intensity);
+  return options.partition ? resample(volume, *options.partition) : volume;
+}
+
 }  // namespace
 
 Volume import_image(const ImportOptions& options) {
+  if (options.phantom) return import_phantom(options);
   std::vector<std::string> files;
   Volume volume = read_any(options, files);
   check_intensity(options.input, volume.intensity);

@@ -12,7 +12,8 @@ namespace palpate {
 
 struct ImportOptions {
   std::string input;                            // file, or folder of a DICOM series
-  RawOptions raw;                               // for .raw and .inr only
+  bool phantom = false;                         // no image: the made aneurysm
+  RawOptions raw;                               // for .raw and .inr only; of a phantom the size alone
   std::optional<std::array<int, 3>> partition;  // cells along x, y, z; absent: as in the image
   std::string transfer;                         // "ct", "grey"; empty: by the range of the image
 };

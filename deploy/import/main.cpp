@@ -29,21 +29,31 @@ Command parse(CLI::App& app, int argc, char** argv) {
   std::vector<std::int64_t> size;
   std::vector<double> spacing_mm;
   std::vector<int> partition;
-  std::string type;
+  std::string type, phantom;
   std::uint64_t header = 0;
-  app.add_option("image", command.options.input,
-                 ".inv3, .nii[.gz], .nrrd, .mha, .raw, .inr, or a DICOM file or folder")
-      ->required();
+  auto* image = app.add_option("image", command.options.input,
+                               ".inv3, .nii[.gz], .nrrd, .mha, .raw, .inr, or a DICOM file or folder");
+  auto* phantom_option =
+      app.add_option("--phantom", phantom, "instead of an image: a made angiogram (size 336,336,140)")
+          ->check(CLI::IsMember({"aneurysm"}))
+          ->excludes(image);
   app.add_option("--out", command.out, "the volume to write")->required();
-  app.add_option("--size", size, "raw: cells nx,ny,nz")->delimiter(',')->expected(3);
-  app.add_option("--spacing-mm", spacing_mm, "raw: spacing x,y,z")->delimiter(',')->expected(3);
+  app.add_option("--size", size, "raw, phantom: cells nx,ny,nz")->delimiter(',')->expected(3);
+  app.add_option("--spacing-mm", spacing_mm, "raw: spacing x,y,z")
+      ->delimiter(',')
+      ->expected(3)
+      ->excludes(phantom_option);
   app.add_option("--type", type, "raw: kind of number")
-      ->check(CLI::IsMember({"int16", "uint8", "uint16", "float32"}));
-  auto* header_option = app.add_option("--header", header, "raw: bytes to skip");
+      ->check(CLI::IsMember({"int16", "uint8", "uint16", "float32"}))
+      ->excludes(phantom_option);
+  auto* header_option = app.add_option("--header", header, "raw: bytes to skip")->excludes(phantom_option);
   app.add_option("--partition", partition, "resample to nx,ny,nz cells")->delimiter(',')->expected(3);
   app.add_option("--transfer", command.options.transfer, "colours")->check(CLI::IsMember({"ct", "grey"}));
   app.add_flag("--quiet", command.quiet, "say nothing when all is well");
   app.parse(argc, argv);
+  if (image->empty() && phantom.empty()) throw CLI::RequiredError("image, or --phantom aneurysm");
+  command.options.phantom = !phantom.empty();
+  if (command.options.phantom) command.options.input = "phantom " + phantom;
   if (!size.empty()) command.options.raw.size = {size[0], size[1], size[2]};
   if (!spacing_mm.empty()) command.options.raw.spacing = Eigen::Vector3d(spacing_mm.data()) * m_from_mm(1);
   if (!type.empty()) command.options.raw.type = voxel_type_named(type);
@@ -54,7 +64,7 @@ Command parse(CLI::App& app, int argc, char** argv) {
 
 void check_output(const Command& command) {
   std::error_code ignored;
-  if (std::filesystem::equivalent(command.options.input, command.out, ignored))
+  if (!command.options.phantom && std::filesystem::equivalent(command.options.input, command.out, ignored))
     throw InputError(command.out + ": is the image itself; name another file to write");
   check_can_write(command.out);
 }
