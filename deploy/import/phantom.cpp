@@ -30,7 +30,7 @@ struct Disc {
 
 /// Parent vessel, t from -1 to 1: in at the left, under the sac, out at the right; turned by half about z it is itself.
 Disc parent(double t) {
-  return {{84 * t, 11 * std::sin(2.2 * std::numbers::pi * t) * std::abs(t), -6.6 - 17 * t * t},
+  return {{84 * t, 11 * std::sin(2.2 * std::numbers::pi * t) * std::abs(t), -6.6 - 7 * t * t},
           2.1 - 0.5 * std::abs(t)};
 }
 
@@ -38,8 +38,8 @@ Disc parent(double t) {
 Disc branch(double t, int side) {
   const double s = side;
   return {{s * (6.5 + 34 * t), s * (-2.0 - 30 * t + 9 * std::sin(1.5 * std::numbers::pi * t)),
-           -7 + 40 * t * (1.2 - 0.2 * t)},
-          1.5 - 0.5 * t};
+           -7 + 44 * t * (1.2 - 0.2 * t)},
+          1.7 - 0.5 * t};
 }
 
 class Walls {

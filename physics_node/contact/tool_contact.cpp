@@ -13,7 +13,7 @@ namespace {
 constexpr double search_margin = 0.010;  // [m] beyond the tip: what a hand at 0.2 m/s covers in 50 ms
 constexpr double search_period = 0.020;  // [s] after which tissue may have come near by itself
 constexpr double facing_limit = -0.2;    // cosine below which a facet belongs to the other side
-constexpr std::size_t room = 4096;       // facets kept at the most
+constexpr std::size_t room = 16384;      // facets kept at the most, the nearest
 
 /// One entry per mass, in storage order.
 void merge_equal_masses(std::vector<MassShare>& shares) noexcept {
@@ -39,7 +39,7 @@ ToolContact::ToolContact(const ContactSurface& surface, const MovingBody& moving
   const double coarse = lattice.kind == LatticeKind::fcc ? lattice.rest_length[0] : lattice.step.maxCoeff();
   radius_ = std::max(2 * radius, 2 * coarse);
   reach_ = radius_ + search_margin;
-  near_.reserve(room);
+  near_.reserve(8 * room);
   facets_.reserve(room);
   shares_.reserve(4 * room);
 }
@@ -49,7 +49,7 @@ void ToolContact::look(const Vec3& p, double t) noexcept {
   if (moved || t - searched_when_ >= search_period || t < searched_when_) {
     near_.clear();
     surface_.facets_near(p, reach_ + search_margin, moving_, near_);
-    if (near_.size() > room) near_.resize(room);
+    keep_nearest(p);
     searched_at_ = p;
     searched_when_ = t;
   }
@@ -60,6 +60,20 @@ void ToolContact::look(const Vec3& p, double t) noexcept {
     const double size = area.norm();
     if (size > 0) facets_.push_back({id, centroid, surface_.rest_centroid(id), area / size, size});
   }
+}
+
+void ToolContact::keep_nearest(const Vec3& p) noexcept {
+  if (near_.size() <= room) return;
+  const auto distance = [&](std::uint32_t id) {
+    return (surface_.centroid_and_area(id, moving_).centroid - p).squaredNorm();
+  };
+  std::nth_element(near_.begin(), near_.begin() + static_cast<std::ptrdiff_t>(room), near_.end(),
+                   [&](std::uint32_t a, std::uint32_t b) {
+                     const double da = distance(a);
+                     const double db = distance(b);
+                     return da != db ? da < db : a < b;
+                   });
+  near_.resize(room);
 }
 
 const ToolContact::Facet* ToolContact::nearest(const Vec3& p) const noexcept {

@@ -62,7 +62,7 @@ class ToolContact {
     Vec3 centroid, rest, normal;
     double area;
   };
-  void refresh(const Vec3& p) noexcept;
+  void keep_nearest(const Vec3& p) noexcept;
   double weight(const Facet& facet, const Vec3& q, const Vec3& facing) const noexcept;
   LocalPlane plane_at(const Vec3& q, const Vec3& facing) const noexcept;
   const Facet* nearest(const Vec3& p) const noexcept;

@@ -34,7 +34,7 @@ TEST(AneurysmPhantom, DeformsFiveThousandVoxelsRoundItsCentreOfGravity) {
   const Eigen::Vector3d from_sac =
       cells.spacing.cwiseProduct((centre - Eigen::Vector3i(168, 168, 70)).cast<double>());
   EXPECT_LT(from_sac.norm(), 2e-3);
-  physics::DeformableRegion region{false, {}, 10};
+  DeformableRegion region{false, {}, 10};
   region.gravity_center = true;
   mark_deformable(cells, region);
   EXPECT_GE(cells.n_deformable(), 5000u);

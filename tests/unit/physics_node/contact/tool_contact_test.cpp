@@ -49,6 +49,19 @@ TEST(ToolContact, SeesAFlatFaceAsItsPlane) {
   }
 }
 
+TEST(ToolContact, KeepsTheNearestOfManyFacets) {
+  Recipe recipe = slab();  // one layer of fine cells: more facets round the tip than are kept, its own face the last
+  recipe.shape = Recipe::box(40, 40, 0.25);
+  recipe.spacing_mm = 0.25;
+  Touch touch(recipe);
+  const Vec3 p(0.0013, -0.0021, 0.0002);
+  touch.contact.look(p, 0);
+  const LocalPlane plane = touch.contact.plane_under(p);
+  ASSERT_TRUE(plane.found);
+  EXPECT_NEAR(plane.point.z(), 0.000125, 1e-9);
+  EXPECT_LT(touch.contact.nearest_distance(p), 0.0003);
+}
+
 TEST(ToolContact, SharesAForceAmongMovingMassesWithoutLoss) {
   Touch touch(slab());
   const Vec3 p(0.0013, -0.0021, 0.0101);
