@@ -35,7 +35,7 @@ TEST(FccLattice, JoinsInnerMassesToTwelveEquallyFarNeighbours) {
     ++inner;
     ASSERT_EQ(neighbours(lattice, cell), 12);
     for (std::size_t d = 0; d < 12; ++d) {
-      const Index other = cell + lattice.offset[static_cast<std::size_t>(lattice.row_parity(cell))][d];
+      const Index other = cell + lattice.offset[static_cast<std::size_t>(lattice.row_kind(cell))][d];
       const Vec3 to = lattice.rest_position(other) - lattice.rest_position(cell);
       ASSERT_NEAR(to.norm(), 0.010, 1e-12);
       ASSERT_LT((to - lattice.rest_vector[d]).norm(), 1e-12);
@@ -89,9 +89,9 @@ TEST_P(AnyLattice, HasOppositeDirectionsAtOppositeOffsets) {
   for (const Vec3i& at : {Vec3i(2, 2, 2), Vec3i(3, 2, 3), Vec3i(2, 3, 3), Vec3i(3, 3, 2)}) {
     const Index cell = lattice.cell_of(at);
     for (std::size_t d = 0; d < 2 * n_half; ++d) {
-      const Index other = cell + lattice.offset[static_cast<std::size_t>(lattice.row_parity(cell))][d];
+      const Index other = cell + lattice.offset[static_cast<std::size_t>(lattice.row_kind(cell))][d];
       const std::size_t back = (d + n_half) % (2 * n_half);
-      EXPECT_EQ(other + lattice.offset[static_cast<std::size_t>(lattice.row_parity(other))][back], cell);
+      EXPECT_EQ(other + lattice.offset[static_cast<std::size_t>(lattice.row_kind(other))][back], cell);
       EXPECT_EQ(lattice.rest_vector[d], Vec3(-lattice.rest_vector[back]));
     }
   }
