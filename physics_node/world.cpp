@@ -43,6 +43,7 @@ Losses sum_losses(const std::vector<std::unique_ptr<MovingBody>>& bodies) {
     const Losses lost = body->losses();
     sum.viscous += lost.viscous;
     sum.plastic += lost.plastic;
+    sum.numerical += lost.numerical;
     sum.broken += lost.broken;
     sum.breaks += lost.breaks;
   }
@@ -68,6 +69,7 @@ World::World(const Scene& scene) : scene_(scene) {
   }
   for (std::uint32_t n = 0; n < scene.tools.size(); ++n) tools_.emplace_back(scene.tools[n], n, touchable_);
   threads_ = choose_threads(scene, n_masses);
+  gathered_.reserve(tools_.size() * ToolCoupling::most_forces);
 
   frame_dt_ = 1.0 / scene.physics.frame_Hz;
   const double wanted = scene.physics.step.value_or(scene.physics.safety * stable_dt_);
@@ -101,6 +103,7 @@ EnergyLedger World::ledger() const {
   ledger.gravitational = now.gravitational;
   ledger.dissipated = lost.viscous - start_losses_.viscous;
   ledger.plastic = lost.plastic - start_losses_.plastic;
+  ledger.numerical = lost.numerical - start_losses_.numerical;
   ledger.broken = lost.broken - start_losses_.broken;
   ledger.tool_work = report_.tool_work - start_work_;
   ledger.guard = guard_energy_;
@@ -110,7 +113,34 @@ EnergyLedger World::ledger() const {
   return ledger;
 }
 
+void World::implicit_step(double dt, bool watch) noexcept {
+  const StageTimer timer(report_, Stage::integrate);
+  const ExplicitStep how{dt, scene_.gravity, threads_, false, watch};
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const ImplicitReport solved = bodies_[b]->implicit_step(how, gathered(b));
+    report_.tool_work += solved.work;
+    report_.tool_exchange += std::abs(solved.work);
+    report_.newton_iterations += solved.newton_iterations;
+    report_.cg_iterations += solved.cg_iterations;
+    if (!solved.converged) ++report_.unsolved;
+  }
+  if (scene_.floor)
+    for (auto& body : bodies_) body->bounce_off_floor(scene_.floor->height);
+  ++report_[Stage::element_forces].skipped;  // part of the solution
+  ++report_[Stage::contact_forces].skipped;
+  ++report_[Stage::yield_and_break].skipped;
+  ++report_.steps;
+}
+
+std::span<const NodalForce> World::gathered(std::size_t body) noexcept {
+  gathered_.clear();
+  for (const auto& tool : tools_)
+    if (tool.touched_body() == body) gathered_.insert(gathered_.end(), tool.forces().begin(), tool.forces().end());
+  return gathered_;
+}
+
 void World::step(double dt, bool watch) noexcept {
+  if (scene_.physics.integrator == Integrator::backward_euler) return implicit_step(dt, watch);
   const ExplicitStep how{dt, scene_.gravity, threads_, scene_.physics.integrator == Integrator::velocity_verlet, watch};
   for (auto& body : bodies_) {
     const StageTimer timer(report_, Stage::element_forces);
@@ -172,8 +202,8 @@ void World::recover(std::size_t culprit) noexcept {
   for (auto& body : bodies_) body->restore();
   ++report_.restored;
   const EnergyLedger after = ledger();
-  guard_energy_ += after.start + after.tool_work - after.dissipated - after.plastic - after.broken - after.guard -
-                   after.kinetic - after.elastic - after.gravitational;
+  guard_energy_ += after.start + after.tool_work - after.dissipated - after.plastic - after.numerical - after.broken -
+                   after.guard - after.kinetic - after.elastic - after.gravitational;
   if (recoveries_ == most_recoveries) {
     given_up_ = culprit;
     return;
@@ -211,7 +241,8 @@ void World::frame(std::span<const std::optional<ToolState>> tools) noexcept {
   const int n_substeps = n_substeps_;
   for (int n = 1; n <= n_substeps; ++n) step(dt_, n == n_substeps);
   guard();
-  if (scene_.physics.sleep)
+  // backward_euler solves for all masses at once: none of them can be left out.
+  if (scene_.physics.sleep && scene_.physics.integrator != Integrator::backward_euler)
     for (auto& body : bodies_) body->sleep_and_wake(frame_dt_);
   t_ += frame_dt_;
   ++report_.frames;

@@ -54,6 +54,8 @@ class World {
 
  private:
   void step(double dt, bool watch) noexcept;
+  void implicit_step(double dt, bool watch) noexcept;
+  std::span<const NodalForce> gathered(std::size_t body) noexcept;  // forces of all tools on a body
   void guard() noexcept;
   void save_all() noexcept;
   /// Back to the last good state, with half the step; gives up after the step has been halved too often.
@@ -64,6 +66,7 @@ class World {
   std::vector<std::unique_ptr<MovingBody>> bodies_;
   std::vector<TouchableBody> touchable_;
   std::vector<ToolCoupling> tools_;
+  std::vector<NodalForce> gathered_;
   StepReport report_;
   std::vector<std::string> remarks_;
   double t_ = 0;

@@ -26,7 +26,7 @@ ToolCoupling::ToolCoupling(const ToolSpec& tool, std::uint32_t index,
     contacts_.emplace_back(*body.surface, *body.moving, tool.radius);
     moving_.push_back(body.moving);
   }
-  forces_.reserve(16384);
+  forces_.reserve(most_forces);
 }
 
 void ToolCoupling::take(const ToolState* state, double dt) noexcept {

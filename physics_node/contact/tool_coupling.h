@@ -24,6 +24,8 @@ struct TouchableBody {
 
 class ToolCoupling {
  public:
+  static constexpr std::size_t most_forces = 16384;
+
   ToolCoupling(const ToolSpec& tool, std::uint32_t index, const std::vector<TouchableBody>& bodies);
 
   /// Takes the newest state of the hand, or none where nothing fresh has come: then the force dies away.

@@ -36,6 +36,7 @@ nlohmann::json energy_part(const EnergyLedger& ledger) {
           {"dissipated", ledger.dissipated}, {"gravitational", ledger.gravitational},
           {"plastic", ledger.plastic},     {"broken", ledger.broken},
           {"tool_work", ledger.tool_work}, {"guard", ledger.guard},
+          {"numerical", ledger.numerical},
           {"exchanged", ledger.exchanged}, {"balance_error", ledger.balance_error()}};
 }
 
@@ -93,6 +94,7 @@ nlohmann::json physics_summary(const World& world, const Recorder* recorder, dou
                    {"grown", world.report().grown},
                    {"restored", world.report().restored},
                    {"halved", world.report().halved},
+                   {"unsolved", world.report().unsolved},
                    {"warnings", world.report().warnings + static_cast<std::int64_t>(world.remarks().size())}};
   for (std::size_t n = 0; recorder != nullptr && n < scene.tools.size(); ++n) {
     part["tools"][scene.tools[n].name] = {{"contacts_max", recorder->contacts_max(n)},

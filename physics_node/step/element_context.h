@@ -35,6 +35,7 @@ struct SlotList {
 struct RowLedger {
   double viscous = 0;  // [J] lost in dampers, in all
   double plastic = 0;  // [J] lost in yielding, in all
+  double numerical = 0;  // [J] lost to the integrator, in all; only backward_euler
   double broken = 0;   // [J] elastic energy of elements when they broke, in all
   std::int64_t breaks = 0;
   // when last watched:

@@ -10,16 +10,18 @@ struct EnergyLedger {
   double gravitational = 0;  // now; 0 at rest
   double dissipated = 0;     // by dampers and drag
   double plastic = 0;        // by yielding
+  double numerical = 0;      // to the integrator; only backward_euler
   double broken = 0;         // elastic energy of elements when they broke
   double tool_work = 0;      // done by tools on tissue
   double guard = 0;          // taken out where the guard restored a state
   double start = 0;          // kinetic + elastic + gravitational at the start
   double exchanged = 0;      // kinetic and elastic at the start, |work| of tools and gravity: what the error is measured by
 
-  /// start + tool_work - dissipated - plastic - broken - guard - (kinetic + elastic + gravitational), over exchanged;
+  /// start + tool_work - dissipated - plastic - numerical - broken - guard - (kinetic + elastic + gravitational), over exchanged;
   /// 0 where nothing was exchanged.
   double balance_error() const {
-    const double missing = start + tool_work - dissipated - plastic - broken - guard - kinetic - elastic - gravitational;
+    const double lost = dissipated + plastic + numerical + broken + guard;
+    const double missing = start + tool_work - lost - kinetic - elastic - gravitational;
     return exchanged > 0 ? (missing < 0 ? -missing : missing) / exchanged : 0;
   }
 };

@@ -71,6 +71,7 @@ Losses measure_losses(const LatticeState<Real>& state) {
   for (const RowLedger& row : state.ledger) {
     sum.viscous += row.viscous;
     sum.plastic += row.plastic;
+    sum.numerical += row.numerical;
     sum.broken += row.broken;
     sum.breaks += row.breaks;
   }

@@ -16,17 +16,28 @@ namespace {
 template <class Real>
 class LatticeBody final : public MovingBody {
  public:
-  LatticeBody(Body body, bool verlet)
+  LatticeBody(Body body, Integrator integrator)
       : body_(std::move(body)), state_(body_), sleep_(body_), saved_(body_, state_) {
-    if (verlet)
+    if (integrator == Integrator::velocity_verlet)
       for (auto& axis : state_.v_half) axis = ZeroedArray<Real>(n_cells());
+    if (integrator == Integrator::backward_euler) implicit_ = std::make_unique<ImplicitStep<Real>>(body_);
     reset();
   }
 
   const Body& body() const noexcept override { return body_; }
 
   std::int64_t element_forces_and_integrate(const ExplicitStep& step) noexcept override {
-    return element_step(body_, state_, step);
+    return element_step(body_, state_, step);  // sleeping rows are skipped
+  }
+
+  ImplicitReport implicit_step(const ExplicitStep& step, std::span<const NodalForce> forces) noexcept override {
+    for (const NodalForce& nodal : forces) sleep_.wake_cell(body_, state_, nodal.cell);
+    const ImplicitReport report = implicit_->step(body_, state_, step, forces);
+    // Commits yield and break where the step ended, and lets the ledger watch.
+    ExplicitStep look = step;
+    look.dt = 0;
+    element_step(body_, state_, look);
+    return report;
   }
 
   double kick(std::span<const NodalForce> forces, double dt) noexcept override {
@@ -171,14 +182,15 @@ class LatticeBody final : public MovingBody {
   LatticeState<Real> state_;
   Sleep sleep_;
   SavedState<Real> saved_;
+  std::unique_ptr<ImplicitStep<Real>> implicit_;  // only for backward_euler
 };
 
 }  // namespace
 
 std::unique_ptr<MovingBody> make_moving_body(Body body, Precision precision, Integrator integrator) {
-  const bool verlet = integrator == Integrator::velocity_verlet;
-  if (precision == Precision::single_) return std::make_unique<LatticeBody<float>>(std::move(body), verlet);
-  return std::make_unique<LatticeBody<double>>(std::move(body), verlet);
+  if (precision == Precision::single_)
+    return std::make_unique<LatticeBody<float>>(std::move(body), integrator);
+  return std::make_unique<LatticeBody<double>>(std::move(body), integrator);
 }
 
 }  // namespace palpate::physics

@@ -7,6 +7,7 @@
 
 #include "physics_node/body/body.h"
 #include "physics_node/step/element_step.h"
+#include "physics_node/step/implicit_step.h"
 #include "physics_node/step/mass_flags.h"
 
 namespace palpate::physics {
@@ -27,6 +28,7 @@ struct Energies {
 struct Losses {
   double viscous = 0;        // in dampers and drag [J]
   double plastic = 0;        // in yielding [J]
+  double numerical = 0;      // to the integrator: backward_euler damps what it does not resolve [J]
   double broken = 0;         // elastic energy of elements when they broke [J]
   std::int64_t breaks = 0;   // elements
 };
@@ -59,6 +61,8 @@ class MovingBody {
   // --- stages of a step ---
   /// An explicit step: forces of all elements, yield and break, motion. @return elements broken
   virtual std::int64_t element_forces_and_integrate(const ExplicitStep& step) noexcept = 0;
+  /// A step of backward_euler under these forces; only for bodies made for it. @return what the solver needed
+  virtual ImplicitReport implicit_step(const ExplicitStep& step, std::span<const NodalForce> forces) noexcept = 0;
   /// Adds forces that act during the step just integrated. Held masses ignore them; sleeping rows wake.
   /// @return work done by the forces [J]
   virtual double kick(std::span<const NodalForce> forces, double dt) noexcept = 0;
