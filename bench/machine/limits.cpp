@@ -14,43 +14,54 @@ double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-constexpr int chains = 10;  // independent sums: a latency of 4 or 5 cycles times two units
+constexpr int chains = 12;  // independent of each other: a latency of 4 cycles times two units, and some
 constexpr long turns = 2'000'000;
 
-// x := x a + b, held near 1 so that nothing overflows or underflows. One function per width: the vector type needs the
-// target. The empty assembler line keeps the compiler from folding the chain.
-#define PALPATE_CHAINS(name, isa, vector, all, expression) \
-  __attribute__((target(isa))) void name() {               \
-    vector x[chains];                                      \
-    const vector a = all(0.999F), b = all(0.001F);         \
-    for (auto& sum : x) sum = all(1);                      \
-    for (long n = 0; n < turns; ++n)                       \
-      for (auto& sum : x) {                                \
-        sum = expression;                                  \
-        asm volatile("" : "+v"(sum));                      \
-      }                                                    \
+// x := x a + b, fused; or a product in every second chain and a sum in the others. The values stay at 1 and 0. One function
+// per width: the vector type needs the target. The empty assembler line keeps the compiler from folding a chain.
+#define PALPATE_CHAINS(name, isa, vector, all, even, odd) \
+  __attribute__((target(isa))) void name() {              \
+    vector x[chains];                                     \
+    const vector a = all(1), b = all(0);                  \
+    for (auto& value : x) value = all(1);                 \
+    for (long n = 0; n < turns; ++n)                      \
+      for (int c = 0; c < chains; c += 2) {               \
+        vector& p = x[c];                                 \
+        vector& q = x[c + 1];                             \
+        p = even;                                         \
+        q = odd;                                          \
+        asm volatile("" : "+v"(p), "+v"(q));              \
+      }                                                   \
+    (void)b;                                              \
   }
-PALPATE_CHAINS(fused_512s, "avx512f", __m512, _mm512_set1_ps, _mm512_fmadd_ps(sum, a, b))
-PALPATE_CHAINS(fused_512d, "avx512f", __m512d, _mm512_set1_pd, _mm512_fmadd_pd(sum, a, b))
-PALPATE_CHAINS(fused_256s, "avx2,fma", __m256, _mm256_set1_ps, _mm256_fmadd_ps(sum, a, b))
-PALPATE_CHAINS(fused_256d, "avx2,fma", __m256d, _mm256_set1_pd, _mm256_fmadd_pd(sum, a, b))
-PALPATE_CHAINS(apart_512s, "avx512f", __m512, _mm512_set1_ps, _mm512_add_ps(_mm512_mul_ps(sum, a), b))
-PALPATE_CHAINS(apart_512d, "avx512f", __m512d, _mm512_set1_pd, _mm512_add_pd(_mm512_mul_pd(sum, a), b))
-PALPATE_CHAINS(apart_256s, "avx2", __m256, _mm256_set1_ps, _mm256_add_ps(_mm256_mul_ps(sum, a), b))
-PALPATE_CHAINS(apart_256d, "avx2", __m256d, _mm256_set1_pd, _mm256_add_pd(_mm256_mul_pd(sum, a), b))
-PALPATE_CHAINS(apart_128s, "sse2", __m128, _mm_set1_ps, _mm_add_ps(_mm_mul_ps(sum, a), b))
-PALPATE_CHAINS(apart_128d, "sse2", __m128d, _mm_set1_pd, _mm_add_pd(_mm_mul_pd(sum, a), b))
+#define PALPATE_FUSED(name, isa, vector, all, op) \
+  PALPATE_CHAINS(name, isa, vector, all, op(p, a, b), op(q, a, b))
+#define PALPATE_APART(name, isa, vector, all, times, plus) \
+  PALPATE_CHAINS(name, isa, vector, all, times(p, a), plus(q, b))
+PALPATE_FUSED(fused_512s, "avx512f", __m512, _mm512_set1_ps, _mm512_fmadd_ps)
+PALPATE_FUSED(fused_512d, "avx512f", __m512d, _mm512_set1_pd, _mm512_fmadd_pd)
+PALPATE_FUSED(fused_256s, "avx2,fma", __m256, _mm256_set1_ps, _mm256_fmadd_ps)
+PALPATE_FUSED(fused_256d, "avx2,fma", __m256d, _mm256_set1_pd, _mm256_fmadd_pd)
+PALPATE_APART(apart_512s, "avx512f", __m512, _mm512_set1_ps, _mm512_mul_ps, _mm512_add_ps)
+PALPATE_APART(apart_512d, "avx512f", __m512d, _mm512_set1_pd, _mm512_mul_pd, _mm512_add_pd)
+PALPATE_APART(apart_256s, "avx2", __m256, _mm256_set1_ps, _mm256_mul_ps, _mm256_add_ps)
+PALPATE_APART(apart_256d, "avx2", __m256d, _mm256_set1_pd, _mm256_mul_pd, _mm256_add_pd)
+PALPATE_APART(apart_128s, "sse2", __m128, _mm_set1_ps, _mm_mul_ps, _mm_add_ps)
+PALPATE_APART(apart_128d, "sse2", __m128d, _mm_set1_pd, _mm_mul_pd, _mm_add_pd)
+#undef PALPATE_APART
+#undef PALPATE_FUSED
 #undef PALPATE_CHAINS
 
 /// @param bytes  of a vector
-double flops_per_s(void (*run)(), double bytes, bool single) {
+/// @param each   operations of one instruction on one number: 2 fused, 1 apart
+double flops_per_s(void (*run)(), double bytes, int each, bool single) {
   double least = std::numeric_limits<double>::infinity();
   for (int pass = 0; pass < 5; ++pass) {
     const double start = seconds_now();
     run();
     least = std::min(least, seconds_now() - start);
   }
-  return 2 * bytes / (single ? 4 : 8) * chains * static_cast<double>(turns) / least;
+  return each * bytes / (single ? 4 : 8) * chains * static_cast<double>(turns) / least;
 }
 
 }  // namespace
@@ -77,15 +88,15 @@ double triad_bytes_per_s(std::size_t bytes, int threads) {
 }
 
 double fma_flops_per_s(bool single) {
-  if (__builtin_cpu_supports("avx512f")) return flops_per_s(single ? fused_512s : fused_512d, 64, single);
-  if (__builtin_cpu_supports("fma")) return flops_per_s(single ? fused_256s : fused_256d, 32, single);
+  if (__builtin_cpu_supports("avx512f")) return flops_per_s(single ? fused_512s : fused_512d, 64, 2, single);
+  if (__builtin_cpu_supports("fma")) return flops_per_s(single ? fused_256s : fused_256d, 32, 2, single);
   return multiply_add_flops_per_s(single);  // this machine has none
 }
 
 double multiply_add_flops_per_s(bool single) {
-  if (__builtin_cpu_supports("avx512f")) return flops_per_s(single ? apart_512s : apart_512d, 64, single);
-  if (__builtin_cpu_supports("avx2")) return flops_per_s(single ? apart_256s : apart_256d, 32, single);
-  return flops_per_s(single ? apart_128s : apart_128d, 16, single);
+  if (__builtin_cpu_supports("avx512f")) return flops_per_s(single ? apart_512s : apart_512d, 64, 1, single);
+  if (__builtin_cpu_supports("avx2")) return flops_per_s(single ? apart_256s : apart_256d, 32, 1, single);
+  return flops_per_s(single ? apart_128s : apart_128d, 16, 1, single);
 }
 
 }  // namespace palpate::bench

@@ -11,10 +11,11 @@ namespace palpate::bench {
 double triad_bytes_per_s(std::size_t bytes, int threads);
 
 /// Floating-point operations per second of independent fused multiply-adds in the widest vectors of this machine, on one
-/// core; two operations each. Kernels of ours do not fuse (the same bits everywhere), so half of this is their roof.
+/// core; two operations each.
 double fma_flops_per_s(bool single);
 
-/// The same of multiplications and additions that are not fused.
+/// The same of as many multiplications as additions, not fused. Kernels of ours do not fuse (the same bits everywhere), so
+/// this is their roof.
 double multiply_add_flops_per_s(bool single);
 
 }  // namespace palpate::bench
