@@ -12,8 +12,6 @@ namespace {
 using Sparse = Eigen::SparseMatrix<double>;
 using physics::Index;
 
-constexpr Index small = 3000;  // masses; above, the factors fill up
-
 class Statics {
  public:
   Statics(const physics::Body& body, const Vec3& gravity)
@@ -24,19 +22,44 @@ class Statics {
     u_ = Eigen::VectorXd::Zero(3 * n_free_);
   }
 
-  Eigen::VectorXd solve() {
-    double first = 0;
+  /// Newton's method; the first step is the linear answer.
+  void solve() {
     for (int iteration = 0; iteration < 30; ++iteration) {
       assemble();
-      const double size = residual_.norm();
-      if (iteration == 0) first = size;
-      if (size <= 2e-14 * first) return u_;
       const Eigen::VectorXd du = step();
       u_ += du;
-      if (du.norm() <= (is_small() ? 1e-14 : 1e-5) * u_.norm())
-        return u_;  // quadratic: the next would be nothing
+      if (du.norm() <= 1e-14 * u_.norm()) return;
     }
-    return u_;
+  }
+
+  /// The linear answer alone, by conjugate gradients without a matrix, scaled by the diagonal.
+  void solve_linear() {
+    const auto elements = list_elements();
+    Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(u_.size());
+    for (const Element& e : elements) {
+      if (e.i >= 0) diagonal.segment<3>(3 * e.i) += e.k * e.n.cwiseAbs2();
+      if (e.j >= 0) diagonal.segment<3>(3 * e.j) += e.k * e.n.cwiseAbs2();
+    }
+    Eigen::VectorXd r = weights(), z = r.cwiseQuotient(diagonal), p = z, Kp(u_.size());
+    const double enough = 1e-7 * r.norm();
+    double rz = r.dot(z);
+    while (r.norm() > enough) {
+      Kp.setZero();
+      for (const Element& e : elements) {
+        double stretch = 0;
+        if (e.j >= 0) stretch += e.n.dot(p.segment<3>(3 * e.j));
+        if (e.i >= 0) stretch -= e.n.dot(p.segment<3>(3 * e.i));
+        if (e.j >= 0) Kp.segment<3>(3 * e.j) += e.k * stretch * e.n;
+        if (e.i >= 0) Kp.segment<3>(3 * e.i) -= e.k * stretch * e.n;
+      }
+      const double alpha = rz / p.dot(Kp);
+      u_ += alpha * p;
+      r -= alpha * Kp;
+      z = r.cwiseQuotient(diagonal);
+      const double next = r.dot(z);
+      p = z + next / rz * p;
+      rz = next;
+    }
   }
 
   Vec3 at(Index cell) const {
@@ -45,16 +68,39 @@ class Statics {
   }
 
  private:
-  bool is_small() const { return n_free_ <= small; }
+  struct Element {
+    Index i = -1, j = -1;  // numbers of its free masses
+    Vec3 n;                // along it at rest
+    double k = 0;
+  };
+
+  std::vector<Element> list_elements() const {
+    const physics::Lattice& lattice = body_.lattice;
+    std::vector<Element> elements;
+    for (const Index cell : lattice.masses)
+      for (std::size_t d = 0; d < static_cast<std::size_t>(lattice.n_half); ++d) {
+        if ((lattice.mask[static_cast<std::size_t>(cell)] >> d & 1U) == 0) continue;
+        const Index other = cell + lattice.offset[static_cast<std::size_t>(lattice.row_parity(cell))][d];
+        elements.push_back({number_[static_cast<std::size_t>(cell)], number_[static_cast<std::size_t>(other)],
+                            lattice.rest_vector[d] / lattice.rest_length[d], body_.law.k1[d]});
+      }
+    return elements;
+  }
+
+  Eigen::VectorXd weights() const {
+    Eigen::VectorXd f = Eigen::VectorXd::Zero(3 * n_free_);
+    for (const Index cell : body_.lattice.masses)
+      if (const Index i = number_[static_cast<std::size_t>(cell)]; i >= 0)
+        f.segment<3>(3 * i) = gravity_ / body_.inverse_mass[static_cast<std::size_t>(cell)];
+    return f;
+  }
 
   void assemble() {
     triplets_.clear();
-    residual_ = Eigen::VectorXd::Zero(3 * n_free_);
+    residual_ = weights();
     const physics::Lattice& lattice = body_.lattice;
     for (const Index cell : lattice.masses) {
       const Index i = number_[static_cast<std::size_t>(cell)];
-      if (i >= 0)
-        residual_.segment<3>(3 * i) += gravity_ / body_.inverse_mass[static_cast<std::size_t>(cell)];
       const auto parity = static_cast<std::size_t>(lattice.row_parity(cell));
       for (std::size_t d = 0; d < static_cast<std::size_t>(lattice.n_half); ++d) {
         if ((lattice.mask[static_cast<std::size_t>(cell)] >> d & 1U) == 0) continue;
@@ -84,17 +130,10 @@ class Statics {
   Eigen::VectorXd step() {
     Sparse K(3 * n_free_, 3 * n_free_);
     K.setFromTriplets(triplets_.begin(), triplets_.end());
-    if (is_small()) {
-      if (!analysed_) cholesky_.analyzePattern(K), analysed_ = true;
-      cholesky_.factorize(K);
-      PALPATE_CHECK(cholesky_.info() == Eigen::Success,
-                    "the lattice is not held enough to be in equilibrium");
-      return cholesky_.solve(residual_);
-    }
-    Eigen::ConjugateGradient<Sparse, Eigen::Lower | Eigen::Upper, Eigen::IncompleteCholesky<double>>
-        gradients(K);
-    gradients.setTolerance(1e-7);
-    return gradients.solve(residual_);
+    if (!analysed_) cholesky_.analyzePattern(K), analysed_ = true;
+    cholesky_.factorize(K);
+    PALPATE_CHECK(cholesky_.info() == Eigen::Success, "the lattice is not held enough to be in equilibrium");
+    return cholesky_.solve(residual_);
   }
 
   const physics::Body& body_;
@@ -107,17 +146,32 @@ class Statics {
   bool analysed_ = false;
 };
 
-}  // namespace
-
-Eigen::Matrix3Xd equilibrium(const physics::Body& body, const Vec3& gravity) {
-  PALPATE_CHECK(body.n_held > 0 && body.law_of.empty() && !body.law.yields,
-                "a held body of one elastic material");
-  Statics statics(body, gravity);
-  statics.solve();
+Eigen::Matrix3Xd displacements(const physics::Body& body, const Statics& statics) {
   Eigen::Matrix3Xd u(3, body.lattice.n_masses());
   for (Eigen::Index n = 0; n < u.cols(); ++n)
     u.col(n) = statics.at(body.lattice.masses[static_cast<std::size_t>(n)]);
   return u;
+}
+
+void check(const physics::Body& body) {
+  PALPATE_CHECK(body.n_held > 0 && body.law_of.empty() && !body.law.yields,
+                "a held body of one elastic material");
+}
+
+}  // namespace
+
+Eigen::Matrix3Xd equilibrium(const physics::Body& body, const Vec3& gravity) {
+  check(body);
+  Statics statics(body, gravity);
+  statics.solve();
+  return displacements(body, statics);
+}
+
+Eigen::Matrix3Xd linear_equilibrium(const physics::Body& body, const Vec3& gravity) {
+  check(body);
+  Statics statics(body, gravity);
+  statics.solve_linear();
+  return displacements(body, statics);
 }
 
 }  // namespace palpate::bench

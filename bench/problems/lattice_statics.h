@@ -12,8 +12,11 @@ namespace palpate::bench {
 ///   sum over elements of k1 (l - L) u_ij + m g = 0, by Newton's method:
 ///   K dx = r,   K_ij = -k1 [u u^T + (1 - L/l)(1 - u u^T)],   started from the linear answer K u = f
 ///
-/// Small lattices by sparse Cholesky factors, large ones by conjugate gradients. Written apart from the kernels on
-/// purpose. Elastic bodies of one material only; some mass must be held.
+/// by sparse Cholesky factors, so for some thousand masses at most. Written apart from the kernels on purpose. Elastic bodies
+/// of one material only; some mass must be held.
 Eigen::Matrix3Xd equilibrium(const physics::Body& body, const Vec3& gravity);
+
+/// The linear answer K u = f alone, to seven digits, for any number of masses.
+Eigen::Matrix3Xd linear_equilibrium(const physics::Body& body, const Vec3& gravity);
 
 }  // namespace palpate::bench

@@ -1,8 +1,9 @@
-// A hanging bar, `cells` cubic cells wide and twice as long, stretched by its weight: its Young's modulus.
+// A hanging bar, `cells` cubic cells wide and twice as long, stretched by its weight: its Young's modulus, half a width
+// above its free end, where it does not feel how it is held.
 //
-//   inside    E = s_zz / e_zz at half height, in the middle half of the section: s from the elements of the masses there,
+//   inside    E = s_zz / e_zz there, in the middle half of the section: s from the elements of the masses there,
 //             s_ab = (1 / 2V) sum over masses and their elements of f l n_a n_b;  e_zz from a straight line through u_z(z)
-//   outside   E = (weight below half height) / (nominal section x e_zz)
+//   outside   E = (weight below) / (nominal section x e_zz)
 //
 // Surface masses have half the neighbours but whole elements between them, so the outside one feels the surface layer
 // directly, the inside one only through the bar's contraction. Both err with the first power of the spacing.
@@ -42,10 +43,21 @@ double axial_virial(const physics::Body& body, const std::vector<Index>& number,
   return sum;
 }
 
+/// 1 for a mass within `reach` cells of the middle, a half on each face of that cube: whole cells, so that the two kinds of
+/// masses of the voxel lattice count alike.
+double weight(const Vec3& cells_away, double reach) {
+  double w = 1;
+  for (const double away : cells_away) {
+    if (std::abs(away) > reach + 1e-6) return 0;
+    if (std::abs(away) > reach - 1e-6) w *= 0.5;
+  }
+  return w;
+}
+
 }  // namespace
 
 Modulus bar_modulus(LatticeKind lattice_kind, int cells) {
-  constexpr double E = 10e3, width = 0.1, H = 2 * width;
+  constexpr double E = 10e3, width = 0.1, H = 2 * width, z_m = 0.5 * width;
   const double cell = width / cells;
   // A cubic cell of the face-centred lattice is sqrt(2) spacings wide.
   const double spacing = lattice_kind == LatticeKind::fcc ? cell / std::numbers::sqrt2 : cell;
@@ -57,21 +69,24 @@ Modulus bar_modulus(LatticeKind lattice_kind, int cells) {
   BodySpec spec = box_body(lattice_kind, Vec3(width, width, H), spacing);
   spec.fixed_faces[5] = true;  // +z
   const physics::Body body = physics::build_body(spec, tissue);
-  const Vec3 gravity(0, 0, -1e-3);  // strains of 1e-5
-  const Eigen::Matrix3Xd u = equilibrium(body, gravity);
+  const Vec3 gravity(0, 0, -1e-3);  // strains of 1e-5: linear
+  const Eigen::Matrix3Xd u = linear_equilibrium(body, gravity);
 
   std::vector<Index> number(static_cast<std::size_t>(body.lattice.n_cells()), -1);
   Index count = 0;
   for (const Index mass : body.lattice.masses) number[static_cast<std::size_t>(mass)] = count++;
+  const double reach = 0.5 * cells - std::round(cells / 4.0);  // of the middle, in cells
   Middle middle;
   for (const Index mass : body.lattice.masses) {
     const Vec3 p = body.lattice.rest_position(mass);
-    if (p.z() < H / 2) middle.weight_below += body.law.mass;
-    if (std::abs(p.z() - H / 2) < 1e-6 * H) middle.weight_below += 0.5 * body.law.mass;
-    if ((p - Vec3(width / 2, width / 2, H / 2)).cwiseAbs().maxCoeff() > 0.2501 * width) continue;
+    if (p.z() < z_m - 1e-6 * H) middle.weight_below += body.law.mass;
+    if (std::abs(p.z() - z_m) < 1e-6 * H) middle.weight_below += 0.5 * body.law.mass;
+    const double w = weight((p - Vec3(width / 2, width / 2, z_m)) / cell, reach);
+    if (w == 0) continue;
     const double u_z = u(2, number[static_cast<std::size_t>(mass)]);
-    middle.stress += axial_virial(body, number, u, mass);
-    middle.n += 1, middle.z += p.z(), middle.zz += p.z() * p.z(), middle.u += u_z, middle.zu += p.z() * u_z;
+    middle.stress += w * axial_virial(body, number, u, mass);
+    middle.n += w, middle.z += w * p.z(), middle.zz += w * p.z() * p.z();
+    middle.u += w * u_z, middle.zu += w * p.z() * u_z;
   }
   const double strain =
       (middle.n * middle.zu - middle.z * middle.u) / (middle.n * middle.zz - middle.z * middle.z);
