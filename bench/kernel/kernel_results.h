@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "bench/kernel/cube.h"
 #include "bench/kernel/work.h"
 #include "bench/machine/result_folder.h"
+#include "bench/problems/cube.h"
 
 namespace palpate::bench {
 

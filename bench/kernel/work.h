@@ -11,7 +11,7 @@
 //
 // A root or a division counts as one.
 
-#include "bench/kernel/cube.h"
+#include "bench/problems/cube.h"
 
 namespace palpate::bench {
 

@@ -24,6 +24,7 @@ Outcome breaking(const Settings& settings) {
   physics::World world(scene);
   const auto mass = free_mass(world);
   world.body(0).place(mass, Vec3::Zero(), v_0 * pair_axis());
+  world.restart_ledger();
 
   const double w1 = std::sqrt(k1 / m), w2 = std::sqrt(k2 / m);
   const double t_y = std::asin(x_y * w1 / v_0) / w1;

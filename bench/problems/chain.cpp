@@ -65,6 +65,7 @@ Outcome chain_wave(const Settings& settings, int n, int mode) {
     cells.push_back(body.body().lattice.mass_at({i, i, 0}));
     body.place(cells.back(), A * std::sin(q * i) * pair_axis(), Vec3::Zero());
   }
+  world.restart_ledger();
   std::vector<double> amplitude;
   Outcome outcome = run(world, frames, [&](int) {
     double sum = 0;

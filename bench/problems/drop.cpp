@@ -36,6 +36,7 @@ Run run_transient(Scene scene, const Settings& settings, double seconds, const P
   apply(settings, seconds, frames, scene);
   physics::World world(scene);
   start(world);
+  world.restart_ledger();
   Run result;
   result.outcome = run(world, frames);
   result.u = displacements(world);

@@ -27,6 +27,7 @@ Drift free_flight(const Settings& settings, LatticeKind lattice, int steps) {
     body.place(
         cell, Vec3::Zero(),
         flight + spin.cross(body.body().lattice.rest_position(cell)) + 0.02 * Vec3(dice(), dice(), dice()));
+  world.restart_ledger();
   const physics::Momenta before = body.momenta();
   Drift drift;
   drift.outcome = run(world, frames);

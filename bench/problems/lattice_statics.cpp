@@ -80,7 +80,7 @@ class Statics {
     for (const Index cell : lattice.masses)
       for (std::size_t d = 0; d < static_cast<std::size_t>(lattice.n_half); ++d) {
         if ((lattice.mask[static_cast<std::size_t>(cell)] >> d & 1U) == 0) continue;
-        const Index other = cell + lattice.offset[static_cast<std::size_t>(lattice.row_parity(cell))][d];
+        const Index other = cell + lattice.offset[static_cast<std::size_t>(lattice.row_kind(cell))][d];
         elements.push_back({number_[static_cast<std::size_t>(cell)], number_[static_cast<std::size_t>(other)],
                             lattice.rest_vector[d] / lattice.rest_length[d], body_.law.k1[d]});
       }
@@ -101,10 +101,9 @@ class Statics {
     const physics::Lattice& lattice = body_.lattice;
     for (const Index cell : lattice.masses) {
       const Index i = number_[static_cast<std::size_t>(cell)];
-      const auto parity = static_cast<std::size_t>(lattice.row_parity(cell));
       for (std::size_t d = 0; d < static_cast<std::size_t>(lattice.n_half); ++d) {
         if ((lattice.mask[static_cast<std::size_t>(cell)] >> d & 1U) == 0) continue;
-        const Index other = cell + lattice.offset[parity][d];
+        const Index other = cell + lattice.offset[static_cast<std::size_t>(lattice.row_kind(cell))][d];
         add_element(i, number_[static_cast<std::size_t>(other)],
                     lattice.rest_vector[d] + at(other) - at(cell), lattice.rest_length[d], body_.law.k1[d]);
       }

@@ -29,12 +29,11 @@ struct Middle {
 double axial_virial(const physics::Body& body, const std::vector<Index>& number, const Eigen::Matrix3Xd& u,
                     Index cell) {
   const physics::Lattice& lattice = body.lattice;
-  const auto parity = static_cast<std::size_t>(lattice.row_parity(cell));
   const auto half = static_cast<std::size_t>(lattice.n_half);
   double sum = 0;
   for (std::size_t d = 0; d < 2 * half; ++d) {
     if ((lattice.mask[static_cast<std::size_t>(cell)] >> d & 1U) == 0) continue;
-    const Index other = cell + lattice.offset[parity][d];
+    const Index other = cell + lattice.offset[static_cast<std::size_t>(lattice.row_kind(cell))][d];
     const Vec3 x = lattice.rest_vector[d] + u.col(number[static_cast<std::size_t>(other)]) -
                    u.col(number[static_cast<std::size_t>(cell)]);
     const double l = x.norm();

@@ -21,6 +21,7 @@ Outcome oscillation(const Settings& settings) {
   physics::World world(scene);
   const auto mass = free_mass(world);
   world.body(0).place(mass, A * pair_axis(), Vec3::Zero());
+  world.restart_ledger();
   double worst = 0;
   Outcome outcome = run(world, frames, [&](int frame) {
     const double x = world.body(0).displacement(mass).dot(pair_axis());

@@ -55,6 +55,7 @@ StressResult run_stress(std::uint64_t seed, const std::function<void(const std::
   if (say) say(describe(stress));
   physics::World world(stress.scene);
   set_start(stress, world);
+  world.restart_ledger();
   StressResult result;
   result.seed = seed;
   result.integrator = name_of(stress.scene.physics.integrator);
@@ -71,7 +72,7 @@ StressResult run_stress(std::uint64_t seed, const std::function<void(const std::
     world.frame(std::span(&hand, stress.tool_force > 0 ? 1 : 0));
     result.finite = result.finite && all_finite(world);
     const Energy now = energy(world);
-    const double tools = world.report().tool_work;
+    const double tools = world.report().tool_exchange;
     most_put_in = std::max(most_put_in, first.held + now.fallen - first.fallen + tools + least_energy(world));
     const double growth = now.held / most_put_in;
     // A number that is not finite fails the comparison, and so becomes the result.
@@ -85,7 +86,8 @@ StressResult run_stress(std::uint64_t seed, const std::function<void(const std::
   }
   result.steps = world.report().steps;
   result.restored = world.report().restored;
-  result.diagnosis = "none";
+  result.diagnosis = world.stopped().value_or("none");
+  std::replace(result.diagnosis.begin(), result.diagnosis.end(), ',', ';');
   result.cpu_s = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   return result;
 }

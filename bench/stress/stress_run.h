@@ -19,7 +19,7 @@ struct StressResult {
   double step_ratio = 0;
   bool finite = true;  // every position and velocity that ever left frame()
   /// Largest kinetic and elastic energy after any frame, over the most that had been put in by then: the same at the start,
-  /// work of gravity, work of the tools. 1 where energy is kept; nothing put in counts as 1e-9 of the sum of k1 L^2.
+  /// work of gravity, and of the tools, which counts as put in whatever its sign. 1 where energy is kept; nothing put in counts as 1e-9 of the sum of k1 L^2.
   double growth = 0;
   std::int64_t restored = 0;  // times that the guard acted
   std::string diagnosis;      // why the scene stopped; "none" while it did not

@@ -1,4 +1,4 @@
-#include "bench/kernel/cube.h"
+#include "bench/problems/cube.h"
 
 #include <cmath>
 #include <random>
@@ -51,7 +51,7 @@ Cube make_cube(const CubeKind& kind) {
   spec.fixed_faces[4] = true;  // -z
   physics::Body body = physics::build_body(spec, tissue(kind.work));
   Cube cube;
-  cube.stable_step = physics::stable_step(body);
+  cube.stable_step = physics::stable_step(physics::stiffest_mode(body), Integrator::symplectic_euler);
   cube.step = 0.5 * cube.stable_step;
   cube.body = physics::make_moving_body(std::move(body), kind.precision);
   return cube;

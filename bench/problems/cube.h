@@ -41,8 +41,7 @@ void set_moving(const CubeKind& kind, Cube& cube, int threads);
 
 /// All that a step of a body without contact does, without weight.
 inline void step(Cube& cube, int threads) noexcept {
-  cube.body->element_forces_and_integrate(cube.step, Vec3::Zero(), threads);
-  if (cube.body->body().law.yields) cube.body->yield_and_break(threads);
+  cube.body->element_forces_and_integrate({.dt = cube.step, .threads = threads});
 }
 
 }  // namespace palpate::bench

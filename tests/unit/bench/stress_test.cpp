@@ -1,0 +1,47 @@
+// Abuse from a seed is the same abuse every time, and its results survive the way through a file.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "bench/problems/settings.h"
+#include "bench/stress/stress_run.h"
+
+namespace palpate::bench {
+namespace {
+
+TEST(Stress, RepeatsASeed) {
+  const StressResult first = run_stress(3), again = run_stress(3);
+  EXPECT_EQ(first.growth, again.growth);
+  EXPECT_EQ(first.steps, again.steps);
+  EXPECT_EQ(first.masses, again.masses);
+}
+
+TEST(Stress, ComesInAllKinds) {
+  std::set<std::string> kinds;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const StressScene stress = random_scene(seed);
+    kinds.insert(name_of(stress.scene.physics.integrator));
+    kinds.insert(name_of(stress.scene.physics.precision));
+    kinds.insert(start_names[static_cast<int>(stress.start)]);
+    kinds.insert(stress.scene.bodies[0].lattice == LatticeKind::fcc ? "fcc" : "voxel");
+    kinds.insert(stress.tool_force > 0 ? "tool" : "no tool");
+    kinds.insert(stress.scene.materials[0].yield_ratio ? "yields" : "elastic");
+    const physics::World world(stress.scene);
+    EXPECT_GT(world.body(0).body().lattice.n_masses(), 20) << describe(stress);
+    EXPECT_LT(world.body(0).body().lattice.n_masses(), 5000) << describe(stress);
+  }
+  EXPECT_EQ(kinds.size(), 3u + 2u + 5u + 2u + 2u + 2u) << fmt::format("{}", kinds);
+}
+
+TEST(Stress, ResultsSurviveTheirFile) {
+  const StressResult result = run_stress(5);
+  StressResult read;
+  ASSERT_TRUE(parse(fmt::format("{}", fmt::join(words(result), ",")), read));
+  EXPECT_EQ(words(read), words(result));
+  EXPECT_FALSE(parse("5,symplectic_euler,fcc", read)) << "a line that a crash cut short";
+}
+
+}  // namespace
+}  // namespace palpate::bench
