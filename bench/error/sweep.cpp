@@ -45,14 +45,14 @@ std::vector<ObservedOrder> observed_orders(const std::vector<SweepRow>& rows) {
   for (const Problem& problem : problems()) {
     if (!problem.smooth) continue;
     for (const Integrator integrator : integrators) {
-      std::vector<std::pair<double, double>> points;  // step, error
+      std::vector<std::pair<double, double>> points;  // step relative to the whole time, error
       for (const auto& row : rows)
         if (row.problem == problem.name && row.settings.integrator == integrator &&
             row.settings.precision == Precision::double_ && row.settings.threads == 1 &&
             row.outcome.error > 1e-11)
-          points.emplace_back(row.settings.step, row.outcome.error);
+          points.emplace_back(1.0 / static_cast<double>(row.outcome.steps), row.outcome.error);
       std::sort(points.begin(), points.end());
-      if (points.size() < 2) continue;
+      if (points.size() < 2 || points[1].first <= points[0].first) continue;
       orders.push_back(
           {problem.name, integrator,
            std::log(points[1].second / points[0].second) / std::log(points[1].first / points[0].first)});

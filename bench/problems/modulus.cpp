@@ -1,13 +1,15 @@
 // A hanging bar, `cells` cubic cells wide and twice as long, stretched by its weight: its Young's modulus, half a width
 // above its free end, where it does not feel how it is held.
 //
-//   inside    E = s_zz / e_zz there, in the middle half of the section: s from the elements of the masses there,
-//             s_ab = (1 / 2V) sum over masses and their elements of f l n_a n_b;  e_zz from a straight line through u_z(z)
+//   inside    from stress and strain of the middle half of the section there, all three ways:
+//             s_aa = (1 / V) sum over masses and half their elements of f l n_a n_a;  e_aa from a straight line through u_a(x_a)
+//             e_zz = s_zz / E - (nu / E) (s_xx + s_yy),   e_xx = s_xx / E - (nu / E) (s_yy + s_zz),  both solved for E
 //   outside   E = (weight below) / (nominal section x e_zz)
 //
-// Surface masses have half the neighbours but whole elements between them, so the outside one feels the surface layer
-// directly, the inside one only through the bar's contraction. Both err with the first power of the spacing.
+// Surface masses have fewer neighbours but whole elements between them, so a surface layer is stiffer or softer than the
+// section that it counts for: the outside one errs with the first power of the spacing.
 
+#include <Eigen/Dense>
 #include <cmath>
 #include <numbers>
 
@@ -20,26 +22,37 @@ namespace {
 using physics::Index;
 
 struct Middle {
-  double stress = 0;  // sum of f l n_z n_z over all elements of the masses here
-  double n = 0, z = 0, zz = 0, u = 0, zu = 0;
-  double weight_below = 0;  // [kg]
+  double n = 0;                                                                   // masses
+  Vec3 x = Vec3::Zero(), xx = Vec3::Zero(), u = Vec3::Zero(), xu = Vec3::Zero();  // sums, by axis
+  Vec3 virial = Vec3::Zero();                                                     // of f l n_a n_a [J]
+  double weight_below = 0;                                                        // [kg]
+
+  Vec3 strain() const { return (n * xu - x.cwiseProduct(u)).cwiseQuotient(n * xx - x.cwiseProduct(x)); }
 };
 
-/// f l n_z n_z of all elements of a mass, half of each belonging to it.
-double axial_virial(const physics::Body& body, const std::vector<Index>& number, const Eigen::Matrix3Xd& u,
-                    Index cell) {
+/// f l n_a n_a of all elements of a mass, half of each belonging to it.
+Vec3 virial(const physics::Body& body, const std::vector<Index>& number, const Eigen::Matrix3Xd& u,
+            Index cell) {
   const physics::Lattice& lattice = body.lattice;
+  const auto& offset = lattice.offset[static_cast<std::size_t>(lattice.row_kind(cell))];
   const auto half = static_cast<std::size_t>(lattice.n_half);
-  double sum = 0;
+  Vec3 sum = Vec3::Zero();
   for (std::size_t d = 0; d < 2 * half; ++d) {
     if ((lattice.mask[static_cast<std::size_t>(cell)] >> d & 1U) == 0) continue;
-    const Index other = cell + lattice.offset[static_cast<std::size_t>(lattice.row_kind(cell))][d];
-    const Vec3 x = lattice.rest_vector[d] + u.col(number[static_cast<std::size_t>(other)]) -
+    const Vec3 x = lattice.rest_vector[d] + u.col(number[static_cast<std::size_t>(cell + offset[d])]) -
                    u.col(number[static_cast<std::size_t>(cell)]);
     const double l = x.norm();
-    sum += 0.5 * body.law.k1[d % half] * (l - lattice.rest_length[d]) * x.z() * x.z() / l;
+    sum += 0.5 * body.law.k1[d % half] * (l - lattice.rest_length[d]) / l * x.cwiseAbs2();
   }
   return sum;
+}
+
+/// Young's modulus of which this is a state, loaded along z.
+double young(const Vec3& stress, const Vec3& strain) {
+  const double s = 0.5 * (stress.x() + stress.y()), e = 0.5 * (strain.x() + strain.y());
+  Eigen::Matrix2d compliance;  // of 1 / E and nu / E
+  compliance << stress.z(), -2 * s, s, -(s + stress.z());
+  return 1 / compliance.inverse().row(0).dot(Eigen::Vector2d(strain.z(), e));
 }
 
 /// 1 for a mass within `reach` cells of the middle, a half on each face of that cube: whole cells, so that the two kinds of
@@ -82,15 +95,15 @@ Modulus bar_modulus(LatticeKind lattice_kind, int cells) {
     if (std::abs(p.z() - z_m) < 1e-6 * H) middle.weight_below += 0.5 * body.law.mass;
     const double w = weight((p - Vec3(width / 2, width / 2, z_m)) / cell, reach);
     if (w == 0) continue;
-    const double u_z = u(2, number[static_cast<std::size_t>(mass)]);
-    middle.stress += w * axial_virial(body, number, u, mass);
-    middle.n += w, middle.z += w * p.z(), middle.zz += w * p.z() * p.z();
-    middle.u += w * u_z, middle.zu += w * p.z() * u_z;
+    const Vec3 displacement = u.col(number[static_cast<std::size_t>(mass)]);
+    middle.virial += w * virial(body, number, u, mass);
+    middle.n += w, middle.x += w * p, middle.xx += w * p.cwiseAbs2();
+    middle.u += w * displacement, middle.xu += w * p.cwiseProduct(displacement);
   }
-  const double strain =
-      (middle.n * middle.zu - middle.z * middle.u) / (middle.n * middle.zz - middle.z * middle.z);
-  const double stress = middle.stress / (middle.n * physics::volume_per_mass(body.lattice));
-  return {stress / strain / E, middle.weight_below * gravity.norm() / (width * width * strain) / E, count};
+  const Vec3 strain = middle.strain();
+  const Vec3 stress = middle.virial / (middle.n * physics::volume_per_mass(body.lattice));
+  const double outside = middle.weight_below * gravity.norm() / (width * width * strain.z());
+  return {young(stress, strain) / E, outside / E, count};
 }
 
 }  // namespace palpate::bench

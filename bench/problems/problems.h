@@ -23,7 +23,7 @@ Outcome chain_wave(const Settings& settings, int n, int mode);
 Outcome bar_stretch(const Settings& settings, LatticeKind lattice);
 /// Young's modulus of the lattice, from stress and strain in the middle of a hanging bar `cells` wide.        modulus.cpp
 struct Modulus {
-  double inside = 0;   // stress over strain in the middle of the bar, relative to the modulus asked for
+  double inside = 0;   // from stress and strain in the middle of the bar, relative to the modulus asked for
   double outside = 0;  // weight below the middle over nominal section and strain, relative to the same
   std::int64_t masses = 0;
 };
