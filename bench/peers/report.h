@@ -1,0 +1,34 @@
+#pragma once
+// Tables, files and words about what was measured.
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "bench/machine/result_folder.h"
+#include "bench/peers/measure.h"
+
+namespace palpate::bench {
+
+struct Results {
+  DropResult drop;
+  std::vector<Point> steps;
+  std::vector<Agreement> agreement;
+};
+
+/// CPU time of a peer over that of palpate at equal error.
+struct Ratio {
+  std::string peer;       // and method
+  std::string precision;  // of palpate
+  double error = 0;
+  bool at_best = false;                     // the error is the smallest that the peer reaches
+  std::optional<double> peer_s, palpate_s;  // nothing: never reaches
+};
+
+/// At fixed errors and at the best error of each peer. palpate is the faster of its integrators, on one thread.
+std::vector<Ratio> ratios_at_equal_error(const DropResult& drop);
+
+Table table_of(const Results& results);
+nlohmann::json json_of(const Results& results, const std::vector<Peer>& peers);
+void print(const Results& results, const std::vector<Peer>& peers);
+
+}  // namespace palpate::bench
