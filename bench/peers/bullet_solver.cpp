@@ -37,7 +37,7 @@ class BulletSolver final : public Solver {
                1,
                Scheme::symplectic_euler,
                sweeps == 1 ? 290.0 : 620.0,
-               {1, 2, 4, 8, 16},
+               {1, 2, 4, 8},
                1 << 30};
   }
   const Method& method() const override { return method_; }

@@ -31,7 +31,7 @@ class LammpsSolver final : public Solver {
  public:
   LammpsSolver(fs::path lmp, fs::path mpirun, int ranks) : lmp_(std::move(lmp)), mpirun_(std::move(mpirun)) {
     method_ = {"LAMMPS", "velocity Verlet", "double", ranks, Scheme::leapfrog, 70, {}, 1 << 30};
-    if (ranks == 1) method_.drop_steps = {2, 3, 4, 6, 8, 12, 16, 24, 32};
+    if (ranks == 1) method_.drop_steps = {2, 3, 4, 6, 8, 12, 16};
   }
   const Method& method() const override { return method_; }
 

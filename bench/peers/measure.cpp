@@ -50,7 +50,8 @@ std::vector<Vec3> must_run(Solver& solver, const Task& task) {
 }  // namespace
 
 std::string Method::label() const {
-  return fmt::format("{} {}, {}, {} thread{}", peer, name, precision, threads, threads == 1 ? "" : "s");
+  return fmt::format("{} {}, {}, {} thread{}", peer, name, precision == "single" ? "float" : precision,
+                     threads, threads == 1 ? "" : "s");
 }
 
 double relative_difference(const std::vector<Vec3>& x, const std::vector<Vec3>& reference) {

@@ -15,13 +15,13 @@ struct Results {
   std::vector<Agreement> agreement;
 };
 
-/// CPU time of a peer over that of palpate at equal error.
+/// CPU time at equal error; nothing where that error is never reached.
 struct Ratio {
-  std::string peer;       // and method
-  std::string precision;  // of palpate
+  std::string peer;  // and method
   double error = 0;
-  bool at_best = false;                     // the error is the smallest that the peer reaches
-  std::optional<double> peer_s, palpate_s;  // nothing: never reaches
+  bool at_best = false;  // the error is the smallest that the peer reaches
+  std::optional<double> peer_s;
+  std::optional<double> single_s, double_s;  // of palpate
 };
 
 /// At fixed errors and at the best error of each peer. palpate is the faster of its integrators, on one thread.
