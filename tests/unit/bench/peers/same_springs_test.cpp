@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -38,7 +39,7 @@ std::vector<Vec3> plain_verlet(const SpringBody& body, double dt, int steps) {
 TEST(SameSprings, APlainLoopOverTheArraysMovesAsPalpateDoes) {
   const Drop drop = make_drop(200);
   const Task task{&drop, 30, 4, true};
-  const Run ours = palpate_reference(Scheme::leapfrog)->run(task);
+  const palpate::bench::Run ours = palpate_reference(Scheme::leapfrog)->run(task);
   ASSERT_TRUE(ours.sound);
   EXPECT_LT(relative_difference(plain_verlet(drop.body, task.dt(), task.steps()), ours.displacement), 1e-11);
 }
