@@ -13,8 +13,10 @@ double SpringBody::longest() const {
 }
 
 SpringBody spring_body(const physics::Body& body, const Vec3& gravity) {
-  PALPATE_CHECK(!body.law.damped && !body.law.yields, "peers are given elastic springs only");
+  PALPATE_CHECK(body.law_of.empty() && !body.law.damped && body.law.drag == 0 && !body.law.yields,
+                "peers are given elastic springs of one material only");
   const physics::Lattice& lattice = body.lattice;
+  const std::vector<physics::Vec3i> half = physics::half_directions(lattice.kind);
   SpringBody springs;
   springs.gravity = gravity;
   springs.mass = body.law.mass;
@@ -26,10 +28,10 @@ SpringBody spring_body(const physics::Body& body, const Vec3& gravity) {
   }
   for (const physics::Index cell : lattice.masses) {
     const auto i = static_cast<std::size_t>(cell);
-    const auto parity = static_cast<std::size_t>(lattice.row_parity(cell));
-    for (std::size_t d = 0; d < static_cast<std::size_t>(lattice.n_half); ++d) {
+    const physics::Vec3i grid = lattice.grid_of(cell);
+    for (std::size_t d = 0; d < half.size(); ++d) {
       if (((lattice.mask[i] >> d) & 1) == 0) continue;
-      const std::size_t j = number[static_cast<std::size_t>(cell + lattice.offset[parity][d])];
+      const std::size_t j = number[static_cast<std::size_t>(lattice.mass_at(grid + half[d]))];
       if (springs.held[number[i]] != 0 && springs.held[j] != 0) continue;
       springs.springs.push_back({number[i], j, body.law.k1[d], lattice.rest_length[d]});
     }
