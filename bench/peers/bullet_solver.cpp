@@ -74,15 +74,15 @@ class BulletSolver final : public Solver {
 }  // namespace
 
 Peer bullet_peer() {
-  Peer peer{
-      "Bullet",
-      std::to_string(btGetVersion() / 100) + "." + std::to_string(btGetVersion() % 100),
-      "libbullet-dev",
-      "Links are solved by position, sweep after sweep, with a force law that is ours to first order in the "
-      "stretch only, and Bullet keeps a tree of boxes for collisions that it cannot be told to leave out; "
-      "its "
-      "explicit springs are our law, in a solver made for implicit steps and contact.",
-      {}};
+  Peer peer{"Bullet",
+            std::to_string(btGetVersion() / 100) + "." + std::to_string(btGetVersion() % 100),
+            "libbullet-dev",
+            "Links are solved by position, sweep after sweep; their law is ours to first order in the "
+            "stretch only, and velocities are differences of rounded positions, so that ever smaller "
+            "steps do not help. Bullet keeps a tree of boxes for collisions that it cannot be told to "
+            "leave out. Its explicit springs are our law, in a solver made for implicit steps and "
+            "contact.",
+            {}};
   peer.solvers.push_back(std::make_unique<BulletSolver>(1));
   peer.solvers.push_back(std::make_unique<BulletSolver>(4));
   peer.solvers.push_back(bullet_deformable());
