@@ -81,7 +81,7 @@ void print(const Results& results, const std::vector<Peer>& peers) {
   print_steps(results.steps);
   fmt::print("\nNot equal work\n");
   for (const Peer& peer : peers)
-    if (!peer.not_equal.empty()) fmt::print("  {} {}: {}\n", peer.name, peer.version, peer.not_equal);
+    if (!peer.version.empty()) fmt::print("  {} {}: {}\n", peer.name, peer.version, peer.not_equal);
   fmt::print("  No damper anywhere: LAMMPS has none along a bond, and Bullet's links damp by another law.\n");
 }
 
