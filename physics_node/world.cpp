@@ -17,6 +17,7 @@ namespace {
 constexpr Index masses_worth_a_team = 20000;  // below, waking a second thread costs more than it brings
 constexpr std::int64_t frames_between_saves = 50;
 constexpr double largest_growth = 2;          // of the energy that was ever put in, before the guard acts
+constexpr double most_stored = 1.5;           // of it, in the elements of a state worth keeping
 constexpr double negligible_energy = 1e-12;   // [J]
 constexpr int most_recoveries = 6;            // each halves the step
 
@@ -128,8 +129,13 @@ void World::implicit_step(double dt, bool watch) noexcept {
     for (auto& body : bodies_) body->bounce_off_floor(scene_.floor->height);
   ++report_[Stage::element_forces].skipped;  // part of the solution
   ++report_[Stage::contact_forces].skipped;
-  ++report_[Stage::yield_and_break].skipped;
+  count_yield_and_break();
   ++report_.steps;
+}
+
+void World::count_yield_and_break() noexcept {
+  StageTime& time = report_[Stage::yield_and_break];  // its time is that of the pass over the elements
+  ++(any_yields_ ? time.calls : time.skipped);
 }
 
 std::span<const NodalForce> World::gathered(std::size_t body) noexcept {
@@ -161,8 +167,8 @@ void World::step(double dt, bool watch) noexcept {
   } else {
     ++report_[Stage::contact_forces].skipped;
   }
-  ++report_[Stage::integrate].skipped;        // fused with the forces
-  ++report_[Stage::yield_and_break].skipped;  // likewise
+  ++report_[Stage::integrate].skipped;  // fused with the forces
+  count_yield_and_break();
   ++report_.steps;
 }
 
@@ -194,7 +200,13 @@ void World::guard() noexcept {
       if (bodies_[b]->watch().speed > bodies_[fastest]->watch().speed) fastest = b;
     return recover(fastest);
   }
-  if (report_.frames % frames_between_saves == 0) save_all();
+  if (report_.frames % frames_between_saves == 0) save_if_sound();
+}
+
+void World::save_if_sound() noexcept {
+  // What has been stored in the elements would come out as motion after a restore: a state on its way to blow up, whose
+  // motion is still below the bound, must not become the last good one.
+  if (sum_energies(bodies_, scene_.gravity).elastic <= most_stored * energy_put_in() + negligible_energy) save_all();
 }
 
 void World::recover(std::size_t culprit) noexcept {

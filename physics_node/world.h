@@ -49,6 +49,7 @@ class World {
   void restart_ledger();
   /// Why the scene was given up, if it was: then frames no longer move anything, and the state is the last good one.
   std::optional<std::string> stopped() const;
+  bool has_stopped() const noexcept { return given_up_.has_value(); }
   /// What a person should know about this scene: one line each.
   const std::vector<std::string>& remarks() const { return remarks_; }
 
@@ -58,6 +59,8 @@ class World {
   std::span<const NodalForce> gathered(std::size_t body) noexcept;  // forces of all tools on a body
   void guard() noexcept;
   void save_all() noexcept;
+  void save_if_sound() noexcept;
+  void count_yield_and_break() noexcept;
   /// Back to the last good state, with half the step; gives up after the step has been halved too often.
   void recover(std::size_t culprit) noexcept;
   double energy_put_in() const noexcept;

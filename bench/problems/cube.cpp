@@ -8,6 +8,8 @@
 namespace palpate::bench {
 namespace {
 
+constexpr double yielding_ratio = 1.0001;
+
 MaterialSpec tissue(Work work) {
   MaterialSpec material;
   material.name = "tissue";
@@ -16,7 +18,7 @@ MaterialSpec tissue(Work work) {
   if (work == Work::damped) material.viscosity_bulk = 5;
   if (work == Work::plastic) material.k2_ratio = 0.2, material.yield_ratio = 1.5, material.break_ratio = 3;
   if (work == Work::yielding)
-    material.k2_ratio = 0.01, material.yield_ratio = 1.0001, material.break_ratio = 10;
+    material.k2_ratio = 0.01, material.yield_ratio = yielding_ratio, material.break_ratio = 10;
   return material;
 }
 
@@ -64,8 +66,11 @@ void set_moving(const CubeKind& kind, Cube& cube, int threads) {
   constexpr double expansion = 0.02;  // [1/s]: 1 % of a millimetre in a hundred steps
   for (const physics::Index cell : cube.body->body().lattice.masses) {
     const Vec3 shake = 0.01 * Vec3(dice(), dice(), dice());
-    const Vec3 grow = expansion * cube.body->body().lattice.rest_position(cell);
-    cube.body->place(cell, Vec3::Zero(), kind.work == Work::yielding ? grow : shake);
+    const Vec3 rest = cube.body->body().lattice.rest_position(cell);
+    if (kind.work == Work::yielding)
+      cube.body->place(cell, 2 * (yielding_ratio - 1) * rest, expansion * rest);
+    else
+      cube.body->place(cell, Vec3::Zero(), shake);
   }
   for (int n = 0; n < 10; ++n) step(cube, threads);
 }

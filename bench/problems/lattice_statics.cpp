@@ -129,6 +129,9 @@ class Statics {
   Eigen::VectorXd step() {
     Sparse K(3 * n_free_, 3 * n_free_);
     K.setFromTriplets(triplets_.begin(), triplets_.end());
+    // A single element resists only along itself; so little across it changes the path of the iteration, not its end.
+    const double little = 1e-12 * K.diagonal().maxCoeff();
+    K.diagonal().array() += little;
     if (!analysed_) cholesky_.analyzePattern(K), analysed_ = true;
     cholesky_.factorize(K);
     PALPATE_CHECK(cholesky_.info() == Eigen::Success, "the lattice is not held enough to be in equilibrium");

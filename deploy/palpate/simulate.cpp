@@ -46,6 +46,7 @@ int simulate(SimulateOptions options) {
   install_stop_handlers();
 
   VirtualSession session(scene, {out, options.device, !options.no_pictures});
+  for (const auto& remark : session.remarks()) fmt::print(stderr, "palpate: {}\n", remark);
   session.run(seconds, [&](double t) { show_progress(t, seconds); });
   const nlohmann::json summary = session.finish();
   write_json((out / "summary.json").string(), summary);
@@ -57,7 +58,9 @@ int simulate(SimulateOptions options) {
   fmt::print("summary  {}\n", (out / "summary.json").string());
   if (std::filesystem::exists(out / "force.png")) fmt::print("plot     {}\n", (out / "force.png").string());
   if (!options.no_pictures) fmt::print("pictures {}\n", (out / "frames").string());
-  return exit_ok;
+  if (!summary["guard"].contains("stopped")) return exit_ok;
+  fmt::print(stderr, "palpate: {}\n", summary["guard"]["stopped"].get<std::string>());
+  return exit_failed;
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ void VirtualSession::run(double seconds, const std::function<void(double)>& prog
   const auto picture_every = std::max<std::int64_t>(
       1, static_cast<std::int64_t>(1 / (scene_.render.rate_Hz * world_.frame_seconds()) + 0.5));
   tell_hands();
-  for (std::int64_t f = 0; f < n_frames && !stop_requested(); ++f) {
+  for (std::int64_t f = 0; f < n_frames && !stop_requested() && !world_.has_stopped(); ++f) {
     tick_hands(now_ns_ + frame_ns);
     world_.frame(states_);
     tell_hands();

@@ -28,7 +28,10 @@ class VirtualSession {
   /// @throws InputError
   VirtualSession(const Scene& scene, const VirtualOptions& options);
 
-  /// Simulates until `seconds`, or until a signal comes. `progress` is called now and then with the time reached.
+  /// What a person should know about this scene: one line each.
+  const std::vector<std::string>& remarks() const { return world_.remarks(); }
+
+  /// Simulates until `seconds`, until a signal comes, or until the world has to give up. `progress` is called now and then with the time reached.
   void run(double seconds, const std::function<void(double t)>& progress);
 
   /// Closes the files. @return the summary of this run

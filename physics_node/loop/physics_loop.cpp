@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "common/error/error.h"
 #include "common/process/stop_flag.h"
 #include "common/report/json_file.h"
 #include "common/report/log.h"
@@ -156,6 +157,7 @@ int PhysicsLoop::run() {
     take_commands();
     take_tools();
     if (!paused_) world_->frame(fresh_);
+    if (world_->has_stopped()) break;  // no answer is better than one from a world that stands still
     publish_hand();
     if (recorder_ && !paused_) recorder_->frame(*world_);
     const std::int64_t now = now_ns();
@@ -169,11 +171,13 @@ int PhysicsLoop::run() {
     }
   }
   leave();
-  return 0;
+  if (!world_->has_stopped()) return 0;
+  log_error("{}", *world_->stopped());
+  return exit_failed;
 }
 
 void PhysicsLoop::leave() {
-  publish_status(NodePhase::stopping);
+  publish_status(world_->has_stopped() ? NodePhase::failed : NodePhase::stopping);
   const double wall = seconds_from_ns(now_ns() - start_ns_);
   if (!recorder_) return;
   recorder_->finish();

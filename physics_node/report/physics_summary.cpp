@@ -96,6 +96,7 @@ nlohmann::json physics_summary(const World& world, const Recorder* recorder, dou
                    {"halved", world.report().halved},
                    {"unsolved", world.report().unsolved},
                    {"warnings", world.report().warnings + static_cast<std::int64_t>(world.remarks().size())}};
+  if (const auto why = world.stopped()) part["guard"]["stopped"] = *why;
   for (std::size_t n = 0; recorder != nullptr && n < scene.tools.size(); ++n) {
     part["tools"][scene.tools[n].name] = {{"contacts_max", recorder->contacts_max(n)},
                                           {"force_peak", recorder->force_peak(n)},

@@ -14,7 +14,7 @@ enum class Stage : std::size_t {
   element_forces,  // forces of all elements, yield, break and motion, in the same pass
   contact_forces,
   integrate,        // what is left to integrate after the pass: nothing but with backward_euler
-  yield_and_break,  // what is left of it after the pass: nothing
+  yield_and_break,  // in the same pass, without a time of its own; skipped where no material yields
   guard_finite,
   publish,
 };

@@ -89,9 +89,10 @@ TEST(Appearance, LeavesABodyAtRestAlone) {
 
 TEST(Appearance, ShowsWhatHasYieldedAndBroken) {
   Recipe recipe;
-  recipe.body = "velocity_m_per_s = [0, 0, -3]";
-  recipe.material += "\nyield_ratio = 1.01\nbreak_ratio = 1.05";
+  recipe.body = "velocity_m_per_s = [0, 0, -1]";
+  recipe.material += "\nyield_ratio = 1.01\nbreak_ratio = 1.15";
   recipe.world = floor_at(-21);
+  recipe.physics = "safety = 0.3";
   World world(scene_of(recipe));
   Appearance appearance(world, std::nullopt);
   appearance.write_surfaces([](const BodySurface&) {});
