@@ -16,8 +16,10 @@ namespace {
 
 constexpr Index masses_worth_a_team = 20000;  // below, waking a second thread costs more than it brings
 constexpr std::int64_t frames_between_saves = 50;
-constexpr double largest_growth = 2;          // of the energy that was ever put in, before the guard acts
-constexpr double most_stored = 1.5;           // of it, in the elements of a state worth keeping
+// Kinetic and elastic energy over what was ever put in. A sound step lets them swing: with symplectic Euler by
+// 1 / (1 - w dt / 2), more than this only for waves of a few cells at steps near the stable one.
+constexpr double largest_growth = 4;  // before the guard acts
+constexpr double sound_growth = 2;    // between two saves, for the first of them to be good
 constexpr double negligible_energy = 1e-12;   // [J]
 constexpr int most_recoveries = 6;            // each halves the step
 
@@ -92,7 +94,8 @@ void World::restart_ledger() {
   start_work_ = report_.tool_work;
   start_exchange_ = report_.tool_exchange;
   guard_energy_ = 0;
-  save_all();
+  save_all(false);
+  save_all(true);
 }
 
 EnergyLedger World::ledger() const {
@@ -119,8 +122,7 @@ void World::implicit_step(double dt, bool watch) noexcept {
   const ExplicitStep how{dt, scene_.gravity, threads_, false, watch};
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const ImplicitReport solved = bodies_[b]->implicit_step(how, gathered(b));
-    report_.tool_work += solved.work;
-    report_.tool_exchange += std::abs(solved.work);
+    book_work(solved.work);
     report_.newton_iterations += solved.newton_iterations;
     report_.cg_iterations += solved.cg_iterations;
     if (!solved.converged) ++report_.unsolved;
@@ -131,6 +133,15 @@ void World::implicit_step(double dt, bool watch) noexcept {
   ++report_[Stage::contact_forces].skipped;
   count_yield_and_break();
   ++report_.steps;
+}
+
+void World::book_work(double work) noexcept {
+  if (!std::isfinite(work)) {
+    unusable_work_ = true;  // what it moved is not finite either
+    return;
+  }
+  report_.tool_work += work;
+  report_.tool_exchange += std::abs(work);
 }
 
 void World::count_yield_and_break() noexcept {
@@ -158,9 +169,7 @@ void World::step(double dt, bool watch) noexcept {
     const StageTimer timer(report_, Stage::contact_forces);
     for (const auto& tool : tools_) {
       if (tool.forces().empty()) continue;
-      const double work = bodies_[tool.touched_body()]->kick(tool.forces(), dt);
-      report_.tool_work += work;
-      report_.tool_exchange += std::abs(work);
+      book_work(bodies_[tool.touched_body()]->kick(tool.forces(), dt));
     }
     if (scene_.floor)
       for (auto& body : bodies_) body->bounce_off_floor(scene_.floor->height);
@@ -172,8 +181,9 @@ void World::step(double dt, bool watch) noexcept {
   ++report_.steps;
 }
 
-void World::save_all() noexcept {
-  for (auto& body : bodies_) body->save();
+void World::save_all(bool good) noexcept {
+  for (auto& body : bodies_) body->save(good);
+  sound_ = true;
 }
 
 double World::energy_put_in() const noexcept {
@@ -185,28 +195,26 @@ double World::energy_put_in() const noexcept {
 
 void World::guard() noexcept {
   const StageTimer timer(report_, Stage::guard_finite);
-  double kinetic = 0;
+  double energy = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (!bodies_[b]->is_finite()) {
+    const Watch watch = bodies_[b]->watch();
+    if (!watch.is_finite() || unusable_work_) {
       ++report_.nonfinite;
+      unusable_work_ = false;
       return recover(b);
     }
-    kinetic += bodies_[b]->watch().kinetic;
+    energy += watch.energy();
   }
-  if (!(kinetic <= largest_growth * energy_put_in() + negligible_energy)) {
+  const double put_in = energy_put_in();
+  if (!(energy <= largest_growth * put_in + negligible_energy)) {
     ++report_.grown;
     std::size_t fastest = 0;
     for (std::size_t b = 1; b < bodies_.size(); ++b)
       if (bodies_[b]->watch().speed > bodies_[fastest]->watch().speed) fastest = b;
     return recover(fastest);
   }
-  if (report_.frames % frames_between_saves == 0) save_if_sound();
-}
-
-void World::save_if_sound() noexcept {
-  // What has been stored in the elements would come out as motion after a restore: a state on its way to blow up, whose
-  // motion is still below the bound, must not become the last good one.
-  if (sum_energies(bodies_, scene_.gravity).elastic <= most_stored * energy_put_in() + negligible_energy) save_all();
+  sound_ = sound_ && energy <= sound_growth * put_in + negligible_energy;
+  if (report_.frames % frames_between_saves == frames_between_saves - 1) save_all(sound_);
 }
 
 void World::recover(std::size_t culprit) noexcept {

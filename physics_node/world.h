@@ -58,8 +58,8 @@ class World {
   void implicit_step(double dt, bool watch) noexcept;
   std::span<const NodalForce> gathered(std::size_t body) noexcept;  // forces of all tools on a body
   void guard() noexcept;
-  void save_all() noexcept;
-  void save_if_sound() noexcept;
+  void save_all(bool good) noexcept;
+  void book_work(double work) noexcept;
   void count_yield_and_break() noexcept;
   /// Back to the last good state, with half the step; gives up after the step has been halved too often.
   void recover(std::size_t culprit) noexcept;
@@ -85,6 +85,8 @@ class World {
   double start_exchange_ = 0;
   double guard_energy_ = 0;  // taken out by the guard [J]
   int recoveries_ = 0;       // since the step was last chosen
+  bool sound_ = true;                    // no growth since the last save
+  bool unusable_work_ = false;           // a tool's work was not finite since the guard last looked
   std::optional<std::size_t> given_up_;  // the body that could not be stepped
 };
 

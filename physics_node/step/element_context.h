@@ -20,6 +20,7 @@ struct ElementSlot {
   Real L = 0, L2 = 0;  // its length, and that squared [m, m^2]
   Real least_q = 0;    // of l^2 - L^2 [m^2]
   Real k1 = 0, k2 = 0, c = 0;
+  Real half_over_k1 = 0;  // 1 / (2 k1)
   Real yield = 0;  // l - L at first yield [m]
   Real snap = 0;   // l - L at break [m]
 };
@@ -43,6 +44,8 @@ struct RowLedger {
   double acceleration2 = 0;  // largest of the row [m^2/s^4]
   double kinetic = 0;        // [J]
   double fallen = 0;         // energy that gravity has given, sum of m g . u [J]
+  double elastic = 0;        // of its elements, before the step [J]
+  double elastic_up = 0;     // part of it in elements to the next plane, where these are a sweep of their own [J]
 };
 
 enum class RowState : std::uint8_t {

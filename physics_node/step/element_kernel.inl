@@ -78,7 +78,7 @@ void step_row(const ElementContext<Real>& m, const RowSegment& row, const SlotLi
               RowState state, RowLedger& ledger) {
   using P = Pack<Real>;
   using V = typename P::V;
-  V viscous{};
+  V viscous{}, elastic{};
   Watched<Real> watched;
   // Whole packs only: the cells beyond a row's end are empty, and stepping an empty cell leaves it as it is.
   for (Index i = row.first; i < row.first + row.count; i += P::width) {
@@ -100,9 +100,15 @@ void step_row(const ElementContext<Real>& m, const RowSegment& row, const SlotLi
       move_masses<Real, verlet>(m, p, watched);
     }
     viscous += p.viscous;
+    elastic += p.elastic;
   }
   ledger.viscous += static_cast<double>(m.dt) * static_cast<double>(P::sum(viscous));
-  if (sweep == Sweep::up || !m.watch) return;
+  if (!m.watch) return;
+  if (sweep == Sweep::up) {
+    ledger.elastic_up = static_cast<double>(P::sum(elastic));
+    return;
+  }
+  ledger.elastic = static_cast<double>(P::sum(elastic)) + ledger.elastic_up;
   ledger.acceleration2 = static_cast<double>(P::largest(watched.acceleration2));
   if (state != RowState::awake) return;
   ledger.speed2 = static_cast<double>(P::largest(watched.speed2));

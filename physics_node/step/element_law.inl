@@ -20,6 +20,7 @@ struct Masses {
   typename Pack<Real>::I mask;
   V u[3], v[3], f[3];
   V viscous{};                 // power lost in dampers so far [W]
+  V elastic{};                 // energy so far, only where it is watched [J]
 };
 
 /// The pack's elements in one direction, at their present length.
@@ -92,6 +93,22 @@ inline __attribute__((always_inline)) typename Pack<Real>::V yielding_force(
   return force / at.l;
 }
 
+/// Energy f_s^2 / (2 k1) of the pack's elements, for the ledger.
+template <class Real, bool varied>
+inline __attribute__((always_inline)) void watch_elastic(const ElementContext<Real>& m, const ElementSlot<Real>& e,
+                                                         Masses<Real>& p, const Elements<Real>& at,
+                                                         typename Pack<Real>::I live,
+                                                         typename Pack<Real>::V static_over_l) {
+  using P = Pack<Real>;
+  if (!m.watch) return;
+  const auto f2 = static_over_l * static_over_l * at.l2;
+  if constexpr (varied) {
+    p.elastic += P::where(live, f2 / (P::all(Real(2)) * P::load(m.k1[e.half] + p.i + e.memory)));
+  } else {
+    p.elastic = P::fma_all(P::where(live, f2), e.half_over_k1, p.elastic);
+  }
+}
+
 /// Adds the forces of one kind of element at both of its ends.
 template <class Real, DamperKind damper, bool yields, bool varied>
 inline __attribute__((always_inline)) void add_elements(const ElementContext<Real>& m,
@@ -120,6 +137,7 @@ inline __attribute__((always_inline)) void add_elements(const ElementContext<Rea
     const V rate = P::fma(w[2], at.x[2], P::fma(w[1], at.x[1], w[0] * at.x[0]));  // l l'
     if constexpr (yields) {
       s = yielding_force<Real, varied>(m, e, p, at, live, ledger);
+      watch_elastic<Real, varied>(m, e, p, at, live, s);
       const V viscous = c * rate / at.l2;
       s += viscous;
       p.viscous += P::where(live, viscous * rate);
@@ -129,12 +147,16 @@ inline __attribute__((always_inline)) void add_elements(const ElementContext<Rea
       const V over = P::all(Real(1)) / (h * at.l2);
       const V viscous = c * rate * h;
       s = P::fma(k1 * at.q, at.l2, viscous) * over;
+      watch_elastic<Real, varied>(m, e, p, at, live, k1 * at.q * at.l2 * over);
       p.viscous = P::fma(P::where(live, viscous * over), rate, p.viscous);
     }
-  } else if constexpr (yields) {
-    s = yielding_force<Real, varied>(m, e, p, at, live, ledger);
   } else {
-    s = constant<Real, varied>(m.k1[e.half], e.k1, owner) * at.q / P::fma_all(at.l, e.L, at.l2);
+    if constexpr (yields) {
+      s = yielding_force<Real, varied>(m, e, p, at, live, ledger);
+    } else {
+      s = constant<Real, varied>(m.k1[e.half], e.k1, owner) * at.q / P::fma_all(at.l, e.L, at.l2);
+    }
+    watch_elastic<Real, varied>(m, e, p, at, live, s);
   }
   s = P::where(live, s);
   for (int a = 0; a < 3; ++a) {

@@ -32,6 +32,7 @@ ElementSlot<Real> make_slot(const Body& body, std::size_t kind, int direction) {
   slot.L2 = slot.L * slot.L;
   slot.least_q = slot.L2 * Real(-0.999999);
   slot.k1 = static_cast<Real>(body.law.k1[h]);
+  slot.half_over_k1 = static_cast<Real>(0.5 / body.law.k1[h]);
   slot.k2 = static_cast<Real>(body.law.k1[h] * body.law.k2_ratio);
   slot.c = static_cast<Real>(body.law.c[h]);
   const double never = std::numeric_limits<double>::infinity();

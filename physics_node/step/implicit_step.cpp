@@ -11,6 +11,7 @@ namespace {
 
 constexpr int most_newton = 12;
 constexpr int most_halvings = 5;
+constexpr int most_stalls = 3;   // iterations in a row that bring less than a third
 constexpr int most_cg = 400;
 constexpr double loose = 1e-3;   // of a linear system, relative to its right side
 constexpr double tight = 1e-10;  // of the residual, relative to the forces in play
@@ -168,7 +169,8 @@ ImplicitReport ImplicitStep<Real>::step(const Body& body, LatticeState<Real>& st
   double k = 0;
   for (const ElementLaw& law : body.laws) k = std::max(k, law.k1[0]);
   const double enough = tight * std::max(r, 1e-5 * k * body.lattice.rest_length[0]);
-  for (; report.newton_iterations < most_newton && r > enough; ++report.newton_iterations) {
+  int stalls = 0;
+  for (; report.newton_iterations < most_newton && stalls < most_stalls && r > enough; ++report.newton_iterations) {
     make_preconditioner(body, dt);
     report.cg_iterations += conjugate_gradients(body, dt, std::max(loose * r, 0.1 * enough));
     for (std::size_t a = 0; a < 3; ++a) for_cells(body, [&](std::size_t i) { trial_[a][i] = D_[a][i]; });
@@ -180,6 +182,7 @@ ImplicitReport ImplicitStep<Real>::step(const Body& body, LatticeState<Real>& st
       next = residual(body, state, dt, how.gravity, forces);
       if (next < r) break;
     }
+    stalls = next > 0.7 * r ? stalls + 1 : 0;
     r = next;
   }
   report.converged = r <= enough;

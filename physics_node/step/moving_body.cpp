@@ -17,7 +17,7 @@ template <class Real>
 class LatticeBody final : public MovingBody {
  public:
   LatticeBody(Body body, Integrator integrator)
-      : body_(std::move(body)), state_(body_), sleep_(body_), saved_(body_, state_) {
+      : body_(std::move(body)), state_(body_), sleep_(body_), saved_{{body_, state_}, {body_, state_}} {
     if (integrator == Integrator::velocity_verlet)
       for (auto& axis : state_.v_half) axis = ZeroedArray<Real>(n_cells());
     if (integrator == Integrator::backward_euler) implicit_ = std::make_unique<ImplicitStep<Real>>(body_);
@@ -98,6 +98,7 @@ class LatticeBody final : public MovingBody {
     Watch sum;
     for (const RowLedger& row : state_.ledger) {
       sum.kinetic += row.kinetic;
+      sum.elastic += row.elastic;
       sum.fallen += row.fallen;
       sum.speed = std::max(sum.speed, row.speed2);
     }
@@ -105,10 +106,14 @@ class LatticeBody final : public MovingBody {
     return sum;
   }
 
-  void save() noexcept override { saved_.take(body_, state_); }
+  void save(bool good) noexcept override {
+    if (good) good_ = 1 - good_;
+    saved_[1 - good_].take(body_, state_);
+  }
   void restore() noexcept override {
     sleep_.wake_all(body_, state_);
-    saved_.bring_back(body_, state_);
+    saved_[good_].bring_back(body_, state_);
+    save(false);
   }
 
   void reset() noexcept override {
@@ -118,7 +123,8 @@ class LatticeBody final : public MovingBody {
       for (std::size_t a = 0; a < 3; ++a)
         if (state_.v_half[a].size() > 0)
           state_.v_half[a][static_cast<std::size_t>(cell)] = state_.v[a][static_cast<std::size_t>(cell)];
-    save();
+    save(false);
+    save(true);
   }
 
   void place(Index cell, const Vec3& displacement, const Vec3& velocity) noexcept override {
@@ -181,7 +187,8 @@ class LatticeBody final : public MovingBody {
   Body body_;
   LatticeState<Real> state_;
   Sleep sleep_;
-  SavedState<Real> saved_;
+  SavedState<Real> saved_[2];
+  std::size_t good_ = 0;  // the other one is to prove itself
   std::unique_ptr<ImplicitStep<Real>> implicit_;  // only for backward_euler
 };
 

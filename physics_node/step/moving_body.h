@@ -1,6 +1,7 @@
 #pragma once
 // A body and its state behind one door, whatever the precision. Virtual calls are per body and stage, never per mass.
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -33,11 +34,15 @@ struct Losses {
   std::int64_t breaks = 0;   // elements
 };
 
-/// What the last watched step saw; cheap.
+/// What the last watched step saw; cheap. A number that is not finite anywhere in the body makes `energy()` not finite.
 struct Watch {
   double kinetic = 0;  // [J]
+  double elastic = 0;  // before the step [J]
   double fallen = 0;   // energy that gravity has given since the start [J]
   double speed = 0;    // of the fastest mass [m/s]
+
+  double energy() const { return kinetic + elastic; }
+  bool is_finite() const { return std::isfinite(kinetic + elastic + fallen); }
 };
 
 struct Momenta {
@@ -79,8 +84,10 @@ class MovingBody {
   // --- guard ---
   virtual bool is_finite() const noexcept = 0;
   virtual Watch watch() const noexcept = 0;
-  virtual void save() noexcept = 0;     // remembers the state
-  virtual void restore() noexcept = 0;  // goes back to what was saved, at rest
+  /// Remembers the state. Only the next call says whether it was good, since trouble shows later than it begins: `good`
+  /// makes the state of the last call the one to go back to.
+  virtual void save(bool good) noexcept = 0;
+  virtual void restore() noexcept = 0;  // goes back to the last good state, at rest
   virtual void reset() noexcept = 0;    // as loaded
   /// Puts one mass where a test, a benchmark or a tool wants it. A held mass stays.
   virtual void place(Index cell, const Vec3& displacement, const Vec3& velocity) noexcept = 0;

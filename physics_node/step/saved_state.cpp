@@ -1,6 +1,7 @@
 #include "physics_node/step/saved_state.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace palpate::physics {
 namespace {
@@ -52,7 +53,10 @@ void SavedState<Real>::bring_back(const Body& body, LatticeState<Real>& state) c
   }
   state.v_half_known = false;
   state.ledger = ledger_;
-  for (RowLedger& row : state.ledger) row.speed2 = row.acceleration2 = row.kinetic = 0;
+  for (RowLedger& row : state.ledger) {
+    row.speed2 = row.kinetic = 0;
+    row.acceleration2 = std::numeric_limits<double>::max();  // not known: nothing may sleep before the next look
+  }
   state.breaks = breaks_;
   if (!any_yields(body)) return;
   copy_rows(body, mask_, state.mask);

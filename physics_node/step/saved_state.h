@@ -1,5 +1,5 @@
 #pragma once
-// The last good state of a body, for the guard.
+// A state of a body to go back to, for the guard.
 
 #include <vector>
 

@@ -92,6 +92,8 @@ void Sleep::look(const Body& body, LatticeState<Real>& state, double seconds) no
     if (state.row_state[r] == RowState::awake) {
       const bool quiet = seen.speed2 < slow * slow && seen.acceleration2 < balanced * balanced;
       quiet_s_[r] = quiet ? quiet_s_[r] + static_cast<float>(seconds) : 0;
+      // What neither moves nor is pushed at all, as a body at its start, need not prove it.
+      if (seen.speed2 == 0 && seen.acceleration2 == 0) quiet_s_[r] = patience;
       if (quiet_s_[r] < patience) continue;
       const RowSegment& segment = body.lattice.rows[r];
       for (auto* three : {&state.v, &state.v_half})
