@@ -1,6 +1,7 @@
 #include "physics_node/step/sleep.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace palpate::physics {
 namespace {
@@ -48,10 +49,17 @@ Sleep::Sleep(const Body& body)
   beside_begin_.push_back(static_cast<Index>(beside_.size()));
 }
 
+/// What the row was last seen to do says nothing about what it will do now.
+template <class Real>
+void Sleep::disturb(LatticeState<Real>& state, std::size_t row) noexcept {
+  quiet_s_[row] = 0;
+  state.ledger[row].acceleration2 = std::numeric_limits<double>::max();
+}
+
 template <class Real>
 void Sleep::wake_row(const Body& body, LatticeState<Real>& state, Index row) noexcept {
   const auto r = static_cast<std::size_t>(row);
-  quiet_s_[r] = 0;
+  disturb(state, r);
   if (state.row_state[r] == RowState::awake) return;
   const RowSegment& segment = body.lattice.rows[r];
   for (auto& axis : state.f)
@@ -117,7 +125,7 @@ void Sleep::wake_cell(const Body& body, LatticeState<Real>& state, Index cell) n
   if (!any_asleep()) return;
   const auto r = static_cast<std::size_t>(row_of(body.lattice, cell));
   if (state.row_state[r] == RowState::awake) {
-    quiet_s_[r] = 0;
+    disturb(state, r);
     return;
   }
   wake_row(body, state, static_cast<Index>(r));

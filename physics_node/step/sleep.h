@@ -32,6 +32,8 @@ class Sleep {
 
  private:
   template <class Real>
+  void disturb(LatticeState<Real>& state, std::size_t row) noexcept;
+  template <class Real>
   void wake_row(const Body& body, LatticeState<Real>& state, Index row) noexcept;
   /// Tells rims from sleepers after rows have changed.
   template <class Real>
