@@ -14,7 +14,7 @@
 namespace palpate::physics {
 namespace {
 
-constexpr Index masses_worth_a_team = 20000;  // below, waking a second thread costs more than it brings
+constexpr Index masses_worth_a_team = 15000;  // below, waking a second thread brings little (palpate bench kernel)
 constexpr std::int64_t frames_between_saves = 50;
 // Kinetic and elastic energy over what was ever put in. A sound step lets them swing: with symplectic Euler by
 // 1 / (1 - w dt / 2), more than this only for waves of a few cells at steps near the stable one.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <map>
 #include <memory>
 
 #include "bench/kernel/kernel_results.h"
@@ -23,15 +24,22 @@ struct Options {
   bool quick = false, large = false;
 };
 
-/// Rows in the order of registration; Google Benchmark runs them one after the other, each several times.
+std::string name_of_row(const CubeKind& kind, int threads) {
+  return fmt::format("{}/{}/{}/{:.0f}/{}", kind.lattice == LatticeKind::fcc ? "fcc" : "voxel",
+                     name_of(kind.precision), name_of(kind.work), kind.masses, threads);
+}
+
+/// Rows in the order of registration; Google Benchmark runs those that the filter fits, each several times.
 class Rows {
  public:
   std::size_t add(const CubeKind& kind, int threads) {
     rows_.push_back({});
     rows_.back().kind = kind;
     rows_.back().threads = threads;
+    numbers_[name_of_row(kind, threads)] = rows_.size() - 1;
     return rows_.size() - 1;
   }
+  KernelRow& named(const std::string& name) { return rows_[numbers_.at(name)]; }
 
   void time_row(std::size_t n, benchmark::State& state) {
     KernelRow& row = rows_[n];
@@ -55,6 +63,7 @@ class Rows {
 
  private:
   std::vector<KernelRow> rows_;
+  std::map<std::string, std::size_t> numbers_;
   Cube cube_;
   CubeKind cube_kind_;
 };
@@ -71,7 +80,7 @@ class RowReporter : public benchmark::BenchmarkReporter {
         failed_ = true, std::fprintf(stderr, "palpate bench: %s: %s\n", run.benchmark_name().c_str(),
                                      run.error_message.c_str());
       if (run.error_occurred || run.run_type != Run::RT_Iteration) continue;
-      row = &rows_.rows()[static_cast<std::size_t>(run.family_index)];
+      row = &rows_.named(run.run_name.function_name);
       row->ns.push_back(run.GetAdjustedRealTime() / static_cast<double>(row->masses));
     }
     if (row != nullptr) fmt::print("{}\n", line_of(*row)), std::fflush(stdout);
@@ -94,10 +103,7 @@ void register_rows(const Options& options, Rows& rows) {
           for (const int threads : {1, 2}) {
             const CubeKind kind{lattice, precision, work, masses};
             const std::size_t n = rows.add(kind, threads);
-            const std::string name =
-                fmt::format("{}/{}/{}/{:.0f}/{}", lattice == LatticeKind::fcc ? "fcc" : "voxel",
-                            name_of(precision), name_of(work), masses, threads);
-            benchmark::RegisterBenchmark(name.c_str(),
+            benchmark::RegisterBenchmark(name_of_row(kind, threads).c_str(),
                                          [&rows, n](benchmark::State& state) { rows.time_row(n, state); })
                 ->UseRealTime()
                 ->Unit(benchmark::kNanosecond);
