@@ -78,6 +78,7 @@ void step_row(const ElementContext<Real>& m, const RowSegment& row, const SlotLi
               RowState state, RowLedger& ledger) {
   using P = Pack<Real>;
   using V = typename P::V;
+  const Streams<Real> at_mass{{m.u[0], m.u[1], m.u[2]}, {m.v[0], m.v[1], m.v[2]}, {m.f[0], m.f[1], m.f[2]}};
   V viscous{}, elastic{};
   Watched<Real> watched;
   // Whole packs only: the cells beyond a row's end are empty, and stepping an empty cell leaves it as it is.
@@ -86,12 +87,13 @@ void step_row(const ElementContext<Real>& m, const RowSegment& row, const SlotLi
     p.i = i;
     p.mask = P::load_masks(m.mask + i);
     for (int a = 0; a < 3; ++a) {
-      p.u[a] = P::load(m.u[a] + i);
-      p.v[a] = P::load(m.v[a] + i);
-      p.f[a] = P::load(m.f[a] + i);
+      p.u[a] = P::load(at_mass.u[a] + i);
+      p.v[a] = P::load(at_mass.v[a] + i);
+      p.f[a] = P::load(at_mass.f[a] + i);
     }
 #pragma GCC unroll 2
-    for (int n = 0; n < slots.n; ++n) add_elements<Real, damper, yields, varied>(m, slots.slot[n], p, ledger);
+    for (int n = 0; n < slots.n; ++n) 
+      add_elements<Real, damper, yields, varied>(m, at_mass, slots.slot[n], p, ledger);
     if (sweep == Sweep::up) {
       for (int a = 0; a < 3; ++a) P::store(m.f[a] + i, p.f[a]);
     } else if (state != RowState::awake) {

@@ -23,6 +23,12 @@ struct Masses {
   V elastic{};                 // energy so far, only where it is watched [J]
 };
 
+/// Where the masses' numbers stand: in registers, which stores into one of them cannot change.
+template <class Real>
+struct Streams {
+  Real *u[3], *v[3], *f[3];
+};
+
 /// The pack's elements in one direction, at their present length.
 template <class Real>
 struct Elements {
@@ -112,6 +118,7 @@ inline __attribute__((always_inline)) void watch_elastic(const ElementContext<Re
 /// Adds the forces of one kind of element at both of its ends.
 template <class Real, DamperKind damper, bool yields, bool varied>
 inline __attribute__((always_inline)) void add_elements(const ElementContext<Real>& m,
+                                                        const Streams<Real>& at_mass,
                                                         const ElementSlot<Real>& e, Masses<Real>& p,
                                                         RowLedger& ledger) {
   using P = Pack<Real>;
@@ -120,7 +127,8 @@ inline __attribute__((always_inline)) void add_elements(const ElementContext<Rea
   const Index owner = p.i + e.memory;
   typename P::I live = P::lanes_with(p.mask, e.bit);
   Elements<Real> at;
-  const V d[3] = {P::load(m.u[0] + j) - p.u[0], P::load(m.u[1] + j) - p.u[1], P::load(m.u[2] + j) - p.u[2]};
+  const V d[3] = {P::load(at_mass.u[0] + j) - p.u[0], P::load(at_mass.u[1] + j) - p.u[1],
+                  P::load(at_mass.u[2] + j) - p.u[2]};
   for (int a = 0; a < 3; ++a) at.x[a] = d[a] + e.D[a];
   at.q = P::fma(d[2], at.x[2] + e.D[2], P::fma(d[1], at.x[1] + e.D[1], d[0] * (at.x[0] + e.D[0])));
   // A collapsed element has no direction: l is never taken below L / 1000.
@@ -131,7 +139,7 @@ inline __attribute__((always_inline)) void add_elements(const ElementContext<Rea
   V s;  // force over length
   V w[3] = {};  // velocity of the far end, relative
   if constexpr (damper != DamperKind::none)
-    for (int a = 0; a < 3; ++a) w[a] = P::load(m.v[a] + j) - p.v[a];
+    for (int a = 0; a < 3; ++a) w[a] = P::load(at_mass.v[a] + j) - p.v[a];
   const V c = constant<Real, varied>(m.c[e.half], e.c, owner);
   if constexpr (damper == DamperKind::axial) {
     const V rate = P::fma(w[2], at.x[2], P::fma(w[1], at.x[1], w[0] * at.x[0]));  // l l'
@@ -165,14 +173,14 @@ inline __attribute__((always_inline)) void add_elements(const ElementContext<Rea
     if constexpr (damper == DamperKind::other) {
       // Deviation of the papers, offered as printed: the second is drag (EQUATIONS C-31).
       const V c_live = P::where(live, c);
-      const V far = m.relative ? -(c_live * w[a]) : -(c_live * P::load(m.v[a] + j));
+      const V far = m.relative ? -(c_live * w[a]) : -(c_live * P::load(at_mass.v[a] + j));
       const V near = m.relative ? c_live * w[a] : -(c_live * p.v[a]);
       mine += near;
       theirs += far;
-      p.viscous += -(near * p.v[a]) - far * P::load(m.v[a] + j);
+      p.viscous += -(near * p.v[a]) - far * P::load(at_mass.v[a] + j);
     }
     p.f[a] += mine;
-    P::store(m.f[a] + j, P::load(m.f[a] + j) + theirs);
+    P::store(at_mass.f[a] + j, P::load(at_mass.f[a] + j) + theirs);
   }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 // W numbers side by side, in the widest vectors that the including file is compiled for. Only operations that IEEE 754
-// rounds in one way, so that every width gives the same bits.
+// rounds in one way, so that every width that can fuse a multiplication with an addition gives the same bits.
 
 #include <immintrin.h>
 
@@ -33,7 +33,9 @@ struct Pack {
     return v;
   }
   static void store(Real* p, V v) { std::memcpy(p, &v, sizeof(v)); }
-  static V all(Real value) { return V{} + value; }
+  static V all(Real value) {
+    return value - V{};  // a broadcast; V{} + value would be an addition, which makes 0 of -0
+  }
   static V larger(V a, V b) { return a > b ? a : b; }
   static bool any(I lanes) {
     Integer bits = 0;
@@ -82,7 +84,10 @@ struct Pack {
     return __builtin_convertvector(m, I);
   }
   /// All ones in the lanes whose mask has the bit, zero elsewhere.
-  static I lanes_with(I masks, std::uint32_t bit) { return (masks & static_cast<Integer>(bit)) != 0; }
+  static I lanes_with(I masks, std::uint32_t bit) {
+    const I wanted = I{} + static_cast<Integer>(bit);
+    return (masks & wanted) == wanted;
+  }
   /// v in the chosen lanes, zero elsewhere.
   static V where(I lanes, V v) { return lanes != 0 ? v : V{}; }
 
