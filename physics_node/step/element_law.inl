@@ -66,6 +66,7 @@ __attribute__((noinline)) void commit_yield(const ElementContext<Real>& m, const
     ledger.plastic += 0.5 * static_cast<double>(f_y + f_s) * (1 - static_cast<double>(k2 / k1)) *
                       static_cast<double>(stretch[lane] - s_y);
     m.hardening[e.half][owner] += stretch[lane] - s_y;
+    ++ledger.yields;
     m.l_c[e.half][owner] = stretch[lane] - f_s / k1;
     if (!(stretch[lane] > pick(m.snap[e.half], e.snap, owner))) continue;
     ledger.broken += static_cast<double>(f_s) * static_cast<double>(f_s) / (2 * static_cast<double>(k1));

@@ -9,9 +9,9 @@
 namespace palpate::physics {
 namespace {
 
-constexpr int most_newton = 12;
+constexpr int most_newton = 30;
 constexpr int most_halvings = 5;
-constexpr int most_stalls = 3;   // iterations in a row that bring less than a third
+constexpr int most_stalls = 4;   // iterations in a row that bring less than a tenth
 constexpr int most_cg = 400;
 constexpr double loose = 1e-3;   // of a linear system, relative to its right side
 constexpr double tight = 1e-10;  // of the residual, relative to the forces in play
@@ -48,7 +48,7 @@ template <class Real>
 ImplicitStep<Real>::ImplicitStep(const Body& body) : elements_(body) {
   const auto n = static_cast<std::size_t>(body.lattice.n_cells());
   std::size_t colour = 50;
-  for (Field* field : {&D_, &trial_, &r_, &x_, &p_, &z_, &q_}) make_field(*field, n, colour);
+  for (Field* field : {&D_, &trial_, &r_, &r_start_, &x_, &p_, &z_, &q_}) make_field(*field, n, colour);
   for (auto& part : inverse_) part = ZeroedArray<double>(n, colour++);
   mass_ = ZeroedArray<double>(n, colour++);
   drag_ = ZeroedArray<double>(n, colour++);
@@ -56,8 +56,13 @@ ImplicitStep<Real>::ImplicitStep(const Body& body) : elements_(body) {
     const auto i = static_cast<std::size_t>(cell);
     if (body.inverse_mass[i] == 0) continue;
     mass_[i] = 1 / body.inverse_mass[i];
-    drag_[i] = law_at(body, cell).drag;
   }
+}
+
+template <class Real>
+void ImplicitStep<Real>::find_drag(const Body& body, const LatticeState<Real>& state) noexcept {
+  for (const Index cell : body.lattice.masses) drag_[static_cast<std::size_t>(cell)] = law_at(body, cell).drag;
+  elements_.add_drag(body, state, drag_);
 }
 
 template <class Real>
@@ -126,7 +131,11 @@ int ImplicitStep<Real>::conjugate_gradients(const Body& body, double dt, double 
   for (; n < most_cg && std::sqrt(dot(body, r_, r_)) > tolerance; ++n) {
     apply(body, dt, p_, q_);
     const double pq = dot(body, p_, q_);
-    if (!(pq > 0)) break;
+    if (!(pq > 0)) {
+      // Compressed elements buckle this way: what was found so far still leads downhill (Nocedal & Wright, Newton-CG).
+      if (n == 0) add(body, 1, z_, x_);
+      break;
+    }
     add(body, rz / pq, p_, x_);
     add(body, -rz / pq, q_, r_);
     precondition();
@@ -162,6 +171,7 @@ ImplicitReport ImplicitStep<Real>::step(const Body& body, LatticeState<Real>& st
                                         std::span<const NodalForce> forces) noexcept {
   ImplicitReport report;
   const double dt = how.dt;
+  find_drag(body, state);
   for (std::size_t a = 0; a < 3; ++a)
     for_cells(body, [&](std::size_t i) { D_[a][i] = mass_[i] > 0 ? dt * static_cast<double>(state.v[a][i]) : 0; });
   double r = residual(body, state, dt, how.gravity, forces);
@@ -172,17 +182,21 @@ ImplicitReport ImplicitStep<Real>::step(const Body& body, LatticeState<Real>& st
   int stalls = 0;
   for (; report.newton_iterations < most_newton && stalls < most_stalls && r > enough; ++report.newton_iterations) {
     make_preconditioner(body, dt);
+    for (std::size_t a = 0; a < 3; ++a) for_cells(body, [&](std::size_t i) { r_start_[a][i] = r_[a][i]; });
     report.cg_iterations += conjugate_gradients(body, dt, std::max(loose * r, 0.1 * enough));
     for (std::size_t a = 0; a < 3; ++a) for_cells(body, [&](std::size_t i) { trial_[a][i] = D_[a][i]; });
+    // Toward where the residual has no part along x any more (Matthies & Strang 1979).
+    const double slope = dot(body, r_start_, x_);
     double s = 1;
     double next = 0;
     for (int halving = 0; halving <= most_halvings; ++halving, s *= 0.5) {
       for (std::size_t a = 0; a < 3; ++a)
         for_cells(body, [&](std::size_t i) { D_[a][i] = trial_[a][i] + s * x_[a][i]; });
       next = residual(body, state, dt, how.gravity, forces);
-      if (next < r) break;
+      const double left = dot(body, r_, x_);
+      if (next < r || left <= 0 || left < -0.8 * slope) break;
     }
-    stalls = next > 0.7 * r ? stalls + 1 : 0;
+    stalls = next > 0.9 * r ? stalls + 1 : 0;
     r = next;
   }
   report.converged = r <= enough;

@@ -71,6 +71,17 @@ LinearisedElements<Real>::LinearisedElements(const Body& body) {
 }
 
 template <class Real>
+void LinearisedElements<Real>::add_drag(const Body& body, const LatticeState<Real>& state,
+                                        ZeroedArray<double>& drag) const {
+  if (body.law.damper != Damper::drag) return;
+  for_each_live(body, state, [&](std::size_t, const ElementSlot<Real>& slot, Index i) {
+    const double c = trial_element(body, state, slot, i, Vec3::Zero()).c;
+    drag[static_cast<std::size_t>(i)] += c;
+    drag[static_cast<std::size_t>(i + slot.offset)] += c;
+  });
+}
+
+template <class Real>
 void LinearisedElements<Real>::evaluate(const Body& body, const LatticeState<Real>& state, const Field& D,
                                         double dt, Field& force) {
   const Damper damper = body.law.damper;
@@ -83,21 +94,18 @@ void LinearisedElements<Real>::evaluate(const Body& body, const LatticeState<Rea
         std::fill_n(slot.b.data() + row.first, row.count, 0.0);
       }
   for_each_live(body, state, [&](std::size_t n, const ElementSlot<Real>& slot, Index i) {
-    const Vec3 D_i = vector_at(D, i);
-    const Vec3 D_j = vector_at(D, i + slot.offset);
-    const Vec3 shift = D_j - D_i;
+    const Vec3 shift = vector_at(D, i + slot.offset) - vector_at(D, i);
     const TrialElement e = trial_element(body, state, slot, i, shift);
     const double c = damper == Damper::axial ? e.c : 0.0;
     const double c_all = damper == Damper::relative ? e.c : 0.0;
     const double f = e.f_s + c * shift.dot(e.n) / dt;
     const Vec3 pull = f * e.n + c_all / dt * shift;
-    const double drag = damper == Damper::drag ? e.c / dt : 0.0;
-    add_at(force, i, pull - drag * D_i);
-    add_at(force, i + slot.offset, -pull - drag * D_j);
+    add_at(force, i, pull);
+    add_at(force, i + slot.offset, -pull);
     const auto cell = static_cast<std::size_t>(i);
     for (std::size_t axis = 0; axis < 3; ++axis) slots_[n].n[axis][cell] = e.n[static_cast<Eigen::Index>(axis)];
     slots_[n].a[cell] = e.k + (c + c_all) / dt;
-    slots_[n].b[cell] = std::max(0.0, f / e.l) + c_all / dt;
+    slots_[n].b[cell] = f / e.l + c_all / dt;
   });
 }
 
@@ -129,8 +137,9 @@ void LinearisedElements<Real>::add_blocks(const Body& body, std::array<ZeroedArr
       for (std::size_t e = 0; e < 6; ++e)
         for (Index i = row.first; i < row.first + row.count; ++i) {
           const auto c = static_cast<std::size_t>(i);
-          const double part = (slot.a[c] - slot.b[c]) * slot.n[first[e]][c] * slot.n[second[e]][c] +
-                              (e < 3 ? slot.b[c] : 0.0);
+          const double b = std::max(0.0, slot.b[c]);
+          const double part =
+              (slot.a[c] - b) * slot.n[first[e]][c] * slot.n[second[e]][c] + (e < 3 ? b : 0.0);
           blocks[e][c] += part;
           blocks[e][static_cast<std::size_t>(i + offset)] += part;
         }
@@ -143,16 +152,12 @@ StepLosses LinearisedElements<Real>::losses(const Body& body, const LatticeState
                                             double dt) const {
   StepLosses lost;
   for_each_live(body, state, [&](std::size_t, const ElementSlot<Real>& slot, Index i) {
-    const Vec3 D_i = vector_at(D, i);
-    const Vec3 D_j = vector_at(D, i + slot.offset);
-    const Vec3 shift = D_j - D_i;
+    const Vec3 shift = vector_at(D, i + slot.offset) - vector_at(D, i);
     const TrialElement before = trial_element(body, state, slot, i, Vec3::Zero());
     const TrialElement after = trial_element(body, state, slot, i, shift);
     const double along = shift.dot(after.n);
-    const double squared = body.law.damper == Damper::axial      ? along * along
-                           : body.law.damper == Damper::relative ? shift.squaredNorm()
-                                                                 : D_i.squaredNorm() + D_j.squaredNorm();
-    lost.viscous += after.c / dt * squared;
+    if (body.law.damper != Damper::drag)
+      lost.viscous += after.c / dt * (body.law.damper == Damper::axial ? along * along : shift.squaredNorm());
     lost.numerical += after.f_s * along - (after.stored - before.stored) - after.taken;
   });
   return lost;

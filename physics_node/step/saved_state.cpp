@@ -31,10 +31,10 @@ void SavedState<Real>::take(const Body& body, const LatticeState<Real>& state) n
   for (std::size_t a = 0; a < 3; ++a) copy_rows(body, state.u[a], u_[a]);
   ledger_ = state.ledger;
   if (!any_yields(body)) return;
-  double plastic = 0;
-  for (const RowLedger& row : ledger_) plastic += row.plastic;
-  if (plastic == plastic_ && state.breaks == breaks_) return;
-  plastic_ = plastic;
+  std::int64_t yields = 0;
+  for (const RowLedger& row : ledger_) yields += row.yields;
+  if (yields == yields_ && state.breaks == breaks_) return;
+  yields_ = yields;
   breaks_ = state.breaks;
   copy_rows(body, state.mask, mask_);
   for (std::size_t h = 0; h < static_cast<std::size_t>(body.lattice.n_half); ++h) {

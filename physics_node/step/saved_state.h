@@ -22,7 +22,7 @@ class SavedState {
   ByHalf<Real> l_c_, hardening_;
   ZeroedArray<Mask> mask_;
   std::vector<RowLedger> ledger_;
-  double plastic_ = -1;  // what had been lost in yielding when the memory was last copied
+  std::int64_t yields_ = -1;  // how often elements had yielded when the memory was last copied
   std::int64_t breaks_ = 0;
 };
 

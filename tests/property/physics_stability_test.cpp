@@ -57,7 +57,7 @@ TEST_P(StableStep, IsWithinAFactorOfTheTruth) {
     (growth(recipe(), mid, 2000) < 100 ? lo : hi) = mid;
   }
   RecordProperty("true_over_bound", std::to_string(lo));
-  EXPECT_LT(lo, 2.45);  // the loosest: damped voxels, whose even and odd masses differ, 2.33
+  EXPECT_LT(lo, 1.12);
 }
 
 INSTANTIATE_TEST_SUITE_P(BothLattices, StableStep,
