@@ -98,8 +98,20 @@ void World::restart_ledger() {
   save_all(true);
 }
 
-EnergyLedger World::ledger() const {
-  const Energies now = sum_energies(bodies_, scene_.gravity);
+EnergyLedger World::ledger() const { return book(sum_energies(bodies_, scene_.gravity)); }
+
+EnergyLedger World::watched_ledger() const noexcept {
+  Energies now;
+  for (const auto& body : bodies_) {
+    const Watch watch = body->watch();
+    now.kinetic += watch.kinetic;
+    now.elastic += watch.elastic;
+    now.gravitational -= watch.fallen;
+  }
+  return book(now);
+}
+
+EnergyLedger World::book(const Energies& now) const noexcept {
   const Losses lost = sum_losses(bodies_);
   EnergyLedger ledger;
   ledger.kinetic = now.kinetic;

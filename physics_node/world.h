@@ -45,6 +45,9 @@ class World {
   std::uint64_t state_hash() const noexcept;
   /// Where the energy went; a pass over all elements.
   EnergyLedger ledger() const;
+  /// The same from what the kernels saw in the last step of the frame: elastic energy before it, kinetic energy before the
+  /// push of the tools. A sum over rows.
+  EnergyLedger watched_ledger() const noexcept;
   /// Begins the ledger, and what the guard measures growth by, from the present state; for who has placed masses.
   void restart_ledger();
   /// Why the scene was given up, if it was: then frames no longer move anything, and the state is the last good one.
@@ -58,6 +61,7 @@ class World {
   void implicit_step(double dt, bool watch) noexcept;
   std::span<const NodalForce> gathered(std::size_t body) noexcept;  // forces of all tools on a body
   void guard() noexcept;
+  EnergyLedger book(const Energies& now) const noexcept;
   void save_all(bool good) noexcept;
   void book_work(double work) noexcept;
   void count_yield_and_break() noexcept;

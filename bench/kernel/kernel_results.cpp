@@ -14,8 +14,8 @@ namespace {
 
 const char* lattice_name(LatticeKind lattice) { return lattice == LatticeKind::fcc ? "fcc" : "voxel"; }
 
-/// Least time per mass that memory and arithmetic allow [ns]: triad over as many bytes as the state holds, and
-/// multiplications and additions that are not fused.
+/// What memory and arithmetic allow: triad over as many bytes as the state holds, and multiplications with additions, fused
+/// and not.
 nlohmann::json limits(const std::vector<KernelRow>& rows) {
   nlohmann::json json;
   for (const bool single : {true, false})

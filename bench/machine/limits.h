@@ -14,8 +14,7 @@ double triad_bytes_per_s(std::size_t bytes, int threads);
 /// core; two operations each.
 double fma_flops_per_s(bool single);
 
-/// The same of as many multiplications as additions, not fused. Kernels of ours do not fuse (the same bits everywhere), so
-/// this is their roof.
+/// The same of as many multiplications as additions, not fused: the roof of what is not written as fma.
 double multiply_add_flops_per_s(bool single);
 
 }  // namespace palpate::bench

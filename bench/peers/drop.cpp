@@ -14,6 +14,7 @@ Drop make_drop(int masses) {
   Scene& scene = drop.scene;
   scene.title = "peers";
   scene.physics.frame_Hz = 1 / frame_seconds;
+  scene.physics.sleep = false;  // the peers step every mass
   MaterialSpec tissue;
   tissue.name = "tissue";
   tissue.modulus = 10e3;

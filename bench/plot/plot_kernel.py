@@ -19,7 +19,7 @@ def triad(limits, size, threads):
 
 
 def draw(axes, rows, limits):
-    peak = limits["multiply_add_Gflop_per_s"][rows[0]["precision"]]
+    peak = limits["fma_Gflop_per_s"][rows[0]["precision"]]
     for work, colour in COLOURS.items():
         for threads, (line, marker) in STYLES.items():
             own = sorted((r for r in rows if r["work"] == work and r["threads"] == threads), key=lambda r: r["masses"])
@@ -30,7 +30,7 @@ def draw(axes, rows, limits):
                 memory = [r["bytes_per_mass"] / triad(limits, r["bytes_per_mass"] * r["masses"], 1) for r in own]
                 axes.plot([r["masses"] for r in own], memory, ":", color="0.3", label="triad of these bytes, 1 thread")
                 axes.plot([r["masses"] for r in own], [r["flops_per_mass"] / peak for r in own], "-.", color="0.6",
-                          label="unfused arithmetic peak, 1 thread")
+                          label="fused arithmetic peak, 1 thread")
 
 
 def main(folder):

@@ -32,14 +32,24 @@ std::vector<std::uint32_t> mass_facets(const MovingBody& moving) {
 
 }  // namespace
 
+std::FILE* Recorder::make_csv(const std::string& name, const char* heading) {
+  const std::string path = folder_ + "/" + name;
+  std::FILE* file = std::fopen(path.c_str(), "w");
+  if (file == nullptr) throw std::runtime_error(path + ": " + std::strerror(errno));
+  csv_.push_back(file);
+  csv_names_.push_back(path);
+  std::fprintf(file, "%s\n", heading);
+  return file;
+}
+
 void Recorder::make_files(const World& world) {
-  for (const auto& name : tool_names_) {
-    const std::string path = folder_ + "/" + trace_name(name);
-    std::FILE* file = std::fopen(path.c_str(), "w");
-    if (file == nullptr) throw std::runtime_error(path + ": " + std::strerror(errno));
-    std::fputs("t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm,contacts\n", file);
-    csv_.push_back(file);
-  }
+  for (const auto& name : tool_names_)
+    make_csv(trace_name(name), "t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm,contacts");
+  if (spec_.energy)
+    energy_csv_ =
+        make_csv("energy.csv",
+                 "t_s,kinetic_J,elastic_J,gravitational_J,dissipated_J,plastic_J,numerical_J,broken_J,"
+                 "guard_J,tool_work_J");
   hdf5_ = std::make_unique<Hdf5File>(folder_ + "/record.h5", Hdf5File::Mode::create);
   hdf5_->set_text("palpate_record", "1");
   hdf5_->set_text("title", world.scene().title);
@@ -78,6 +88,16 @@ void Recorder::write_rows() {
   }
 }
 
+void Recorder::write_energy() {
+  EnergyRow row;
+  while (energy_rows_->pop(row)) {
+    const EnergyLedger& e = row.ledger;
+    std::fprintf(energy_csv_, "%.6f,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", row.t, e.kinetic,
+                 e.elastic, e.gravitational, e.dissipated, e.plastic, e.numerical, e.broken, e.guard,
+                 e.tool_work);
+  }
+}
+
 void Recorder::write_snapshots() {
   while (!snapshots_.empty() && snapshots_[next_written_]->full) {
     Snapshot& snapshot = *snapshots_[next_written_];
@@ -99,6 +119,7 @@ void Recorder::work() noexcept {
     for (bool last = false; !last;) {
       last = stop_;
       write_rows();
+      write_energy();
       write_snapshots();
       const auto now = std::chrono::steady_clock::now();
       if (now - flushed > std::chrono::seconds(1)) {
@@ -122,8 +143,7 @@ void Recorder::finish() {
   if (failed_) throw std::runtime_error(failure_);
   hdf5_->close();
   for (std::size_t n = 0; n < csv_.size(); ++n) {
-    if (std::fflush(csv_[n]) != 0)
-      throw std::runtime_error(folder_ + "/" + trace_name(tool_names_[n]) + ": " + std::strerror(errno));
+    if (std::fflush(csv_[n]) != 0) throw std::runtime_error(csv_names_[n] + ": " + std::strerror(errno));
   }
   if (!times_.empty()) write_xdmf();
 }

@@ -11,7 +11,8 @@ Recorder::Recorder(const World& world, const std::string& folder, WhenBehind whe
     : folder_(folder),
       when_behind_(when_behind),
       spec_(world.scene().record),
-      rows_(std::make_unique<SpscRing<ToolRow, 16384>>()) {
+      rows_(std::make_unique<SpscRing<ToolRow, 16384>>()),
+      energy_rows_(std::make_unique<SpscRing<EnergyRow, 1024>>()) {
   for (const auto& tool : world.scene().tools) tool_names_.push_back(tool.name);
   tallies_.resize(tool_names_.size());
   make_files(world);
@@ -43,11 +44,24 @@ double Recorder::force_rms(std::size_t tool) const {
 }
 
 void Recorder::frame(const World& world) noexcept {
-  const auto patience = [this] {
-    if (when_behind_ == WhenBehind::drop || failed_) return false;
-    std::this_thread::sleep_for(std::chrono::microseconds(200));
-    return true;
-  };
+  note_tools(world);
+  if (spec_.energy) note_energy(world);
+  if (spec_.positions) note_positions(world);
+}
+
+bool Recorder::wait() const noexcept {
+  if (when_behind_ == WhenBehind::drop || failed_) return false;
+  std::this_thread::sleep_for(std::chrono::microseconds(200));
+  return true;
+}
+
+bool Recorder::is_due(const World& world, std::int64_t& n) const noexcept {
+  if (world.t() + 1e-9 < static_cast<double>(n) / spec_.rate_Hz) return false;
+  ++n;
+  return true;
+}
+
+void Recorder::note_tools(const World& world) noexcept {
   for (std::uint32_t n = 0; n < tallies_.size(); ++n) {
     const ToolCoupling& tool = world.tools()[n];
     ToolRow row{n,
@@ -64,13 +78,23 @@ void Recorder::frame(const World& world) noexcept {
     ++tally.rows;
     if (!spec_.forces) continue;
     bool taken = rows_->push(row);
-    while (!taken && patience()) taken = rows_->push(row);
+    while (!taken && wait()) taken = rows_->push(row);
     dropped_ += taken ? 0 : 1;
   }
-  if (!spec_.positions || world.t() + 1e-9 < static_cast<double>(snapshots_due_) / spec_.rate_Hz) return;
-  ++snapshots_due_;
+}
+
+void Recorder::note_energy(const World& world) noexcept {
+  if (!is_due(world, energies_due_)) return;
+  const EnergyRow row{world.t(), world.watched_ledger()};
+  bool taken = energy_rows_->push(row);
+  while (!taken && wait()) taken = energy_rows_->push(row);
+  dropped_ += taken ? 0 : 1;
+}
+
+void Recorder::note_positions(const World& world) noexcept {
+  if (!is_due(world, snapshots_due_)) return;
   Snapshot& snapshot = *snapshots_[next_snapshot_];
-  while (snapshot.full && patience()) {
+  while (snapshot.full && wait()) {
   }
   if (snapshot.full) {
     ++dropped_;

@@ -1,5 +1,5 @@
 #pragma once
-// Leaves a run behind: a CSV per tool, record.h5 with positions and tools, record.xdmf for viewers.
+// Leaves a run behind: a CSV per tool, energy.csv, record.h5 with positions and tools, record.xdmf for viewers.
 // frame() only copies what is due into buffers taken at the start; a thread of its own writes the files.
 
 #include <atomic>
@@ -20,7 +20,7 @@ class Recorder {
  public:
   enum class WhenBehind { drop, wait };  // a live run drops and counts; simulated time waits
 
-  /// @param folder  must exist; tool_NAME.csv, record.h5 and record.xdmf are made in it
+  /// @param folder  must exist; tool_NAME.csv, energy.csv, record.h5 and record.xdmf are made in it
   /// @throws InputError or std::runtime_error where files cannot be made
   Recorder(const World& world, const std::string& folder, WhenBehind when_behind);
   ~Recorder();
@@ -48,6 +48,10 @@ class Recorder {
     double t = 0;
     Array3 p{}, force{}, moment{};
   };
+  struct EnergyRow {
+    double t = 0;
+    EnergyLedger ledger;
+  };
   struct Tally {
     double peak = 0, moment_peak = 0, squares = 0;
     std::uint64_t rows = 0;
@@ -62,7 +66,16 @@ class Recorder {
   static constexpr std::size_t n_snapshots = 8;
 
   void make_files(const World& world);
+  std::FILE* make_csv(const std::string& name, const char* heading);
+  void note_tools(const World& world) noexcept;
+  void note_energy(const World& world) noexcept;
+  void note_positions(const World& world) noexcept;
+  /// Is it time for the next of what comes rate_Hz times a second? Counts it if so.
+  bool is_due(const World& world, std::int64_t& n) const noexcept;
+  /// Waits a little for the thread that writes, if it may. @return false if it may not
+  bool wait() const noexcept;
   void write_rows();
+  void write_energy();
   void write_snapshots();
   void work() noexcept;
   void write_xdmf() const;
@@ -75,14 +88,18 @@ class Recorder {
   std::vector<std::uint64_t> body_masses_;
   std::vector<std::uint64_t> body_facets_;
   std::vector<Tally> tallies_;
-  std::vector<std::FILE*> csv_;
+  std::vector<std::FILE*> csv_;         // of the tools, then of the energy
+  std::vector<std::string> csv_names_;  // their paths
+  std::FILE* energy_csv_ = nullptr;     // one of csv_
   std::unique_ptr<Hdf5File> hdf5_;
   std::unique_ptr<SpscRing<ToolRow, 16384>> rows_;
+  std::unique_ptr<SpscRing<EnergyRow, 1024>> energy_rows_;
   std::vector<std::unique_ptr<Snapshot>> snapshots_;
   std::size_t next_snapshot_ = 0;  // frame()'s
   std::size_t next_written_ = 0;   // the thread's
   std::vector<double> times_;      // of the snapshots written
   std::int64_t snapshots_due_ = 0;
+  std::int64_t energies_due_ = 0;
   std::uint64_t dropped_ = 0;
   std::atomic<bool> stop_{false};
   std::atomic<bool> failed_{false};

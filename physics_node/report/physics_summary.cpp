@@ -77,9 +77,9 @@ nlohmann::json physics_summary(const World& world, const Recorder* recorder, dou
                          {"real_time_factor", wall_s > 0 ? world.t() / wall_s : 0.0},
                          {"steps", world.report().steps},
                          {"dt_s", world.step_seconds()},
-                         {"stable_dt_s", world.stable_step_seconds()},
                          {"state_hash", hex_of(world.state_hash())},
                          {"stages", stages_part(world.report())}};
+  if (std::isfinite(world.stable_step_seconds())) part["stable_dt_s"] = world.stable_step_seconds();
   Momenta momenta;
   for (std::size_t b = 0; b < world.n_bodies(); ++b) {
     const MovingBody& moving = world.body(b);

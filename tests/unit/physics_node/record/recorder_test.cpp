@@ -21,7 +21,7 @@ class Recording : public testing::Test {
  protected:
   void SetUp() override {
     Recipe recipe = pressed_slab_recipe();
-    recipe.world += "[record]\nwhat = [\"positions\", \"forces\"]\nrate_Hz = 50\n";
+    recipe.world += "[record]\nwhat = [\"positions\", \"forces\", \"energy\"]\nrate_Hz = 50\n";
     World world(scene_of(recipe));
     Recorder recorder(world, folder_.path(), Recorder::WhenBehind::wait);
     for (int n = 0; n < n_frames; ++n) {
@@ -32,6 +32,7 @@ class Recording : public testing::Test {
     n_masses_ = static_cast<std::uint64_t>(world.body(0).body().lattice.n_masses());
     top_ = world.body(0).body().lattice.masses.back();
     last_force_ = world.tools().front().force();
+    last_energy_ = world.ledger();
     EXPECT_EQ(recorder.dropped(), 0u);
     EXPECT_NEAR(recorder.force_peak(0), last_force_.norm(), 1e-12);
   }
@@ -39,6 +40,7 @@ class Recording : public testing::Test {
   std::uint64_t n_masses_ = 0;
   Index top_ = 0;
   Vec3 last_force_;
+  EnergyLedger last_energy_;
 };
 
 std::vector<std::string> lines_of(const std::string& path) {
@@ -59,6 +61,24 @@ TEST_F(Recording, LeavesOneRowPerFrame) {
   EXPECT_NEAR(t, 0.1, 1e-9);
   EXPECT_NEAR(z, slab_top - 0.002, 1e-9);
   EXPECT_NEAR(fz, last_force_.z(), 1e-8);
+}
+
+TEST_F(Recording, TellsWhereTheEnergyIsAtTheSameRate) {
+  const auto lines = lines_of(folder_ / "energy.csv");
+  ASSERT_EQ(lines.size(), 1u + 6u);
+  EXPECT_EQ(lines[0],
+            "t_s,kinetic_J,elastic_J,gravitational_J,dissipated_J,plastic_J,numerical_J,broken_J,guard_J,"
+            "tool_work_J");
+  double t = 0, kinetic = 0, elastic = 0, gravitational = 0, dissipated = 0;
+  ASSERT_EQ(std::sscanf(lines.back().c_str(), "%lf,%lf,%lf,%lf,%lf", &t, &kinetic, &elastic, &gravitational,
+                        &dissipated),
+            5);
+  EXPECT_NEAR(t, 0.1, 1e-9);
+  // Before the push of the tool in that step.
+  EXPECT_NEAR(kinetic, last_energy_.kinetic, 0.5 * last_energy_.kinetic);
+  // Of the step before.
+  EXPECT_NEAR(elastic, last_energy_.elastic, 0.1 * last_energy_.elastic);
+  EXPECT_NEAR(dissipated, last_energy_.dissipated, 1e-6 * last_energy_.dissipated);
 }
 
 TEST_F(Recording, KeepsPositionsAtTheRateAskedFor) {

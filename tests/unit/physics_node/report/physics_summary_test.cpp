@@ -42,12 +42,17 @@ TEST(PhysicsSummary, HasTheKeysPromised) {
     expect_keys(summary.at("stages").at(stage), {"total_s", "calls", "skipped"}, stage);
   }
   expect_keys(summary.at("bodies").at("body"),
-              {"masses", "elements", "live_elements", "broken_fraction", "shape_rms_m", "max_stretch"},
+              {"masses", "elements", "live_elements", "broken_fraction", "shape_rms_m", "max_stretch",
+               "sleeping_fraction"},
               "body");
   EXPECT_FALSE(summary.at("bodies").at("body").contains("yielded_fraction")) << "it cannot yield";
-  expect_keys(summary.at("energy"), {"kinetic", "elastic", "gravitational", "tool_work"}, "energy");
+  expect_keys(summary.at("energy"),
+              {"kinetic", "elastic", "gravitational", "dissipated", "plastic", "numerical", "broken", "guard",
+               "tool_work", "exchanged", "balance_error"},
+              "energy");
   expect_keys(summary.at("momentum"), {"linear", "angular"}, "momentum");
-  expect_keys(summary.at("guard"), {"nonfinite", "restored", "warnings"}, "guard");
+  expect_keys(summary.at("guard"), {"nonfinite", "grown", "restored", "halved", "unsolved", "warnings"}, "guard");
+  EXPECT_FALSE(summary.at("guard").contains("stopped"));
   expect_keys(summary.at("tools").at("tip"),
               {"contacts_max", "force_peak", "force_rms", "moment_peak", "trace"}, "tool");
 
