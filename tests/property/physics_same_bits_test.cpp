@@ -6,6 +6,7 @@
 
 #include "physics_node/step/element_context.h"
 #include "physics_node/world.h"
+#include "tests/support/physics/pressed_world.h"
 #include "tests/support/physics/small_worlds.h"
 
 namespace palpate::physics::test {
@@ -66,6 +67,49 @@ std::vector<Case> all_cases() {
 }
 INSTANTIATE_TEST_SUITE_P(EveryScene, SameBits, testing::ValuesIn(all_cases()));
 
+/// What the balls above lack: a tool, two materials, the other integrators, rows that sleep.
+struct OtherScene {
+  const char* name;
+  const char* physics;   // further keys
+  const char* material;  // likewise
+  bool two, pressed;
+};
+void PrintTo(const OtherScene& s, std::ostream* out) { *out << s.name; }
+
+class SameBitsToo : public testing::TestWithParam<OtherScene> {};
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, SameBitsToo,
+    testing::Values(OtherScene{"verlet", "integrator = \"velocity_verlet\"", plastic, false, false},
+                    OtherScene{"backward_euler", "integrator = \"backward_euler\"", plastic, false, true},
+                    OtherScene{"two_materials", "", breaking, true, false},
+                    OtherScene{"pressed", "", "", false, true},
+                    OtherScene{"pressed_two", "integrator = \"velocity_verlet\"", "", true, true}),
+    [](const auto& test) { return test.param.name; });
+
+TEST_P(SameBitsToo, ForAnyNumberOfThreads) {
+  const OtherScene& scene = GetParam();
+  std::uint64_t first = 0;
+  for (const int threads : {1, 2, 3, 8}) {
+    Recipe recipe = pressed_slab_recipe();
+    recipe.precision = "single";
+    recipe.physics = std::string("threads = ") + std::to_string(threads) + "\n" + scene.physics;
+    recipe.material += scene.material;
+    if (!scene.pressed) recipe.body += "\nvelocity_m_per_s = [0.3, 0.1, -1]";
+    if (scene.two) {
+      recipe.body += "\nregions = [{ material = \"other\", center_mm = [0, 0, 0], radius_mm = 15 }]";
+      recipe.world +=
+          std::string("[material.other]\ndensity_kg_per_m3 = 1100\nmodulus_kPa = 5") + scene.material;
+    }
+    World world(scene_of(recipe));
+    const std::uint64_t start = world.state_hash();
+    run(world, scene.pressed ? steady_hand({0, 0, 0.3}) : std::nullopt, 60);
+    ASSERT_NE(world.state_hash(), start);
+    EXPECT_FALSE(world.has_stopped());
+    if (threads == 1) first = world.state_hash();
+    EXPECT_EQ(world.state_hash(), first) << threads << " threads";
+  }
+}
+
 template <class Real>
 void disturb(const Body& body, LatticeState<Real>& state) {
   shake(body, state, 1.0, 8);
@@ -80,11 +124,11 @@ ElementContext<Real> context_of(const Body& body, LatticeState<Real>& s) {
   m.rows = body.lattice.rows.data();
   m.row_state = s.row_state.data(), m.ledger = s.ledger.data();
   m.all = s.all.data(), m.level = s.level.data(), m.up = s.up.data();
-  for (std::size_t a = 0; a < 3; ++a)
-    m.u[a] = s.u[a].data(), m.v[a] = s.v[a].data(), m.f[a] = s.f[a].data();
+  for (std::size_t a = 0; a < 3; ++a) m.u[a] = s.u[a].data(), m.v[a] = s.v[a].data(), m.f[a] = s.f[a].data();
   m.inverse_mass = s.inverse_mass.data();
   m.mask = s.mask.data();
-  for (std::size_t h = 0; h < max_half; ++h) m.l_c[h] = s.l_c[h].data(), m.hardening[h] = s.hardening[h].data();
+  for (std::size_t h = 0; h < max_half; ++h)
+    m.l_c[h] = s.l_c[h].data(), m.hardening[h] = s.hardening[h].data();
   m.dt = m.kick = static_cast<Real>(1e-4);
   m.g[2] = static_cast<Real>(-9.81);
   return m;
@@ -94,7 +138,8 @@ constexpr int n_steps = 20;
 
 /// u and v of all masses after some steps of one instruction set's kernel.
 template <class Real>
-std::vector<Vec3> motion(const char* lattice, const std::string& further, ElementKernel<Real> (*of)(KernelKind)) {
+std::vector<Vec3> motion(const char* lattice, const std::string& further,
+                         ElementKernel<Real> (*of)(KernelKind)) {
   Recipe recipe;
   recipe.lattice = lattice;
   recipe.shape = Recipe::sphere(42);
@@ -103,7 +148,8 @@ std::vector<Vec3> motion(const char* lattice, const std::string& further, Elemen
   const Body body = body_of(recipe);
   LatticeState<Real> state(body);
   disturb(body, state);
-  const KernelKind kind{any_damped(body) ? DamperKind::axial : DamperKind::none, any_yields(body), false, false};
+  const KernelKind kind{any_damped(body) ? DamperKind::axial : DamperKind::none, any_yields(body), false,
+                        false};
   const auto n_rows = static_cast<Index>(body.lattice.rows.size());
   for (int n = 0; n < n_steps; ++n) of(kind)(context_of(body, state), 0, n_rows, Sweep::all);
   std::vector<Vec3> all;
@@ -137,7 +183,8 @@ void compare_every_kernel(double of_sse2) {
       EXPECT_LT(difference(narrow, fused), of_sse2) << lattice << further;  // fused or not: other roundings
       if (!widest) continue;
       const auto fused_wide = motion<Real>(lattice, further, &avx512::element_kernel<Real>);
-      EXPECT_EQ(std::memcmp(fused.data(), fused_wide.data(), fused.size() * sizeof(Vec3)), 0) << lattice << further;
+      EXPECT_EQ(std::memcmp(fused.data(), fused_wide.data(), fused.size() * sizeof(Vec3)), 0)
+          << lattice << further;
     }
   testing::Test::RecordProperty("avx2", wide ? 1 : 0);
   testing::Test::RecordProperty("avx512", widest ? 1 : 0);
