@@ -14,43 +14,20 @@
 namespace palpate::physics {
 namespace {
 
-constexpr Index masses_worth_a_team = 15000;  // below, waking a second thread brings little (palpate bench kernel)
+constexpr Index masses_worth_a_team =
+    15000;  // below, waking a second thread brings little (palpate bench kernel)
 constexpr std::int64_t frames_between_saves = 50;
 // Kinetic and elastic energy over what was ever put in. A sound step lets them swing: with symplectic Euler by
 // 1 / (1 - w dt / 2), more than this only for waves of a few cells at steps near the stable one.
-constexpr double largest_growth = 4;  // before the guard acts
-constexpr double sound_growth = 2;    // between two saves, for the first of them to be good
-constexpr double negligible_energy = 1e-12;   // [J]
-constexpr int most_recoveries = 6;            // each halves the step
+constexpr double largest_growth = 4;         // before the guard acts
+constexpr double sound_growth = 2;           // between two saves, for the first of them to be good
+constexpr double negligible_energy = 1e-12;  // [J]
+constexpr int most_recoveries = 6;           // each halves the step
 
 int choose_threads(const Scene& scene, Index n_masses) {
   const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   if (scene.physics.threads > 0) return scene.physics.threads;
   return n_masses >= masses_worth_a_team ? cores : 1;
-}
-
-Energies sum_energies(const std::vector<std::unique_ptr<MovingBody>>& bodies, const Vec3& gravity) {
-  Energies sum;
-  for (const auto& body : bodies) {
-    const Energies e = body->energies(gravity);
-    sum.kinetic += e.kinetic;
-    sum.elastic += e.elastic;
-    sum.gravitational += e.gravitational;
-  }
-  return sum;
-}
-
-Losses sum_losses(const std::vector<std::unique_ptr<MovingBody>>& bodies) {
-  Losses sum;
-  for (const auto& body : bodies) {
-    const Losses lost = body->losses();
-    sum.viscous += lost.viscous;
-    sum.plastic += lost.plastic;
-    sum.numerical += lost.numerical;
-    sum.broken += lost.broken;
-    sum.breaks += lost.breaks;
-  }
-  return sum;
 }
 
 }  // namespace
@@ -89,16 +66,14 @@ World::World(const Scene& scene) : scene_(scene) {
 }
 
 void World::restart_ledger() {
-  start_ = sum_energies(bodies_, scene_.gravity);
-  start_losses_ = sum_losses(bodies_);
-  start_work_ = report_.tool_work;
-  start_exchange_ = report_.tool_exchange;
-  guard_energy_ = 0;
+  account_.restart(bodies_, scene_.gravity, report_);
   save_all(false);
   save_all(true);
 }
 
-EnergyLedger World::ledger() const { return book(sum_energies(bodies_, scene_.gravity)); }
+EnergyLedger World::ledger() const {
+  return account_.book(sum_energies(bodies_, scene_.gravity), sum_losses(bodies_), report_);
+}
 
 EnergyLedger World::watched_ledger() const noexcept {
   Energies now;
@@ -108,25 +83,7 @@ EnergyLedger World::watched_ledger() const noexcept {
     now.elastic += watch.elastic;
     now.gravitational -= watch.fallen;
   }
-  return book(now);
-}
-
-EnergyLedger World::book(const Energies& now) const noexcept {
-  const Losses lost = sum_losses(bodies_);
-  EnergyLedger ledger;
-  ledger.kinetic = now.kinetic;
-  ledger.elastic = now.elastic;
-  ledger.gravitational = now.gravitational;
-  ledger.dissipated = lost.viscous - start_losses_.viscous;
-  ledger.plastic = lost.plastic - start_losses_.plastic;
-  ledger.numerical = lost.numerical - start_losses_.numerical;
-  ledger.broken = lost.broken - start_losses_.broken;
-  ledger.tool_work = report_.tool_work - start_work_;
-  ledger.guard = guard_energy_;
-  ledger.start = start_.kinetic + start_.elastic + start_.gravitational;
-  ledger.exchanged = start_.kinetic + start_.elastic + (report_.tool_exchange - start_exchange_) +
-                     std::abs(now.gravitational - start_.gravitational);
-  return ledger;
+  return account_.book(now, sum_losses(bodies_), report_);
 }
 
 void World::implicit_step(double dt, bool watch) noexcept {
@@ -164,13 +121,15 @@ void World::count_yield_and_break() noexcept {
 std::span<const NodalForce> World::gathered(std::size_t body) noexcept {
   gathered_.clear();
   for (const auto& tool : tools_)
-    if (tool.touched_body() == body) gathered_.insert(gathered_.end(), tool.forces().begin(), tool.forces().end());
+    if (tool.touched_body() == body)
+      gathered_.insert(gathered_.end(), tool.forces().begin(), tool.forces().end());
   return gathered_;
 }
 
 void World::step(double dt, bool watch) noexcept {
   if (scene_.physics.integrator == Integrator::backward_euler) return implicit_step(dt, watch);
-  const ExplicitStep how{dt, scene_.gravity, threads_, scene_.physics.integrator == Integrator::velocity_verlet, watch};
+  const ExplicitStep how{dt, scene_.gravity, threads_,
+                         scene_.physics.integrator == Integrator::velocity_verlet, watch};
   for (auto& body : bodies_) {
     const StageTimer timer(report_, Stage::element_forces);
     report_.broken += body->element_forces_and_integrate(how);
@@ -198,16 +157,9 @@ void World::save_all(bool good) noexcept {
   sound_ = true;
 }
 
-double World::energy_put_in() const noexcept {
-  double fallen = 0;
-  for (const auto& body : bodies_) fallen += body->watch().fallen;
-  return start_.kinetic + start_.elastic + (report_.tool_exchange - start_exchange_) +
-         std::abs(fallen + start_.gravitational);
-}
-
 void World::guard() noexcept {
   const StageTimer timer(report_, Stage::guard_finite);
-  double energy = 0;
+  double energy = 0, fallen = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const Watch watch = bodies_[b]->watch();
     if (!watch.is_finite() || unusable_work_) {
@@ -216,8 +168,9 @@ void World::guard() noexcept {
       return recover(b);
     }
     energy += watch.energy();
+    fallen += watch.fallen;
   }
-  const double put_in = energy_put_in();
+  const double put_in = account_.put_in(fallen, report_);
   if (!(energy <= largest_growth * put_in + negligible_energy)) {
     ++report_.grown;
     std::size_t fastest = 0;
@@ -233,9 +186,7 @@ void World::recover(std::size_t culprit) noexcept {
   // Tools and gravity did work on a state that is thrown away: what is booked starts anew from the state restored.
   for (auto& body : bodies_) body->restore();
   ++report_.restored;
-  const EnergyLedger after = ledger();
-  guard_energy_ += after.start + after.tool_work - after.dissipated - after.plastic - after.numerical - after.broken -
-                   after.guard - after.kinetic - after.elastic - after.gravitational;
+  account_.write_off(ledger());
   if (recoveries_ == most_recoveries) {
     given_up_ = culprit;
     return;
@@ -249,7 +200,8 @@ void World::recover(std::size_t culprit) noexcept {
 std::optional<std::string> World::stopped() const {
   if (!given_up_) return std::nullopt;
   return fmt::format(
-      "body \"{}\" cannot be stepped: its energy grew or was not finite {} times although the step was halved to "
+      "body \"{}\" cannot be stepped: its energy grew or was not finite {} times although the step was "
+      "halved to "
       "{:.3g} ms; look at its material, its first positions and what its tools do",
       bodies_[*given_up_]->body().name, report_.restored, 1e3 * dt_);
 }

@@ -11,7 +11,7 @@
 #include "common/message/messages.h"
 #include "common/scene/scene.h"
 #include "physics_node/contact/tool_coupling.h"
-#include "physics_node/step/energy_ledger.h"
+#include "physics_node/step/energy_account.h"
 #include "physics_node/step/moving_body.h"
 #include "physics_node/step/step_report.h"
 
@@ -37,7 +37,9 @@ class World {
   double stable_step_seconds() const { return stable_dt_; }
   std::size_t n_bodies() const { return bodies_.size(); }
   const MovingBody& body(std::size_t b) const { return *bodies_[b]; }
-  MovingBody& body(std::size_t b) { return *bodies_[b]; }  // to start a test or a benchmark from a given state
+  MovingBody& body(std::size_t b) {
+    return *bodies_[b];
+  }  // to start a test or a benchmark from a given state
   std::vector<ToolCoupling>& tools() { return tools_; }
   const std::vector<ToolCoupling>& tools() const { return tools_; }
   StepReport& report() { return report_; }
@@ -61,13 +63,11 @@ class World {
   void implicit_step(double dt, bool watch) noexcept;
   std::span<const NodalForce> gathered(std::size_t body) noexcept;  // forces of all tools on a body
   void guard() noexcept;
-  EnergyLedger book(const Energies& now) const noexcept;
   void save_all(bool good) noexcept;
   void book_work(double work) noexcept;
   void count_yield_and_break() noexcept;
   /// Back to the last good state, with half the step; gives up after the step has been halved too often.
   void recover(std::size_t culprit) noexcept;
-  double energy_put_in() const noexcept;
 
   Scene scene_;
   std::vector<std::unique_ptr<MovingBody>> bodies_;
@@ -75,6 +75,7 @@ class World {
   std::vector<ToolCoupling> tools_;
   std::vector<NodalForce> gathered_;
   StepReport report_;
+  EnergyAccount account_;
   std::vector<std::string> remarks_;
   double t_ = 0;
   double frame_dt_ = 0;
@@ -83,12 +84,7 @@ class World {
   int n_substeps_ = 1;
   int threads_ = 1;
   bool any_yields_ = false;
-  Energies start_;          // of all bodies, when the ledger began
-  Losses start_losses_;     // of all bodies, when the ledger began
-  double start_work_ = 0;
-  double start_exchange_ = 0;
-  double guard_energy_ = 0;  // taken out by the guard [J]
-  int recoveries_ = 0;       // since the step was last chosen
+  int recoveries_ = 0;                   // since the step was last chosen
   bool sound_ = true;                    // no growth since the last save
   bool unusable_work_ = false;           // a tool's work was not finite since the guard last looked
   std::optional<std::size_t> given_up_;  // the body that could not be stepped

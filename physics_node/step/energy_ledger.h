@@ -17,12 +17,15 @@ struct EnergyLedger {
   double start = 0;          // kinetic + elastic + gravitational at the start
   double exchanged = 0;      // kinetic and elastic at the start, |work| of tools and gravity: what the error is measured by
 
-  /// start + tool_work - dissipated - plastic - numerical - broken - guard - (kinetic + elastic + gravitational), over exchanged;
-  /// 0 where nothing was exchanged.
-  double balance_error() const {
+  /// start + tool_work - dissipated - plastic - numerical - broken - guard - (kinetic + elastic + gravitational)
+  double missing() const {
     const double lost = dissipated + plastic + numerical + broken + guard;
-    const double missing = start + tool_work - lost - kinetic - elastic - gravitational;
-    return exchanged > 0 ? (missing < 0 ? -missing : missing) / exchanged : 0;
+    return start + tool_work - lost - kinetic - elastic - gravitational;
+  }
+  /// |missing| over exchanged; 0 where nothing was exchanged.
+  double balance_error() const {
+    const double off = missing() < 0 ? -missing() : missing();
+    return exchanged > 0 ? off / exchanged : 0;
   }
 };
 
