@@ -15,7 +15,7 @@ namespace palpate::bench {
 namespace {
 
 struct PeersOptions {
-  std::string out = "out/bench/peers";
+  std::string out = "out/bench_peers";
   bool quick = false;
 };
 
