@@ -12,14 +12,15 @@ struct StiffestMode {
   double gamma = 0;
 };
 
-/// At rest: the smaller of two upper bounds,
+/// Near rest: the smaller of two upper bounds,
 ///   Bloch       largest_eigenvalue of the lattice with the stiffest constants present, over the lightest mass;
 ///   Gershgorin  2 sum k / m, 2 sum c / m over the live elements of a mass (EQUATIONS C-32).
 /// The first is sharp for one material, the second does without the lattice's order where many meet.
 StiffestMode stiffest_mode(const Body& body);
 
-/// However the body is stretched, compressed or folded: Gershgorin's bound alone, since no element is stiffer than k1 in
-/// any direction unless it is stretched to more than its length without bound.
+/// However the body is stretched, compressed or folded: Gershgorin's bound alone, since an element is nowhere stiffer than k1,
+/// k1 [n n^T + (1 - L / l) (I - n n^T)] <= k1 I. Folding can turn elements into one direction, and so a step near the bound
+/// at rest can become too long; the guard then halves it.
 StiffestMode stiffest_mode_anyhow(const Body& body);
 
 /// Bound of the stable step [s]; infinite where nothing can move.

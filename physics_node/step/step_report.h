@@ -1,5 +1,6 @@
 #pragma once
-// What a step did: time, calls and skips of every stage, and what the guard had to do.
+// What a step did: time, calls and skips of every stage, and what the guard had to do. The guard reads the work of the tools
+// back from it.
 
 #include <array>
 #include <chrono>
