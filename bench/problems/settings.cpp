@@ -7,15 +7,12 @@
 #include "common/error/error.h"
 
 namespace palpate::bench {
-namespace {
 
 double cpu_seconds() {
   timespec t{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
-
-}  // namespace
 
 const char* name_of(Integrator integrator) {
   switch (integrator) {

@@ -5,22 +5,16 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <ctime>
 #include <fstream>
 #include <random>
 #include <stdexcept>
 #include <string>
 
+#include "bench/problems/settings.h"
 #include "physics_node/world.h"
 
 namespace palpate::bench {
 namespace {
-
-double cpu_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 double resident_MB() {
   std::ifstream file("/proc/self/statm");

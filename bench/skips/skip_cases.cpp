@@ -31,7 +31,7 @@ SkipCase damper() {
 }
 
 SkipCase yield() {
-  SkipCase c{"yield and break", "elastic", "may yield, but does not", block(), block()};
+  SkipCase c{"yield and break", "elastic", "may yield but does not", block(), block()};
   c.full.materials[0].k2_ratio = 0.2;
   c.full.materials[0].yield_ratio = 1.5;
   c.full.materials[0].break_ratio = 3;
@@ -49,7 +49,7 @@ SkipCase one_material() {
 }
 
 SkipCase sleep() {
-  SkipCase c{"rows at rest", "at rest, may sleep", "at rest, may not", block(), block()};
+  SkipCase c{"rows at rest", "at rest and may sleep", "at rest and may not", block(), block()};
   c.lean.physics.sleep = true;
   c.shaken = false;
   return c;
@@ -97,7 +97,7 @@ Scene volume_scene(const std::filesystem::path& file, std::array<int, 3> size, i
 
 SkipCase rigid_part(const std::filesystem::path& folder) {
   constexpr int radius = 13;  // 27^3 cells
-  SkipCase c{"rigid part", "27 x 27 x 27 voxels of tissue, alone", "the same in 336 x 336 x 140",
+  SkipCase c{"rigid part", "27 x 27 x 27 voxels of tissue alone", "the same in 336 x 336 x 140",
              volume_scene(folder / "small.h5", {29, 29, 29}, radius),
              volume_scene(folder / "large.h5", {336, 336, 140}, radius)};
   c.frames = 50;
