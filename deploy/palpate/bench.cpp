@@ -1,13 +1,11 @@
 // palpate bench: becomes palpate-bench.
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
-#include <stdexcept>
+#include <utility>
 
 #include "common/error/error.h"
+#include "deploy/palpate/become_program.h"
 #include "deploy/palpate/install_paths.h"
 #include "deploy/palpate/subcommands.h"
 
@@ -15,15 +13,11 @@ namespace palpate::deploy {
 namespace {
 
 [[noreturn]] void become_bench(std::vector<std::string> arguments) {
-  std::string program = (bin_folder() / "palpate-bench").string();
+  const std::string program = (bin_folder() / "palpate-bench").string();
   if (!is_program(program))
     throw InputError(fmt::format(
         "{} is missing; install the package libbenchmark-dev and build palpate with PALPATE_BENCH", program));
-  std::vector<char*> argv = {program.data()};
-  for (auto& argument : arguments) argv.push_back(argument.data());
-  argv.push_back(nullptr);
-  execv(program.c_str(), argv.data());
-  throw std::runtime_error(fmt::format("{} cannot be started: {}", program, std::strerror(errno)));
+  become_program(program, std::move(arguments));
 }
 
 }  // namespace
