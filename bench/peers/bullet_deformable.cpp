@@ -9,7 +9,7 @@
 #include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
 
 #include "bench/peers/bullet.h"
-#include "bench/peers/stopwatch.h"
+#include "bench/problems/stopwatch.h"
 
 namespace palpate::bench {
 

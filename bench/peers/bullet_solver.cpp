@@ -6,7 +6,7 @@
 #include <map>
 
 #include "bench/peers/bullet.h"
-#include "bench/peers/stopwatch.h"
+#include "bench/problems/stopwatch.h"
 
 namespace palpate::bench {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "bench/peers/scratch_folder.h"
 #include "bench/peers/solver.h"
-#include "bench/peers/stopwatch.h"
+#include "bench/problems/stopwatch.h"
 
 namespace palpate::bench {
 namespace {

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "bench/peers/solver.h"
-#include "bench/peers/stopwatch.h"
+#include "bench/problems/stopwatch.h"
 #include "common/report/commit.h"
 #include "physics_node/world.h"
 

@@ -1,18 +1,12 @@
 #include "bench/problems/settings.h"
 
 #include <cmath>
-#include <ctime>
 #include <numbers>
 
+#include "bench/problems/stopwatch.h"
 #include "common/error/error.h"
 
 namespace palpate::bench {
-
-double cpu_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 const char* name_of(Integrator integrator) {
   switch (integrator) {
@@ -83,9 +77,9 @@ Outcome run(physics::World& world, int frames, const std::function<void(int)>& l
   Outcome outcome;
   const std::int64_t before = world.report().steps;
   for (int frame = 1; frame <= frames; ++frame) {
-    const double start = cpu_seconds();
+    const Stopwatch watch;
     world.frame({});
-    outcome.cpu_s += cpu_seconds() - start;
+    outcome.cpu_s += watch.cpu_s();
     if (look) look(frame);
   }
   outcome.steps = world.report().steps - before;

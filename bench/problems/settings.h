@@ -24,9 +24,6 @@ struct Outcome {
   std::int64_t masses = 0;
 };
 
-/// CPU time of all threads of this process so far [s].
-double cpu_seconds();
-
 const char* name_of(Integrator integrator);
 const char* name_of(Precision precision);
 

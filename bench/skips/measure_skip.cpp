@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "bench/problems/settings.h"
+#include "bench/problems/stopwatch.h"
 #include "physics_node/world.h"
 
 namespace palpate::bench {
@@ -35,9 +35,9 @@ void shake(physics::World& world) {
 SceneCost run(const Scene& scene, int frames, bool shaken) {
   SceneCost cost;
   const double memory = resident_MB();
-  const double start = cpu_seconds();
+  const Stopwatch load;
   physics::World world(scene);
-  cost.load_s = cpu_seconds() - start;
+  cost.load_s = load.cpu_s();
   for (std::size_t b = 0; b < world.n_bodies(); ++b) {
     const physics::Body& body = world.body(b).body();
     cost.masses += body.lattice.n_masses();
@@ -45,9 +45,9 @@ SceneCost run(const Scene& scene, int frames, bool shaken) {
   }
   if (shaken) shake(world);
   for (int n = 0; n < frames / 10; ++n) world.frame({});
-  const double before = cpu_seconds();
+  const Stopwatch watch;
   for (int n = 0; n < frames; ++n) world.frame({});
-  cost.us_per_frame = 1e6 * (cpu_seconds() - before) / frames;
+  cost.us_per_frame = 1e6 * watch.cpu_s() / frames;
   cost.asleep = world.body(0).sleeping_fraction();
   cost.load_MB = resident_MB() - memory;
   rusage usage{};

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <sstream>
 
 #include "bench/machine/result_folder.h"
 #include "bench/problems/settings.h"
+#include "bench/problems/stopwatch.h"
 
 namespace palpate::bench {
 namespace {
@@ -50,7 +50,7 @@ double least_energy(const physics::World& world) {
 }  // namespace
 
 StressResult run_stress(std::uint64_t seed, const std::function<void(const std::string&)>& say) {
-  const std::clock_t start = std::clock();
+  const Stopwatch watch;
   const StressScene stress = random_scene(seed);
   if (say) say(describe(stress));
   physics::World world(stress.scene);
@@ -88,7 +88,7 @@ StressResult run_stress(std::uint64_t seed, const std::function<void(const std::
   result.restored = world.report().restored;
   result.diagnosis = world.stopped().value_or("none");
   std::replace(result.diagnosis.begin(), result.diagnosis.end(), ',', ';');
-  result.cpu_s = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  result.cpu_s = watch.cpu_s();
   return result;
 }
 
