@@ -92,7 +92,7 @@ void step_row(const ElementContext<Real>& m, const RowSegment& row, const SlotLi
       p.f[a] = P::load(at_mass.f[a] + i);
     }
 #pragma GCC unroll 2
-    for (int n = 0; n < slots.n; ++n) 
+    for (int n = 0; n < slots.n; ++n)
       add_elements<Real, damper, yields, varied>(m, at_mass, slots.slot[n], p, ledger);
     if (sweep == Sweep::up) {
       for (int a = 0; a < 3; ++a) P::store(m.f[a] + i, p.f[a]);

@@ -56,11 +56,13 @@ ImplicitStep<Real>::ImplicitStep(const Body& body) : elements_(body) {
     const auto i = static_cast<std::size_t>(cell);
     if (body.inverse_mass[i] == 0) continue;
     mass_[i] = 1 / body.inverse_mass[i];
+    drag_[i] = law_at(body, cell).drag;
   }
 }
 
 template <class Real>
 void ImplicitStep<Real>::find_drag(const Body& body, const LatticeState<Real>& state) noexcept {
+  if (body.law.damper != Damper::drag) return;
   for (const Index cell : body.lattice.masses) drag_[static_cast<std::size_t>(cell)] = law_at(body, cell).drag;
   elements_.add_drag(body, state, drag_);
 }

@@ -35,7 +35,7 @@ class ImplicitStep {
                       std::span<const NodalForce> forces) noexcept;
 
  private:
-  /// Drag of every mass, with that of its elements where that is their damper; elements break, so once a step.
+  /// Where the dampers of the elements are drag, adds up the drag of every mass; elements break, so once a step.
   void find_drag(const Body& body, const LatticeState<Real>& state) noexcept;
   /// r of D_; its norm. Linearises the elements there.
   double residual(const Body& body, const LatticeState<Real>& state, double dt, const Vec3& gravity,

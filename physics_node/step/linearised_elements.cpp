@@ -73,7 +73,6 @@ LinearisedElements<Real>::LinearisedElements(const Body& body) {
 template <class Real>
 void LinearisedElements<Real>::add_drag(const Body& body, const LatticeState<Real>& state,
                                         ZeroedArray<double>& drag) const {
-  if (body.law.damper != Damper::drag) return;
   for_each_live(body, state, [&](std::size_t, const ElementSlot<Real>& slot, Index i) {
     const double c = trial_element(body, state, slot, i, Vec3::Zero()).c;
     drag[static_cast<std::size_t>(i)] += c;
