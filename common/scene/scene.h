@@ -104,20 +104,35 @@ struct BodySpec {
   Vec3 velocity = Vec3::Zero();        // [m/s]
   std::array<bool, 6> fixed_faces{};   // -x +x -y +y -z +z: masses on that face of the shape are held
   std::vector<FixedBox> fixed_boxes;   // masses inside are held
+  std::array<bool, 6> handle_faces{};  // of a tool, in its own frame: masses on that face move with the hand
   Shape shape = BoxShape{};
   Place place;
 };
 
 struct FloorSpec { double height = 0; };
-enum class ContactDistance { paper, swept };
-struct ContactSpec { bool enabled = true; ContactDistance distance = ContactDistance::swept; };
+/// A fixed plane; tissue stays on the side that the normal points to.
+struct WallSpec { Vec3 point = Vec3::Zero(), normal = Vec3::UnitZ(); };  // world [m]; unit
 
-enum class ToolShape { point };
+/// How bodies, and the fragments of bodies, touch each other.
+///   paper  mass against mass at L / sqrt(3), whatever the stretch                              P0
+///   swept  mass against facet, at a distance that follows the stretch, along the whole step
+enum class ContactDistance { paper, swept };
+struct ContactSpec {
+  bool enabled = true;
+  ContactDistance distance = ContactDistance::swept;
+  double restitution = 1;        // relative speed after over before, [0, 1]
+  bool count_passages = false;   // count masses that pass through facets
+};
+
+/// A point touches tissue by the plane under it; a body is one of the scene's, driven by masses that the hand holds.
+enum class ToolShape { point, body };
 struct ToolSpec {
   std::string name;
   ToolShape shape = ToolShape::point;
+  std::string body;               // name of the body that it is; only ToolShape::body
   std::string device;             // name of a [device.NAME]
   Vec3 set_point = Vec3::Zero();  // moments are about this point [m]
+  double low_pass_Hz = 20;        // of the force and moment that a body reports
   double radius = 0.003;          // of the tip: its force fades out over twice that [m]
   double stiffness = 400;         // of the contact spring between hand and proxy [N/m]
   double damping = 1.0;           // [N s/m]
@@ -173,6 +188,7 @@ struct Scene {
   std::vector<BodySpec> bodies;
   std::vector<MaterialSpec> materials;
   std::optional<FloorSpec> floor;
+  std::vector<WallSpec> walls;
   ContactSpec contact;
   std::vector<ToolSpec> tools;
   std::vector<DeviceSpec> devices;

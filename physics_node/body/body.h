@@ -24,6 +24,8 @@ struct Body {
   std::vector<double> inverse_mass;  // of each storage cell, 0: held or empty [1/kg]  (n_cells)
   Vec3 velocity = Vec3::Zero();      // at the start [m/s]
   Index n_held = 0;                  // masses that do not move
+  std::vector<Index> handle;         // storage cells of the masses that a hand drives, in storage order; of tools only
+  Vec3 tip = Vec3::Zero();           // where the hand's tip is while the body is at rest: at_mm of the scene [m]
 };
 
 /// The law of the mass in a storage cell.
