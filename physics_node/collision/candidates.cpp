@@ -1,0 +1,88 @@
+#include "physics_node/collision/candidates.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace palpate::physics {
+namespace {
+
+/// Elements of a mass deep inside the lattice: 12; on voxels 18 of an even mass and 6 of an odd one.
+int complete_count(const Lattice& lattice, Index cell) {
+  if (lattice.kind == LatticeKind::fcc) return 12;
+  return (lattice.grid_of(cell).sum() & 1) == 0 ? 18 : 6;
+}
+
+}  // namespace
+
+Candidates::Candidates(const MovingBody& moving) : moving_(&moving) {
+  const Lattice& lattice = moving.body().lattice;
+  length_ = lattice.kind == LatticeKind::fcc ? lattice.rest_length[0] : lattice.step.maxCoeff();
+  number_.assign(static_cast<std::size_t>(lattice.n_cells()), -1);
+  most_ = lattice.masses.size();
+  if (!any_yields(moving.body())) {
+    const auto on_surface = [&](Index cell) {
+      return std::popcount(lattice.mask[static_cast<std::size_t>(cell)]) < complete_count(lattice, cell);
+    };
+    most_ = static_cast<std::size_t>(std::count_if(lattice.masses.begin(), lattice.masses.end(), on_surface));
+  }
+  cell_.reserve(most_);
+  rest_.reserve(most_);
+  inverse_mass_.reserve(most_);
+  driven_.reserve(most_);
+  x_.reserve(most_);
+  v_.reserve(most_);
+  v_move_.reserve(most_);
+  restart();
+}
+
+bool Candidates::add(Index cell) noexcept {
+  std::int32_t& number = number_[static_cast<std::size_t>(cell)];
+  if (number >= 0 || cell_.size() == most_) return false;
+  const Body& body = moving_->body();
+  number = static_cast<std::int32_t>(cell_.size());
+  cell_.push_back(cell);
+  rest_.push_back(body.lattice.rest_position(cell));
+  const bool driven = std::binary_search(body.handle.begin(), body.handle.end(), cell);
+  driven_.push_back(driven ? 1 : 0);
+  inverse_mass_.push_back(driven ? 0.0 : body.inverse_mass[static_cast<std::size_t>(cell)]);
+  x_.emplace_back(Vec3::Zero());
+  v_.emplace_back(Vec3::Zero());
+  v_move_.emplace_back(Vec3::Zero());
+  return true;
+}
+
+void Candidates::restart() noexcept {
+  for (const Index cell : cell_) number_[static_cast<std::size_t>(cell)] = -1;
+  cell_.clear(), rest_.clear(), inverse_mass_.clear(), driven_.clear();
+  x_.clear(), v_.clear(), v_move_.clear();
+  const Lattice& lattice = moving_->body().lattice;
+  for (const Index cell : lattice.masses)
+    if (std::popcount(moving_->mask(cell)) < complete_count(lattice, cell)) add(cell);
+}
+
+std::size_t Candidates::follow(std::span<const Break> breaks) noexcept {
+  std::size_t fresh = 0;
+  for (const Break& b : breaks) fresh += (add(b.first) ? 1U : 0U) + (add(b.other) ? 1U : 0U);
+  return fresh;
+}
+
+bool Candidates::refresh() noexcept {
+  moving_->read(cell_, rest_, x_, v_, v_move_);
+  double sum = 0;
+  for (std::size_t n = 0; n < cell_.size(); ++n) sum += 0.0 * (x_[n].sum() + v_[n].sum());
+  return sum == 0;
+}
+
+bool Candidates::are_joined(std::size_t a, std::size_t b) const noexcept {
+  const Lattice& lattice = moving_->body().lattice;
+  const Index cell = cell_[a];
+  const Index away = cell_[b] - cell;
+  const auto& offset = lattice.offset[static_cast<std::size_t>(lattice.row_kind(cell))];
+  Mask mask = moving_->mask(cell);
+  for (; mask != 0; mask &= mask - 1)
+    if (offset[static_cast<std::size_t>(std::countr_zero(mask))] == away) return true;
+  return false;
+}
+
+}  // namespace palpate::physics

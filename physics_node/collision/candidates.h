@@ -1,0 +1,54 @@
+#pragma once
+// The masses of a body that may touch something: those with fewer live elements than deep inside the lattice.
+// Elements that break add to them, so the new surfaces of a crack are there at once. (EQUATIONS C-12)
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "physics_node/step/moving_body.h"
+
+namespace palpate::physics {
+
+class Candidates {
+ public:
+  explicit Candidates(const MovingBody& moving);
+
+  /// Finds them anew: after a reset, or when elements came back.
+  void restart() noexcept;
+  /// Takes the ends of elements that broke. @return masses that are new
+  std::size_t follow(std::span<const Break> breaks) noexcept;
+
+  /// Reads where they are and how fast. @return false: some number is not finite
+  bool refresh() noexcept;
+
+  std::size_t size() const { return cell_.size(); }
+  const std::vector<Index>& cell() const { return cell_; }
+  const std::vector<Vec3>& x() const { return x_; }        // position [m]
+  const std::vector<Vec3>& v() const { return v_; }        // velocity [m/s]
+  const std::vector<Vec3>& v_move() const { return v_move_; }  // that brought it here in the last step [m/s]
+  double inverse_mass(std::size_t n) const { return inverse_mass_[n]; }  // 0: held, or driven by a hand [1/kg]
+  bool is_driven(std::size_t n) const { return driven_[n] != 0; }
+  /// Number of the candidate in a storage cell, -1: it is none.
+  std::int32_t at_cell(Index cell) const { return number_[static_cast<std::size_t>(cell)]; }
+  /// Does a live element join these two?
+  bool are_joined(std::size_t a, std::size_t b) const noexcept;
+
+  const MovingBody& moving() const { return *moving_; }
+  double length() const { return length_; }  // L, by which contact distances go [m]
+  std::size_t most() const { return most_; }
+
+ private:
+  bool add(Index cell) noexcept;
+
+  const MovingBody* moving_;
+  double length_ = 0;
+  std::size_t most_ = 0;
+  std::vector<Index> cell_;
+  std::vector<Vec3> rest_, x_, v_, v_move_;
+  std::vector<double> inverse_mass_;
+  std::vector<std::uint8_t> driven_;
+  std::vector<std::int32_t> number_;  // by storage cell
+};
+
+}  // namespace palpate::physics

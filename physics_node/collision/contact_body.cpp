@@ -1,0 +1,60 @@
+#include "physics_node/collision/contact_body.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palpate::physics {
+
+ContactBody::ContactBody(const MovingBody& moving, bool wants_facets) : candidates_(moving) {
+  if (wants_facets) facets_ = std::make_unique<Facets>(candidates_);
+  marked_.resize(candidates_.most());
+}
+
+bool ContactBody::follow_breaks() noexcept {
+  if (moving().breaks_overflowed()) {
+    restart();
+    return true;
+  }
+  const auto breaks = moving().fresh_breaks();
+  if (breaks.empty()) return false;
+  const bool grown = candidates_.follow(breaks) > 0;
+  if (facets_) facets_->restart();
+  return grown || facets_;
+}
+
+void ContactBody::restart() noexcept {
+  candidates_.restart();
+  if (facets_) facets_->restart();
+  n_marked_ = 0;
+}
+
+void ContactBody::mark() noexcept {
+  n_marked_ = candidates_.size();
+  std::copy(candidates_.x().begin(), candidates_.x().end(), marked_.begin());
+  drift_.setZero();
+  stray_ = 0;
+}
+
+void ContactBody::measure_motion() noexcept {
+  const auto& x = candidates_.x();
+  drift_.setZero();
+  for (std::size_t n = 0; n < n_marked_; ++n) drift_ += x[n] - marked_[n];
+  if (n_marked_ > 0) drift_ /= static_cast<double>(n_marked_);
+  double most = 0;
+  for (std::size_t n = 0; n < n_marked_; ++n) most = std::max(most, (x[n] - marked_[n] - drift_).squaredNorm());
+  stray_ = std::sqrt(most);
+}
+
+ContactBody::Box ContactBody::box() const noexcept {
+  Box box;
+  const auto& x = candidates_.x();
+  if (!x.empty()) box.lo = box.hi = x.front();
+  for (const Vec3& p : x) box.lo = box.lo.cwiseMin(p), box.hi = box.hi.cwiseMax(p);
+  return box;
+}
+
+double gap_between(const ContactBody::Box& a, const ContactBody::Box& b) noexcept {
+  return std::max((a.lo - b.hi).maxCoeff(), (b.lo - a.hi).maxCoeff());
+}
+
+}  // namespace palpate::physics

@@ -1,0 +1,72 @@
+#pragma once
+// What could touch soon: a list of pairs within reach plus a skin, made anew only when something moved by half the skin.
+// Until then a step looks at these pairs and at nothing else. Source: Verlet 1967 (neighbour lists with a skin).
+//
+//   paper  (mass, mass)    swept  (mass, facet)
+//
+// Pairs come in one fixed order. Joined masses are no pair, nor is a mass with a facet that it is joined to.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "physics_node/collision/contact_body.h"
+#include "physics_node/collision/point_grid.h"
+
+namespace palpate::physics {
+
+/// A candidate or a facet: which body, which number there.
+struct PairEnd {
+  std::uint32_t body = 0, n = 0;
+};
+struct NearPair {
+  PairEnd mass, other;  // other: a mass (paper) or a facet (swept)
+};
+
+class NearPairs {
+ public:
+  NearPairs(const std::vector<ContactBody>& bodies, bool with_facets);
+
+  /// Which bodies may touch which, this frame; a body beside itself: its fragments.
+  void allow(std::uint32_t a, std::uint32_t b, bool near) noexcept;
+  bool any_allowed() const noexcept;
+
+  /// Brings the list up to date with where the candidates are now.
+  /// @param changed  candidates or facets are not what they were when it was made
+  void update(std::vector<ContactBody>& bodies, bool changed) noexcept;
+
+  const std::vector<NearPair>& pairs() const { return pairs_; }
+  std::int64_t rebuilds() const { return rebuilds_; }
+  std::int64_t overflows() const { return overflows_; }  // pairs that found no room
+
+ private:
+  bool is_allowed(std::uint32_t a, std::uint32_t b) const { return allowed_[a * n_bodies_ + b] != 0; }
+  bool is_valid(const std::vector<ContactBody>& bodies) const noexcept;
+  void rebuild(const std::vector<ContactBody>& bodies) noexcept;
+  void choose_seekers(const std::vector<ContactBody>& bodies) noexcept;
+  void seek_masses(const std::vector<ContactBody>& bodies) noexcept;
+  void seek_facets(const std::vector<ContactBody>& bodies) noexcept;
+  void consider_mass(const std::vector<ContactBody>& bodies, std::uint32_t b, std::uint32_t n, std::uint32_t id) noexcept;
+  void add(std::uint32_t body, std::uint32_t n, std::uint32_t other_body, std::uint32_t other) noexcept;
+  PairEnd place_of(std::uint32_t id) const noexcept;
+
+  std::uint32_t n_bodies_;
+  bool with_facets_;
+  std::vector<std::uint8_t> allowed_;  // (n_bodies, n_bodies)
+  std::vector<std::uint32_t> first_;   // id of the first candidate of each body  (n_bodies + 1)
+  // Of each candidate: may it meet another body, may it meet its own?
+  std::vector<std::uint8_t> seeks_other_, seeks_own_;
+  PointGrid grid_;
+  double skin_ = 0, size_ = 0;  // [m]
+  std::vector<NearPair> pairs_;
+  std::int64_t rebuilds_ = 0, overflows_ = 0;
+  bool fresh_ = false;
+};
+
+/// Distance at which two masses of these bodies touch, at rest: the larger L / sqrt(3). (EQUATIONS C-13)
+double paper_distance(const Candidates& a, const Candidates& b) noexcept;
+/// Distance at which a mass touches a facet whose edges now have this mean length: (edge + L) / (2 sqrt(3)), which is
+/// L / sqrt(3) between equal lattices at rest. A loose mass counts as one with edges of L.
+double swept_distance(double edge, const Candidates& of_mass) noexcept;
+
+}  // namespace palpate::physics

@@ -1,0 +1,188 @@
+#include "physics_node/collision/sweep.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics_node/collision/facet_now.h"
+
+namespace palpate::physics {
+namespace {
+
+constexpr int most_sweeps = 8;
+constexpr int most_rounds = 32;  // of zones; each joins at least one more mass
+
+/// The four where the step began, and what they move by with the impulses so far.
+struct Path {
+  Vec3 p, dp;
+  Triangle t, dt;
+};
+
+/// How near a mass may come in one step: a tenth of what it was; not nearer at all where hardly anything is left.
+double least_distance(double distance, double h) { return std::max(0.1 * distance, std::min(0.99 * distance, 0.02 * h)); }
+
+}  // namespace
+
+Sweep::Sweep(const std::vector<ContactBody>& bodies, std::size_t most_pairs) {
+  std::uint32_t n = 0;
+  for (const auto& body : bodies) {
+    first_.push_back(n);
+    n += static_cast<std::uint32_t>(body.candidates().most());
+  }
+  parent_.resize(n);
+  for (std::uint32_t i = 0; i < n; ++i) parent_[i] = i;
+  in_zone_.assign(n, 0);
+  zoned_.reserve(n);
+  sums_.resize(n);
+  active_.reserve(most_pairs);
+}
+
+void Sweep::find_active(const std::vector<ContactBody>& bodies, std::span<const NearPair> pairs, double dt) noexcept {
+  active_.clear();
+  for (const NearPair& pair : pairs) {
+    const Candidates& c = bodies[pair.mass.body].candidates();
+    const ContactBody& other = bodies[pair.other.body];
+    const Facets::Corners& k = other.facets()->all()[pair.other.n];
+    const Candidates& d = other.candidates();
+    const auto start = [&](const Candidates& of, std::uint32_t n) { return Vec3(of.x()[n] - dt * of.v_move()[n]); };
+    const Vec3 p = start(c, pair.mass.n);
+    const Triangle t{start(d, k[0]), start(d, k[1]), start(d, k[2])};
+    const double edge = k[0] == k[1] ? d.length() : ((t[0] - t[1]).norm() + (t[1] - t[2]).norm() + (t[2] - t[0]).norm()) / 3;
+    const double h = swept_distance(edge, c);
+    const ClosestPoint nearest = closest_point(p, t);
+    double farthest = 0;
+    for (const std::uint32_t corner : k)
+      farthest = std::max(farthest, (c.v_move()[pair.mass.n] - d.v_move()[corner]).squaredNorm());
+    // Impulses change velocities; a pair as far as this from touching is left out even if they double.
+    if (nearest.distance > h + 2 * dt * std::sqrt(farthest) || nearest.distance == 0) continue;
+    if (active_.size() == active_.capacity()) break;
+    Active& a = active_.emplace_back();
+    a.end = {pair.mass, PairEnd{pair.other.body, k[0]}, PairEnd{pair.other.body, k[1]}, PairEnd{pair.other.body, k[2]}};
+    a.weight = nearest.weight;
+    a.distance = nearest.distance;
+    a.n = nearest.away / nearest.distance;
+    a.h = h;
+    a.W = c.inverse_mass(pair.mass.n);
+    if (k[0] == k[1]) {
+      a.weight = {1, 0, 0};
+      a.W += d.inverse_mass(k[0]);
+    } else {
+      for (int i = 0; i < 3; ++i)
+        a.W += a.weight[i] * a.weight[i] * d.inverse_mass(k[static_cast<std::size_t>(i)]);
+    }
+  }
+}
+
+std::int64_t Sweep::push_apart(const std::vector<ContactBody>& bodies, double e, double dt, ContactImpulses& impulses,
+                               double& lost) noexcept {
+  std::int64_t collisions = 0;
+  for (const Active& a : active_) {
+    if (a.W == 0) continue;
+    const auto closing = [&](auto&& velocity) {
+      Vec3 v = velocity(a.end[0]);
+      for (int i = 0; i < 3; ++i) v -= a.weight[i] * velocity(a.end[static_cast<std::size_t>(i) + 1]);
+      return v.dot(a.n);
+    };
+    const double v_n = closing([&](PairEnd at) { return impulses.v(bodies, at); });
+    if (v_n >= 0) continue;
+    if (a.distance + dt * closing([&](PairEnd at) { return impulses.v_move(bodies, at); }) >= a.h) continue;
+    const double J = -(1 + e) * v_n / a.W;
+    impulses.push(bodies, a.end[0], J * a.n);
+    for (int i = 0; i < 3; ++i)
+      if (a.weight[i] > 0) impulses.push(bodies, a.end[static_cast<std::size_t>(i) + 1], -a.weight[i] * J * a.n);
+    lost += 0.5 * (1 - e * e) * v_n * v_n / a.W;
+    ++collisions;
+  }
+  return collisions;
+}
+
+bool Sweep::would_pass(const std::vector<ContactBody>& bodies, const Active& a, double dt,
+                       const ContactImpulses& impulses) const noexcept {
+  const auto start = [&](PairEnd at) {
+    const Candidates& c = bodies[at.body].candidates();
+    return Vec3(c.x()[at.n] - dt * c.v_move()[at.n]);
+  };
+  const auto moves = [&](PairEnd at) { return Vec3(dt * impulses.v_move(bodies, at)); };
+  const Triangle t{start(a.end[1]), start(a.end[2]), start(a.end[3])};
+  const Triangle by{moves(a.end[1]), moves(a.end[2]), moves(a.end[3])};
+  return comes_nearer(start(a.end[0]), moves(a.end[0]), t, by, least_distance(a.distance, a.h));
+}
+
+std::uint32_t Sweep::zone_of(std::uint32_t id) noexcept {
+  while (parent_[id] != id) id = parent_[id] = parent_[parent_[id]];
+  return id;
+}
+
+void Sweep::join(const Active& a) noexcept {
+  for (const PairEnd& at : a.end) {
+    const std::uint32_t id = id_of(at);
+    if (in_zone_[id] == 0) {
+      in_zone_[id] = 1;
+      zoned_.push_back(at);
+    }
+    const std::uint32_t one = zone_of(id_of(a.end[0])), other = zone_of(id);
+    parent_[std::max(one, other)] = std::min(one, other);
+  }
+}
+
+/// V = sum m v / sum m of the masses of a zone; that of a held or driven one where there is any.
+void Sweep::move_zones_together(const std::vector<ContactBody>& bodies, ContactImpulses& impulses) noexcept {
+  for (const PairEnd& at : zoned_) sums_[id_of(at)] = Sum{};
+  for (const PairEnd& at : zoned_) {
+    Sum& sum = sums_[zone_of(id_of(at))];
+    const double w = bodies[at.body].candidates().inverse_mass(at.n);
+    if (w == 0) {
+      sum.fixed = true;
+      sum.velocity = impulses.v_move(bodies, at);
+      continue;
+    }
+    sum.momentum += impulses.v_move(bodies, at) / w;
+    sum.mass += 1 / w;
+  }
+  for (const PairEnd& at : zoned_) {
+    const Sum& sum = sums_[zone_of(id_of(at))];
+    const Vec3 V = sum.fixed ? sum.velocity : Vec3(sum.momentum / sum.mass);
+    impulses.set_velocity(bodies, at, V - bodies[at.body].candidates().v_move()[at.n]);
+  }
+}
+
+SweepReport Sweep::step(const std::vector<ContactBody>& bodies, std::span<const NearPair> pairs, double e, double dt,
+                        ContactImpulses& impulses) noexcept {
+  SweepReport report;
+  find_active(bodies, pairs, dt);
+  if (active_.empty()) return report;
+  for (int n = 0; n < most_sweeps; ++n) {
+    const std::int64_t collisions = push_apart(bodies, e, dt, impulses, report.lost);
+    report.collisions += collisions;
+    if (collisions == 0) break;
+  }
+  for (int round = 0; round < most_rounds; ++round) {
+    bool grown = false;
+    for (Active& a : active_) {
+      if (a.looked_through || !would_pass(bodies, a, dt, impulses)) continue;
+      a.looked_through = true;  // moves together from now on
+      join(a);
+      grown = true;
+    }
+    if (!grown) break;
+    const auto kinetic = [&] {
+      double sum = 0;
+      for (const PairEnd& at : zoned_) {
+        const double w = bodies[at.body].candidates().inverse_mass(at.n);
+        if (w > 0) sum += 0.5 / w * impulses.v(bodies, at).squaredNorm();
+      }
+      return sum;
+    };
+    const double before = kinetic();
+    move_zones_together(bodies, impulses);
+    report.lost += before - kinetic();
+  }
+  report.stopped = static_cast<std::int64_t>(zoned_.size());
+  for (const PairEnd& at : zoned_) {
+    parent_[id_of(at)] = id_of(at);
+    in_zone_[id_of(at)] = 0;
+  }
+  zoned_.clear();
+  return report;
+}
+
+}  // namespace palpate::physics

@@ -1,0 +1,69 @@
+#pragma once
+// Contact by which nothing tunnels: masses against facets, along the whole step.
+
+#include <span>
+
+#include "physics_node/collision/contact_impulses.h"
+
+namespace palpate::physics {
+
+struct SweepReport {
+  std::int64_t collisions = 0;
+  std::int64_t stopped = 0;  // masses that no impulse could keep apart and that were made to move together
+  double lost = 0;           // kinetic energy [J]
+};
+
+/// One step of contact. The masses are where the step without contact took them, x + dt v; impulses act at its beginning,
+/// so the caller adds dv to the velocity and dt dv to the place.
+///
+/// For each pair, with q the point of the facet nearest to mass p at the beginning, weights w_k, d = |p - q|, n = (p - q) / d:
+///   h = (edge + L) / (2 sqrt 3);  v_n = n . (v_p - sum w_k v_k);  W = 1/m_p + sum w_k^2 / m_k
+///   d + dt v_n < h and v_n < 0:   J = -(1 + e) v_n / W on p, -w_k J on the corners
+/// over all pairs in order, until none approaches or eight times. The force acts along the line between the two points, so
+/// momentum and angular momentum are kept.
+///
+/// Then every pair is followed along the step (comes_nearer). Where a mass would still come nearer than a tenth of what it was,
+/// the four masses are made to move together, with what they touch, at the velocity of their common momentum: they keep their
+/// distance whatever happens. So a mass that begins on one side of a facet ends on that side.
+/// Source: Bridson, Fedkiw, Anderson 2002 (impulses first, zones that move together last).
+/// Deviation: zones move without rotation; their angular momentum is not kept. They are counted in `stopped`.
+class Sweep {
+ public:
+  explicit Sweep(const std::vector<ContactBody>& bodies, std::size_t most_pairs);
+  SweepReport step(const std::vector<ContactBody>& bodies, std::span<const NearPair> pairs, double e, double dt,
+                   ContactImpulses& impulses) noexcept;
+
+ private:
+  struct Active {
+    std::array<PairEnd, 4> end{};  // the mass, then the corners
+    Vec3 weight = Vec3::Zero();
+    Vec3 n = Vec3::UnitZ();
+    double distance = 0, h = 0;
+    double W = 0;
+    bool looked_through = false;
+  };
+  void find_active(const std::vector<ContactBody>& bodies, std::span<const NearPair> pairs, double dt) noexcept;
+  std::int64_t push_apart(const std::vector<ContactBody>& bodies, double e, double dt, ContactImpulses& impulses,
+                          double& lost) noexcept;
+  bool would_pass(const std::vector<ContactBody>& bodies, const Active& pair, double dt,
+                  const ContactImpulses& impulses) const noexcept;
+  void join(const Active& pair) noexcept;
+  std::uint32_t zone_of(std::uint32_t id) noexcept;
+  std::uint32_t id_of(PairEnd at) const noexcept { return first_[at.body] + at.n; }
+  void move_zones_together(const std::vector<ContactBody>& bodies, ContactImpulses& impulses) noexcept;
+
+  std::vector<std::uint32_t> first_;
+  std::vector<Active> active_;
+  std::vector<std::uint32_t> parent_;  // of each candidate, in zones; itself where it is in none
+  std::vector<PairEnd> zoned_;         // candidates in zones
+  std::vector<std::uint8_t> in_zone_;
+  struct Sum {
+    Vec3 momentum = Vec3::Zero();
+    double mass = 0;
+    bool fixed = false;
+    Vec3 velocity = Vec3::Zero();
+  };
+  std::vector<Sum> sums_;              // by candidate, meaningful for roots of zones
+};
+
+}  // namespace palpate::physics
