@@ -39,6 +39,7 @@ struct RowLedger {
   double numerical = 0;  // [J] lost to the integrator, in all; only backward_euler
   double broken = 0;   // [J] elastic energy of elements when they broke, in all
   std::int64_t breaks = 0;
+  std::int64_t mirrored = 0;  // breaks that both ends of their elements know of
   std::int64_t yields = 0;  // times that an element yielded
   // when last watched:
   double speed2 = 0;         // largest of the row [m^2/s^2]

@@ -3,16 +3,19 @@
 namespace palpate::physics {
 namespace {
 
-/// Clears the bits of elements that this mass is the second end of and that its first ends no longer have.
+/// Of the elements that this mass is the first end of, those that only the other end still has.
 template <class Real>
-void mirror_mass(const Lattice& lattice, LatticeState<Real>& state, Index cell, const Index* offset) {
-  const auto n_half = static_cast<std::size_t>(lattice.n_half);
-  Mask& mine = state.mask[static_cast<std::size_t>(cell)];
-  for (std::size_t d = 0; d < 2 * n_half; ++d) {
-    if (offset[d] > 0 || (mine >> d & 1) == 0) continue;
-    const std::size_t back = d < n_half ? d + n_half : d - n_half;
-    const Mask theirs = state.mask[static_cast<std::size_t>(cell + offset[d])];
-    if ((theirs >> back & 1) == 0) mine &= ~(1U << d);
+void mirror_mass(const Lattice& lattice, LatticeState<Real>& state, Index cell, int kind) {
+  const Mask mine = state.mask[static_cast<std::size_t>(cell)];
+  for (const int d : lattice.forward[static_cast<std::size_t>(kind)]) {
+    if ((mine >> d & 1) != 0) continue;
+    const int half = d % lattice.n_half;
+    const int back = d < lattice.n_half ? d + lattice.n_half : half;
+    const Index other = cell + lattice.offset[static_cast<std::size_t>(kind)][static_cast<std::size_t>(d)];
+    Mask& theirs = state.mask[static_cast<std::size_t>(other)];
+    if ((theirs >> back & 1) == 0) continue;
+    theirs &= ~(1U << back);
+    state.fresh.add(d < lattice.n_half ? Break{cell, other, half} : Break{other, cell, half});
   }
 }
 
@@ -20,15 +23,17 @@ void mirror_mass(const Lattice& lattice, LatticeState<Real>& state, Index cell, 
 
 template <class Real>
 std::int64_t mirror_breaks(const Body& body, LatticeState<Real>& state) noexcept {
-  std::int64_t breaks = 0;
-  for (const RowLedger& row : state.ledger) breaks += row.breaks;
-  const std::int64_t fresh = breaks - state.breaks;
-  state.breaks = breaks;
-  if (fresh == 0) return 0;
-  for (const RowSegment& row : body.lattice.rows) {
-    const Index* offset = body.lattice.offset[static_cast<std::size_t>(row.kind)].data();
-    for (Index i = row.first; i < row.first + row.count; ++i) mirror_mass(body.lattice, state, i, offset);
+  state.fresh.begin_step();
+  std::int64_t fresh = 0;
+  for (std::size_t r = 0; r < state.ledger.size(); ++r) {
+    RowLedger& ledger = state.ledger[r];
+    if (ledger.breaks == ledger.mirrored) continue;
+    fresh += ledger.breaks - ledger.mirrored;
+    ledger.mirrored = ledger.breaks;
+    const RowSegment& row = body.lattice.rows[r];
+    for (Index i = row.first; i < row.first + row.count; ++i) mirror_mass(body.lattice, state, i, row.kind);
   }
+  state.breaks += fresh;
   return fresh;
 }
 

@@ -145,6 +145,9 @@ class LatticeBody final : public MovingBody {
   Vec3 displacement(Index cell) const noexcept override { return vector_of(state_.u, cell); }
   Vec3 velocity(Index cell) const noexcept override { return vector_of(state_.v, cell); }
   Mask mask(Index cell) const noexcept override { return state_.mask[static_cast<std::size_t>(cell)]; }
+  std::span<const Break> fresh_breaks() const noexcept override { return state_.fresh.list; }
+  bool fresh_overflow() const noexcept override { return any_yields(body_) && state_.fresh.overflow; }
+  std::int64_t breaks() const noexcept override { return state_.breaks; }
   std::uint8_t flags(Index cell) const noexcept override {
     std::uint8_t flags = 0;
     if (state_.mask[static_cast<std::size_t>(cell)] != body_.lattice.mask[static_cast<std::size_t>(cell)])

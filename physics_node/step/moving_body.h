@@ -8,6 +8,7 @@
 
 #include "physics_node/body/body.h"
 #include "physics_node/step/element_step.h"
+#include "physics_node/step/fresh_breaks.h"
 #include "physics_node/step/implicit_step.h"
 #include "physics_node/step/mass_flags.h"
 
@@ -97,6 +98,13 @@ class MovingBody {
   virtual Vec3 displacement(Index cell) const noexcept = 0;  // from rest [m]
   virtual Vec3 velocity(Index cell) const noexcept = 0;
   virtual Mask mask(Index cell) const noexcept = 0;
+  /// Elements that broke in the last step, in storage order; what breaks next makes the span another one.
+  virtual std::span<const Break> fresh_breaks() const noexcept = 0;
+  /// The list is not all: anything may have changed. After a reset and a restore at once and still after the next step, and
+  /// after a step in which more broke than the list holds. Never where nothing yields.
+  virtual bool fresh_overflow() const noexcept = 0;
+  /// Elements broken since the start.
+  virtual std::int64_t breaks() const noexcept = 0;
   virtual std::uint8_t flags(Index cell) const noexcept = 0;
   virtual Energies energies(const Vec3& gravity) const = 0;
   virtual Losses losses() const = 0;

@@ -58,6 +58,7 @@ void SavedState<Real>::bring_back(const Body& body, LatticeState<Real>& state) c
     row.acceleration2 = std::numeric_limits<double>::max();  // not known: nothing may sleep before the next look
   }
   state.breaks = breaks_;
+  state.fresh.replace_all();
   if (!any_yields(body)) return;
   copy_rows(body, mask_, state.mask);
   for (std::size_t h = 0; h < static_cast<std::size_t>(body.lattice.n_half); ++h) {

@@ -29,6 +29,7 @@ LatticeState<Real>::LatticeState(const Body& body) {
   if (!body.law_of.empty()) varied = make_varied_constants<Real>(body, colour);
   row_state.resize(body.lattice.rows.size());
   ledger.resize(body.lattice.rows.size());
+  if (any_yields(body)) fresh.reserve(body.lattice.n_elements());
   reset(body);
 }
 
@@ -51,6 +52,7 @@ void LatticeState<Real>::reset(const Body& body) {
   }
   v_half_known = false;
   breaks = 0;
+  fresh.replace_all();
   std::fill(row_state.begin(), row_state.end(), RowState::awake);
   std::fill(ledger.begin(), ledger.end(), RowLedger{});
 }

@@ -7,6 +7,7 @@
 
 #include "physics_node/body/body.h"
 #include "physics_node/step/element_context.h"
+#include "physics_node/step/fresh_breaks.h"
 #include "physics_node/step/zeroed_array.h"
 
 namespace palpate::physics {
@@ -39,6 +40,7 @@ struct LatticeState {
   std::vector<RowState> row_state;                           // by row
   std::vector<RowLedger> ledger;                             // by row
   std::int64_t breaks = 0;                                   // of all rows, when the masks were last mirrored
+  FreshBreaks fresh;                                         // of the last step; only where a material yields
 
   explicit LatticeState(const Body& body);
   void reset(const Body& body);

@@ -1,0 +1,154 @@
+// What a step says of the elements that broke in it, and what a break must not change.
+#include <gtest/gtest.h>
+
+#include <set>
+#include <tuple>
+
+#include "physics_node/step/moving_body.h"
+#include "tests/support/physics/small_worlds.h"
+
+namespace palpate::physics::test {
+namespace {
+
+const char* const brittle =
+    "mass_g = 1\nk1_N_per_m = 200\nk2_ratio = 0.2\nyield_ratio = 1.05\nbreak_ratio = 1.1";
+
+Recipe brittle_box(const char* lattice, double width_mm = 50) {
+  Recipe recipe;
+  recipe.lattice = lattice;
+  recipe.material = brittle;
+  recipe.shape = Recipe::box(width_mm, width_mm, width_mm);
+  return recipe;
+}
+
+using Ends = std::tuple<Index, Index, int>;
+
+/// Elements by what the masks of their first ends say.
+std::set<Ends> live_elements(const MovingBody& moving) {
+  const Lattice& lattice = moving.body().lattice;
+  std::set<Ends> live;
+  for (const Index cell : lattice.masses)
+    for (int d = 0; d < lattice.n_half; ++d)
+      if ((moving.mask(cell) >> d & 1) != 0) {
+        const auto& offset = lattice.offset[static_cast<std::size_t>(lattice.row_kind(cell))];
+        live.insert({cell, cell + offset[static_cast<std::size_t>(d)], d});
+      }
+  return live;
+}
+
+void shake(MovingBody& moving, double speed, std::uint64_t seed) {
+  Dice dice(seed);
+  for (const Index cell : moving.body().lattice.masses) moving.place(cell, Vec3::Zero(), dice.within(speed));
+}
+
+TEST(FreshBreaks, AreWhatTheMasksLost) {
+  for (const char* lattice : {"fcc", "voxel"}) {
+    const auto moving = make_moving_body(body_of(brittle_box(lattice)), Precision::single_);
+    shake(*moving, 1.5, 3);
+    moving->element_forces_and_integrate({.dt = 2e-4});
+    std::set<Ends> before = live_elements(*moving);
+    std::int64_t broken = moving->breaks();
+    for (int n = 0; n < 150; ++n) {
+      const std::int64_t now = moving->element_forces_and_integrate({.dt = 2e-4});
+      const std::set<Ends> after = live_elements(*moving);
+      std::set<Ends> lost;
+      Index last = 0;
+      for (const Break& one : moving->fresh_breaks()) {
+        EXPECT_TRUE(lost.insert({one.first, one.other, one.half}).second) << lattice;
+        EXPECT_LE(last, std::min(one.first, one.other)) << "not in storage order";
+        last = std::min(one.first, one.other);
+      }
+      std::set<Ends> sum = after;
+      sum.insert(lost.begin(), lost.end());
+      EXPECT_EQ(sum, before) << lattice << " step " << n;
+      EXPECT_EQ(after.size() + lost.size(), before.size()) << lattice << " step " << n;
+      EXPECT_EQ(static_cast<std::size_t>(now), lost.size());
+      EXPECT_FALSE(moving->fresh_overflow());
+      broken += now;
+      before = after;
+    }
+    EXPECT_EQ(moving->breaks(), broken);
+    EXPECT_GT(broken, 50) << lattice;
+  }
+}
+
+TEST(FreshBreaks, ComeInOneOrderForAnyNumberOfThreads) {
+  std::vector<std::vector<Ends>> lists;
+  for (const int threads : {1, 2, 5}) {
+    const auto moving = make_moving_body(body_of(brittle_box("fcc", 210)), Precision::single_);
+    ASSERT_GT(moving->body().lattice.chunks.size(), 1u);
+    shake(*moving, 2, 4);
+    std::vector<Ends> all;
+    for (int n = 0; n < 30; ++n) {
+      moving->element_forces_and_integrate({.dt = 2e-4, .threads = threads});
+      for (const Break& one : moving->fresh_breaks()) all.emplace_back(one.first, one.other, one.half);
+    }
+    lists.push_back(all);
+  }
+  EXPECT_GT(lists[0].size(), 100u);
+  EXPECT_EQ(lists[1], lists[0]);
+  EXPECT_EQ(lists[2], lists[0]);
+}
+
+TEST(FreshBreaks, SayWhenTheyAreNotAll) {
+  FreshBreaks fresh;
+  fresh.reserve(2);
+  const std::size_t room = fresh.list.capacity();
+  fresh.begin_step();
+  for (std::size_t n = 0; n < room; ++n) fresh.add({});
+  EXPECT_FALSE(fresh.overflow);
+  fresh.add({});
+  EXPECT_TRUE(fresh.overflow);
+  EXPECT_EQ(fresh.list.size(), room);
+  fresh.begin_step();
+  EXPECT_FALSE(fresh.overflow);
+  EXPECT_TRUE(fresh.list.empty());
+}
+
+TEST(FreshBreaks, KnowThatAStateWasReplaced) {
+  const auto moving = make_moving_body(body_of(brittle_box("fcc")), Precision::double_);
+  const ExplicitStep step{.dt = 2e-4};
+  EXPECT_TRUE(moving->fresh_overflow());
+  moving->element_forces_and_integrate(step);
+  moving->element_forces_and_integrate(step);
+  for (const bool restore : {true, false}) {
+    EXPECT_FALSE(moving->fresh_overflow());
+    if (restore) {
+      moving->restore();
+    } else {
+      moving->reset();
+    }
+    EXPECT_TRUE(moving->fresh_overflow());
+    moving->element_forces_and_integrate(step);
+    EXPECT_TRUE(moving->fresh_overflow());
+    moving->element_forces_and_integrate(step);
+    EXPECT_FALSE(moving->fresh_overflow());
+  }
+  const auto elastic = make_moving_body(body_of(Recipe{}), Precision::double_);
+  EXPECT_FALSE(elastic->fresh_overflow());
+}
+
+TEST(Momentum, IsNotChangedByABreak) {
+  for (const Integrator integrator : {Integrator::symplectic_euler, Integrator::velocity_verlet}) {
+    Recipe recipe = brittle_box("fcc");
+    recipe.material += "\nviscosity_N_s_per_m = 0.05";
+    const auto moving = make_moving_body(body_of(recipe), Precision::double_, integrator);
+    shake(*moving, 2, 5);
+    double scale = 0;  // sum of |m v|: what the sums round by
+    for (const Index cell : moving->body().lattice.masses) scale += 1e-3 * moving->velocity(cell).norm();
+    const Momenta start = moving->momenta();
+    for (int n = 0; n < 200; ++n) {
+      moving->element_forces_and_integrate({.dt = 2e-4, .verlet = integrator == Integrator::velocity_verlet});
+      const Momenta now = moving->momenta();
+      ASSERT_LT((now.linear - start.linear).norm(), 1e-13 * scale) << "step " << n;
+      // Central forces turn nothing; Verlet's velocity of whole steps is exact in it to second order only.
+      if (integrator == Integrator::symplectic_euler) {
+        ASSERT_LT((now.angular - start.angular).norm(), 1e-13 * scale) << "step " << n;
+      }
+    }
+    EXPECT_GT(moving->breaks(), 100);
+  }
+}
+
+}  // namespace
+}  // namespace palpate::physics::test
