@@ -23,6 +23,7 @@ constexpr double largest_growth = 4;         // before the guard acts
 constexpr double suspicious_growth = 1.5;    // before it measures anew
 constexpr double sound_growth = 2;           // between two saves, for the first of them to be good
 constexpr double negligible_energy = 1e-12;  // [J]
+constexpr int most_substeps = 256;           // of a frame in which something fast is near
 constexpr int most_recoveries = 6;           // each halves the step
 
 int choose_threads(const Scene& scene, Index n_masses) {
@@ -48,7 +49,13 @@ World::World(const Scene& scene) : scene_(scene) {
     bodies_.push_back(make_moving_body(std::move(body), scene.physics.precision, integrator));
     touchable_.push_back({bodies_.back().get(), std::make_unique<ContactSurface>(*bodies_.back(), bucket)});
   }
-  for (std::uint32_t n = 0; n < scene.tools.size(); ++n) tools_.emplace_back(scene.tools[n], n, touchable_);
+  make_tools();
+  if (scene.contact.enabled && (bodies_.size() > 1 || any_yields_))
+    collisions_ = std::make_unique<Collisions>(bodies_, scene.contact);
+  if (scene.floor) planes_.push_back({Vec3::UnitZ(), scene.floor->height});
+  if (scene.floor || !scene.walls.empty())
+    for (auto& body : bodies_) body->prepare_contact();
+  for (const WallSpec& wall : scene.walls) planes_.push_back({wall.normal, wall.normal.dot(wall.point)});
   threads_ = choose_threads(scene, n_masses);
   gathered_.reserve(tools_.size() * ToolCoupling::most_forces);
 
@@ -62,8 +69,23 @@ World::World(const Scene& scene) : scene_(scene) {
         fmt::format("{}: a step of {:.4g} ms is above the stable {:.4g} ms; expect the guard to act",
                     scene.physics.place.text(), 1e3 * dt_, 1e3 * stable_dt_));
   }
-  if (bodies_.size() > 1) remarks_.emplace_back("bodies touch tools and the floor, not yet each other");
   restart_ledger();
+}
+
+void World::make_tools() {
+  for (std::uint32_t n = 0; n < scene_.tools.size(); ++n) {
+    const ToolSpec& spec = scene_.tools[n];
+    if (spec.shape == ToolShape::point) {
+      tools_.push_back(std::make_unique<ToolCoupling>(spec, n, touchable_));
+      continue;
+    }
+    std::size_t b = 0;
+    while (b < bodies_.size() && bodies_[b]->body().name != spec.body) ++b;
+    PALPATE_CHECK(b < bodies_.size() && !bodies_[b]->body().handle.empty(), "a tool names a body that has a handle");
+    auto tool = std::make_unique<BodyTool>(spec, n, b, *bodies_[b]);
+    body_tools_.push_back(tool.get());
+    tools_.push_back(std::move(tool));
+  }
 }
 
 void World::restart_ledger() {
@@ -87,7 +109,7 @@ EnergyLedger World::watched_ledger() const noexcept {
   return account_.book(now, sum_losses(bodies_), report_);
 }
 
-void World::implicit_step(double dt, bool watch) noexcept {
+void World::move_bodies_implicitly(double dt, bool watch) noexcept {
   const StageTimer timer(report_, Stage::integrate);
   const ExplicitStep how{dt, scene_.gravity, threads_, false, watch};
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -97,12 +119,7 @@ void World::implicit_step(double dt, bool watch) noexcept {
     report_.cg_iterations += solved.cg_iterations;
     if (!solved.converged) ++report_.unsolved;
   }
-  if (scene_.floor)
-    for (auto& body : bodies_) body->bounce_off_floor(scene_.floor->height);
   ++report_[Stage::element_forces].skipped;  // part of the solution
-  ++report_[Stage::contact_forces].skipped;
-  count_yield_and_break();
-  ++report_.steps;
 }
 
 void World::book_work(double work) noexcept {
@@ -122,34 +139,55 @@ void World::count_yield_and_break() noexcept {
 std::span<const NodalForce> World::gathered(std::size_t body) noexcept {
   gathered_.clear();
   for (const auto& tool : tools_)
-    if (tool.touched_body() == body)
-      gathered_.insert(gathered_.end(), tool.forces().begin(), tool.forces().end());
+    if (tool->touched_body() == body)
+      gathered_.insert(gathered_.end(), tool->forces().begin(), tool->forces().end());
   return gathered_;
 }
 
-void World::step(double dt, bool watch) noexcept {
-  if (scene_.physics.integrator == Integrator::backward_euler) return implicit_step(dt, watch);
+void World::move_bodies(double dt, bool watch) noexcept {
   const ExplicitStep how{dt, scene_.gravity, threads_,
                          scene_.physics.integrator == Integrator::velocity_verlet, watch};
-  for (auto& body : bodies_) {
-    const StageTimer timer(report_, Stage::element_forces);
-    report_.broken += body->element_forces_and_integrate(how);
-  }
-  bool any_force = scene_.floor.has_value();
-  for (const auto& tool : tools_) any_force = any_force || !tool.forces().empty();
-  if (any_force) {
-    const StageTimer timer(report_, Stage::contact_forces);
-    for (const auto& tool : tools_) {
-      if (tool.forces().empty()) continue;
-      book_work(bodies_[tool.touched_body()]->kick(tool.forces(), dt));
-    }
-    if (scene_.floor)
-      for (auto& body : bodies_) body->bounce_off_floor(scene_.floor->height);
-  } else {
-    ++report_[Stage::contact_forces].skipped;
-  }
+  const StageTimer timer(report_, Stage::element_forces);
+  for (auto& body : bodies_) report_.broken += body->element_forces_and_integrate(how);
   ++report_[Stage::integrate].skipped;  // fused with the forces
+}
+
+void World::touch(double dt, double done) noexcept {
+  const bool implicit = scene_.physics.integrator == Integrator::backward_euler;
+  bool any = near_ || !planes_.empty() || !body_tools_.empty();
+  for (const auto& tool : tools_) any = any || (!implicit && !tool->forces().empty());
+  if (!any) {
+    ++report_[Stage::contact_forces].skipped;
+    return;
+  }
+  const StageTimer timer(report_, Stage::contact_forces);
+  for (const auto& tool : tools_)
+    if (!implicit && !tool->forces().empty()) book_work(bodies_[tool->touched_body()]->kick(tool->forces(), dt));
+  for (BodyTool* tool : body_tools_) book_work(tool->lead(done, dt).work);
+  if (near_) {
+    const CollisionTally before = collisions_->tally();
+    collisions_->step(dt);
+    book_work(collisions_->tally().driven_work - before.driven_work);
+    report_.contact_lost += collisions_->tally().lost - before.lost;
+  }
+  for (const Plane& plane : planes_)
+    for (auto& body : bodies_) report_.contact_lost += body->bounce_off(plane, scene_.contact.restitution, dt).lost;
+}
+
+void World::step(double dt, double done, bool watch) noexcept {
+  if (near_) {
+    collisions_->before_step();
+  } else if (!planes_.empty()) {
+    for (auto& body : bodies_) body->remember_velocities();
+  }
+  if (scene_.physics.integrator == Integrator::backward_euler) {
+    move_bodies_implicitly(dt, watch);
+  } else {
+    move_bodies(dt, watch);
+  }
   count_yield_and_break();
+  if (collisions_ && any_yields_) collisions_->follow_breaks();
+  touch(dt, done);
   ++report_.steps;
 }
 
@@ -191,6 +229,7 @@ void World::guard() noexcept {
 void World::recover(std::size_t culprit) noexcept {
   // Tools and gravity did work on a state that is thrown away: what is booked starts anew from the state restored.
   for (auto& body : bodies_) body->restore();
+  if (collisions_) collisions_->restart();
   ++report_.restored;
   account_.write_off(ledger());
   if (recoveries_ == most_recoveries) {
@@ -212,24 +251,44 @@ std::optional<std::string> World::stopped() const {
       bodies_[*given_up_]->body().name, report_.restored, 1e3 * dt_);
 }
 
-void World::frame(std::span<const std::optional<ToolState>> tools) noexcept {
-  if (given_up_) return;
+void World::take_tools(std::span<const std::optional<ToolState>> tools) noexcept {
   if (tools_.empty()) {
     ++report_[Stage::take_tools].skipped;
-    ++report_[Stage::find_contacts].skipped;
-  } else {
-    {
-      const StageTimer timer(report_, Stage::take_tools);
-      for (std::size_t n = 0; n < tools_.size(); ++n) {
-        const bool fresh = n < tools.size() && tools[n].has_value();
-        tools_[n].take(fresh ? &*tools[n] : nullptr, frame_dt_);
-      }
-    }
-    const StageTimer timer(report_, Stage::find_contacts);
-    for (auto& tool : tools_) tool.find_contact(t_);
+    return;
   }
-  const int n_substeps = n_substeps_;
-  for (int n = 1; n <= n_substeps; ++n) step(dt_, n == n_substeps);
+  const StageTimer timer(report_, Stage::take_tools);
+  for (std::size_t n = 0; n < tools_.size(); ++n) {
+    const bool fresh = n < tools.size() && tools[n].has_value();
+    tools_[n]->take(fresh ? &*tools[n] : nullptr, frame_dt_);
+  }
+}
+
+void World::find_contacts() noexcept {
+  near_ = false;
+  if (tools_.empty() && !collisions_) {
+    ++report_[Stage::find_contacts].skipped;
+    return;
+  }
+  const StageTimer timer(report_, Stage::find_contacts);
+  for (auto& tool : tools_) tool->find_contact(t_);
+  if (collisions_) near_ = collisions_->begin_frame(frame_dt_);
+}
+
+int World::substeps_of_frame() const noexcept {
+  if (!near_) return n_substeps_;
+  const double wanted = frame_dt_ / collisions_->wanted_step();
+  return std::max(n_substeps_, static_cast<int>(std::ceil(std::min<double>(wanted, most_substeps))));
+}
+
+void World::frame(std::span<const std::optional<ToolState>> tools) noexcept {
+  if (given_up_) return;
+  take_tools(tools);
+  find_contacts();
+  const int n_substeps = substeps_of_frame();
+  const double dt = frame_dt_ / n_substeps;
+  for (int n = 1; n <= n_substeps; ++n) step(dt, static_cast<double>(n) / n_substeps, n == n_substeps);
+  for (BodyTool* tool : body_tools_)
+    tool->feel(collisions_ ? collisions_->take_impulse(tool->body()) : BodyImpulse{}, frame_dt_);
   guard();
   // backward_euler solves for all masses at once: none of them can be left out.
   if (scene_.physics.sleep && scene_.physics.integrator != Integrator::backward_euler)
@@ -240,6 +299,8 @@ void World::frame(std::span<const std::optional<ToolState>> tools) noexcept {
 
 void World::reset() noexcept {
   for (auto& body : bodies_) body->reset();
+  for (auto& tool : tools_) tool->reset();
+  if (collisions_) collisions_->restart();
   n_substeps_ = std::max(1, n_substeps_ >> recoveries_);
   dt_ = frame_dt_ / n_substeps_;
   recoveries_ = 0;

@@ -10,6 +10,8 @@
 
 #include "common/message/messages.h"
 #include "common/scene/scene.h"
+#include "physics_node/collision/collisions.h"
+#include "physics_node/contact/body_tool.h"
 #include "physics_node/contact/tool_coupling.h"
 #include "physics_node/step/energy_account.h"
 #include "physics_node/step/moving_body.h"
@@ -40,8 +42,11 @@ class World {
   MovingBody& body(std::size_t b) {
     return *bodies_[b];
   }  // to start a test or a benchmark from a given state
-  std::vector<ToolCoupling>& tools() { return tools_; }
-  const std::vector<ToolCoupling>& tools() const { return tools_; }
+  Tool& tool(std::size_t n) { return *tools_[n]; }
+  const Tool& tool(std::size_t n) const { return *tools_[n]; }
+  std::size_t n_tools() const { return tools_.size(); }
+  /// Contact between bodies and fragments; null where nothing could ever touch.
+  const Collisions* collisions() const { return collisions_.get(); }
   StepReport& report() { return report_; }
   const StepReport& report() const { return report_; }
   std::uint64_t state_hash() const noexcept;
@@ -59,8 +64,14 @@ class World {
   const std::vector<std::string>& remarks() const { return remarks_; }
 
  private:
-  void step(double dt, bool watch) noexcept;
-  void implicit_step(double dt, bool watch) noexcept;
+  void step(double dt, double done, bool watch) noexcept;
+  void move_bodies(double dt, bool watch) noexcept;
+  void move_bodies_implicitly(double dt, bool watch) noexcept;
+  void touch(double dt, double done) noexcept;
+  void take_tools(std::span<const std::optional<ToolState>> tools) noexcept;
+  void find_contacts() noexcept;
+  int substeps_of_frame() const noexcept;
+  void make_tools();
   std::span<const NodalForce> gathered(std::size_t body) noexcept;  // forces of all tools on a body
   void guard() noexcept;
   void save_all(bool good) noexcept;
@@ -72,7 +83,10 @@ class World {
   Scene scene_;
   std::vector<std::unique_ptr<MovingBody>> bodies_;
   std::vector<TouchableBody> touchable_;
-  std::vector<ToolCoupling> tools_;
+  std::vector<std::unique_ptr<Tool>> tools_;
+  std::vector<BodyTool*> body_tools_;  // those of them that are bodies
+  std::unique_ptr<Collisions> collisions_;
+  std::vector<Plane> planes_;  // floor and walls
   std::vector<NodalForce> gathered_;
   StepReport report_;
   EnergyAccount account_;
@@ -84,6 +98,7 @@ class World {
   int n_substeps_ = 1;
   int threads_ = 1;
   bool any_yields_ = false;
+  bool near_ = false;  // bodies or fragments may touch in this frame
   int recoveries_ = 0;                   // since the step was last chosen
   bool sound_ = true;                    // no growth since the last save
   bool unusable_work_ = false;           // a tool's work was not finite since the guard last looked

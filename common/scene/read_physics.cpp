@@ -58,6 +58,8 @@ void read_contact(TableReader& root, ReadContext& context) {
   set_if(context.scene.contact.enabled, reader.read_flag("enabled"));
   if (const auto word = reader.read_word("distance", {"paper", "swept"}))
     context.scene.contact.distance = static_cast<ContactDistance>(*word);
+  set_if(context.scene.contact.restitution, reader.read_number("restitution", {.lo = 0, .hi = 1}));
+  set_if(context.scene.contact.count_passages, reader.read_flag("count_passages"));
   reader.refuse_left_over();
 }
 

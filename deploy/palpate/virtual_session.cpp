@@ -54,7 +54,7 @@ void VirtualSession::tick_hands(std::int64_t until_ns) {
 void VirtualSession::tell_hands() {
   const auto frame = static_cast<std::uint64_t>(world_.report().frames);
   for (std::size_t n = 0; n < patches_.size(); ++n)
-    world_.tools()[n].write_patch(patches_[n], frame, now_ns_);
+    world_.tool(n).write_patch(patches_[n], frame, now_ns_);
 }
 
 void VirtualSession::show() {
@@ -66,7 +66,7 @@ void VirtualSession::show() {
     ++traces_[n].batch;
     traces_[n].n_samples = 0;
     ToolWrench wrench;
-    world_.tools()[n].write_wrench(wrench, static_cast<std::uint64_t>(world_.report().frames), now_ns_,
+    world_.tool(n).write_wrench(wrench, static_cast<std::uint64_t>(world_.report().frames), now_ns_,
                                    world_.t());
     picture_->take(wrench);
   }

@@ -67,8 +67,8 @@ std::size_t Candidates::follow(std::span<const Break> breaks) noexcept {
   return fresh;
 }
 
-bool Candidates::refresh() noexcept {
-  moving_->read(cell_, rest_, x_, v_, v_move_);
+bool Candidates::refresh(double dt) noexcept {
+  moving_->read(cell_, rest_, dt, x_, v_, v_move_);
   double sum = 0;
   for (std::size_t n = 0; n < cell_.size(); ++n) sum += 0.0 * (x_[n].sum() + v_[n].sum());
   return sum == 0;

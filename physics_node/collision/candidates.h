@@ -19,14 +19,16 @@ class Candidates {
   /// Takes the ends of elements that broke. @return masses that are new
   std::size_t follow(std::span<const Break> breaks) noexcept;
 
-  /// Reads where they are and how fast. @return false: some number is not finite
-  bool refresh() noexcept;
+  /// Reads where they were when the step of dt just integrated began, and how fast; with dt = 0 where they are now.
+  /// @return false: some number is not finite
+  bool refresh(double dt) noexcept;
 
   std::size_t size() const { return cell_.size(); }
   const std::vector<Index>& cell() const { return cell_; }
+  const std::vector<Vec3>& rest() const { return rest_; }  // position at rest [m]
   const std::vector<Vec3>& x() const { return x_; }        // position [m]
   const std::vector<Vec3>& v() const { return v_; }        // velocity [m/s]
-  const std::vector<Vec3>& v_move() const { return v_move_; }  // that brought it here in the last step [m/s]
+  const std::vector<Vec3>& v_move() const { return v_move_; }  // that moves it in the step [m/s]
   double inverse_mass(std::size_t n) const { return inverse_mass_[n]; }  // 0: held, or driven by a hand [1/kg]
   bool is_driven(std::size_t n) const { return driven_[n] != 0; }
   /// Number of the candidate in a storage cell, -1: it is none.

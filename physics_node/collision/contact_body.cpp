@@ -11,20 +11,20 @@ ContactBody::ContactBody(const MovingBody& moving, bool wants_facets) : candidat
 }
 
 bool ContactBody::follow_breaks() noexcept {
-  if (moving().breaks_overflowed()) {
+  if (moving().fresh_overflow()) {
     restart();
     return true;
   }
   const auto breaks = moving().fresh_breaks();
   if (breaks.empty()) return false;
   const bool grown = candidates_.follow(breaks) > 0;
-  if (facets_) facets_->restart();
+  if (facets_) facets_->restart(candidates_);
   return grown || facets_;
 }
 
 void ContactBody::restart() noexcept {
   candidates_.restart();
-  if (facets_) facets_->restart();
+  if (facets_) facets_->restart(candidates_);
   n_marked_ = 0;
 }
 
@@ -33,6 +33,14 @@ void ContactBody::mark() noexcept {
   std::copy(candidates_.x().begin(), candidates_.x().end(), marked_.begin());
   drift_.setZero();
   stray_ = 0;
+}
+
+bool ContactBody::refresh(double dt) noexcept {
+  const bool finite = candidates_.refresh(dt);
+  double most = 0;
+  for (const Vec3& v : candidates_.v_move()) most = std::max(most, v.squaredNorm());
+  speed_ = std::sqrt(most);
+  return finite;
 }
 
 void ContactBody::measure_motion() noexcept {

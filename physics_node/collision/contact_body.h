@@ -17,7 +17,10 @@ class ContactBody {
   bool follow_breaks() noexcept;
   /// Finds everything anew.
   void restart() noexcept;
-  bool refresh() noexcept { return candidates_.refresh(); }
+  /// As Candidates::refresh().
+  bool refresh(double dt) noexcept;
+  /// Of the fastest candidate when last refreshed [m/s].
+  double speed() const { return speed_; }
 
   /// Remembers where the candidates are now.
   void mark() noexcept;
@@ -46,6 +49,7 @@ class ContactBody {
   std::size_t n_marked_ = 0;
   Vec3 drift_ = Vec3::Zero();
   double stray_ = 0;
+  double speed_ = 0;
 };
 
 /// Distance between two boxes along the axis on which they are farthest apart; negative where they overlap [m].

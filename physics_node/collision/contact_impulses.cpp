@@ -49,10 +49,12 @@ void ContactImpulses::push(const std::vector<ContactBody>& bodies, PairEnd at, c
   dv_[first_[at.body] + at.n] += w * J;
 }
 
-void ContactImpulses::set_velocity(const std::vector<ContactBody>& bodies, PairEnd at, const Vec3& dv) noexcept {
-  if (bodies[at.body].candidates().inverse_mass(at.n) == 0) return;
-  touch(at);
-  dv_[first_[at.body] + at.n] = dv;
+Vec3 ContactImpulses::set_change(const std::vector<ContactBody>& bodies, PairEnd at, const Vec3& dv) noexcept {
+  const double w = bodies[at.body].candidates().inverse_mass(at.n);
+  if (w == 0) return Vec3::Zero();
+  const Vec3 J = (dv - dv_[first_[at.body] + at.n]) / w;
+  push(bodies, at, J);
+  return J;
 }
 
 BodyImpulse ContactImpulses::take(std::uint32_t b) noexcept {

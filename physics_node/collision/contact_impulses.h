@@ -31,8 +31,8 @@ class ContactImpulses {
   }
   /// An impulse J on a mass. One that is held or driven keeps its velocity, and its hand does work -J . v. [J]
   void push(const std::vector<ContactBody>& bodies, PairEnd at, const Vec3& J) noexcept;
-  /// Makes its velocity this. Books no impulse: for masses that move together from now on.
-  void set_velocity(const std::vector<ContactBody>& bodies, PairEnd at, const Vec3& dv) noexcept;
+  /// Makes the change of its velocity in this step dv. @return the impulse that this takes [N s]
+  Vec3 set_change(const std::vector<ContactBody>& bodies, PairEnd at, const Vec3& dv) noexcept;
 
   /// Calls visit(end, dv) for the masses touched in this step.
   template <class Visit>

@@ -14,15 +14,14 @@ class Facets {
  public:
   explicit Facets(const Candidates& candidates);
 
-  /// Finds them anew, from the elements alive now: one pass over the candidates.
-  void restart() noexcept;
+  /// Finds them anew, from the elements alive now: one pass over the candidates. Allocates nothing.
+  void restart(const Candidates& candidates) noexcept;
 
   using Corners = std::array<std::uint32_t, 3>;  // numbers of candidates
   const std::vector<Corners>& all() const { return facets_; }
   bool is_loose(std::uint32_t candidate) const { return in_facet_[candidate] == 0; }
 
  private:
-  const Candidates& candidates_;
   TrianglePatterns patterns_;
   std::vector<Corners> facets_;
   std::vector<std::uint8_t> in_facet_;  // of each candidate

@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <tuple>
 
 #include "physics_node/collision/facet_now.h"
 
 namespace palpate::physics {
 namespace {
 
-constexpr double skin_over_L = 0.4;
+constexpr double skin_over_L = 0.4;  // at least; more where one step moves masses by as much
 // A mass that has not left its place by more than this, drift apart, cannot meet another such mass of its body: at rest
 // those that are not joined are at least 1.4 L apart, and L where an element broke.
 constexpr double still_over_L = 0.2;
@@ -31,23 +33,23 @@ double swept_distance(double edge, const Candidates& of_mass) noexcept {
   return (edge + of_mass.length()) / (2 * std::numbers::sqrt3);
 }
 
-NearPairs::NearPairs(const std::vector<ContactBody>& bodies, bool with_facets)
+NearPairs::NearPairs(const std::vector<ContactBody>& bodies, PairKind kind)
     : n_bodies_(static_cast<std::uint32_t>(bodies.size())),
-      with_facets_(with_facets),
+      kind_(kind),
       allowed_(bodies.size() * bodies.size(), 0),
       seeks_other_(count_all(bodies), 0),
       seeks_own_(count_all(bodies), 0),
       grid_(count_all(bodies)) {
   first_.push_back(0);
-  double smallest = std::numeric_limits<double>::infinity(), largest = 0;
+  smallest_L_ = std::numeric_limits<double>::infinity();
   for (const auto& body : bodies) {
     first_.push_back(first_.back() + static_cast<std::uint32_t>(body.candidates().most()));
-    smallest = std::min(smallest, body.candidates().length());
-    largest = std::max(largest, body.candidates().length());
+    smallest_L_ = std::min(smallest_L_, body.candidates().length());
+    largest_L_ = std::max(largest_L_, body.candidates().length());
   }
-  skin_ = skin_over_L * smallest;
-  size_ = largest / std::numbers::sqrt3 + skin_;
-  pairs_.reserve(pairs_per_candidate * count_all(bodies));
+  const std::size_t room = pairs_per_candidate * count_all(bodies);
+  if (kind != PairKind::facets) masses_.reserve(room);
+  if (kind != PairKind::masses) facets_.reserve(room);
 }
 
 void NearPairs::allow(std::uint32_t a, std::uint32_t b, bool near) noexcept {
@@ -78,9 +80,17 @@ bool NearPairs::is_valid(const std::vector<ContactBody>& bodies) const noexcept 
   return true;
 }
 
-void NearPairs::update(std::vector<ContactBody>& bodies, bool changed) noexcept {
-  for (auto& body : bodies) body.measure_motion();
-  if (!changed && is_valid(bodies)) return;
+void NearPairs::update(std::vector<ContactBody>& bodies, bool changed, double dt) noexcept {
+  double speed = 0;
+  for (auto& body : bodies) {
+    body.measure_motion();
+    speed = std::max(speed, body.speed());
+  }
+  // What two masses may have done to each other within this step must be in the list.
+  const double needed = 2.4 * dt * speed;
+  if (!changed && needed <= skin_ && is_valid(bodies)) return;
+  skin_ = std::max(skin_over_L * smallest_L_, needed);
+  reach_ = largest_L_ / std::numbers::sqrt3 + skin_;
   for (auto& body : bodies) body.mark();
   rebuild(bodies);
   fresh_ = true;
@@ -88,18 +98,17 @@ void NearPairs::update(std::vector<ContactBody>& bodies, bool changed) noexcept 
 }
 
 void NearPairs::rebuild(const std::vector<ContactBody>& bodies) noexcept {
-  pairs_.clear();
-  grid_.clear(size_);
+  masses_.clear();
+  facets_.clear();
+  grid_.clear(reach_);
   choose_seekers(bodies);
-  if (with_facets_) {
-    seek_facets(bodies);
-  } else {
-    seek_masses(bodies);
-  }
-  std::sort(pairs_.begin(), pairs_.end(), [](const NearPair& p, const NearPair& q) {
-    return std::tie(p.mass.body, p.mass.n, p.other.body, p.other.n) <
-           std::tie(q.mass.body, q.mass.n, q.other.body, q.other.n);
-  });
+  if (kind_ != PairKind::facets) seek_masses(bodies);
+  if (kind_ != PairKind::masses) seek_facets(bodies);
+  for (auto* list : {&masses_, &facets_})
+    std::sort(list->begin(), list->end(), [](const NearPair& p, const NearPair& q) {
+      return std::tie(p.mass.body, p.mass.n, p.other.body, p.other.n) <
+             std::tie(q.mass.body, q.mass.n, q.other.body, q.other.n);
+    });
 }
 
 void NearPairs::choose_seekers(const std::vector<ContactBody>& bodies) noexcept {
@@ -120,7 +129,7 @@ void NearPairs::choose_seekers(const std::vector<ContactBody>& bodies) noexcept 
     for (std::uint32_t other = 0; other < n_bodies_; ++other) {
       if (other == b || !is_allowed(b, other)) continue;
       ContactBody::Box box = bodies[other].box();
-      const Vec3 reach = Vec3::Constant(2 * size_);
+      const Vec3 reach = Vec3::Constant(2 * reach_);
       box.lo -= reach, box.hi += reach;
       for (std::size_t n = 0; n < c.size(); ++n)
         if ((c.x()[n].array() >= box.lo.array()).all() && (c.x()[n].array() <= box.hi.array()).all())
@@ -131,16 +140,16 @@ void NearPairs::choose_seekers(const std::vector<ContactBody>& bodies) noexcept 
   }
 }
 
-void NearPairs::add(std::uint32_t body, std::uint32_t n, std::uint32_t other_body, std::uint32_t other) noexcept {
-  if (pairs_.size() == pairs_.capacity()) {
+void NearPairs::add(std::vector<NearPair>& list, PairEnd mass, PairEnd other) noexcept {
+  if (list.size() == list.capacity()) {
     ++overflows_;
     return;
   }
-  pairs_.push_back({{body, n}, {other_body, other}});
+  list.push_back({mass, other});
 }
 
 void NearPairs::seek_masses(const std::vector<ContactBody>& bodies) noexcept {
-  const Vec3 reach = Vec3::Constant(size_);
+  const Vec3 reach = Vec3::Constant(reach_);
   for (std::uint32_t b = 0; b < n_bodies_; ++b) {
     const Candidates& c = bodies[b].candidates();
     for (std::uint32_t n = 0; n < c.size(); ++n) {
@@ -158,9 +167,9 @@ void NearPairs::seek_masses(const std::vector<ContactBody>& bodies) noexcept {
         if ((d.x()[q.n] - p).squaredNorm() > within * within) return;
         if (same && c.are_joined(n, q.n)) return;
         if (id < other_id) {
-          add(b, n, q.body, q.n);
+          add(masses_, {b, n}, q);
         } else {
-          add(q.body, q.n, b, n);
+          add(masses_, q, {b, n});
         }
       });
     }
@@ -179,7 +188,7 @@ void NearPairs::seek_facets(const std::vector<ContactBody>& bodies) noexcept {
       const bool touches_itself = is_allowed(b, b);
       if (!touches_itself && !others) continue;
       const FacetNow facet = facet_now(c, k);
-      const Vec3 reach = Vec3::Constant(swept_distance(facet.edge, c) + size_);
+      const Vec3 reach = Vec3::Constant(swept_distance(facet.edge, c) + reach_);
       const Vec3 lo = facet.corner[0].cwiseMin(facet.corner[1]).cwiseMin(facet.corner[2]) - reach;
       const Vec3 hi = facet.corner[0].cwiseMax(facet.corner[1]).cwiseMax(facet.corner[2]) + reach;
       const bool loose = k[0] == k[1];
@@ -195,7 +204,7 @@ void NearPairs::seek_facets(const std::vector<ContactBody>& bodies) noexcept {
         const double within = swept_distance(facet.edge, d) + skin_;
         if (closest_point(d.x()[p.n], facet.corner).distance > within) return;
         if (same && (c.are_joined(p.n, k[0]) || c.are_joined(p.n, k[1]) || c.are_joined(p.n, k[2]))) return;
-        add(p.body, p.n, b, f);
+        add(facets_, p, {b, f});
       });
     }
   }

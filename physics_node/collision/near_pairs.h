@@ -2,9 +2,7 @@
 // What could touch soon: a list of pairs within reach plus a skin, made anew only when something moved by half the skin.
 // Until then a step looks at these pairs and at nothing else. Source: Verlet 1967 (neighbour lists with a skin).
 //
-//   paper  (mass, mass)    swept  (mass, facet)
-//
-// Pairs come in one fixed order. Joined masses are no pair, nor is a mass with a facet that it is joined to.
+// There are lists of (mass, mass) and of (mass, facet); each pair comes once, in one fixed order. Joined masses are no pair, nor is a mass with a facet that it is joined to.
 
 #include <cstdint>
 #include <span>
@@ -20,22 +18,24 @@ struct PairEnd {
   std::uint32_t body = 0, n = 0;
 };
 struct NearPair {
-  PairEnd mass, other;  // other: a mass (paper) or a facet (swept)
+  PairEnd mass, other;  // other: a mass or a facet
 };
+enum class PairKind { masses, facets, both };
 
 class NearPairs {
  public:
-  NearPairs(const std::vector<ContactBody>& bodies, bool with_facets);
+  NearPairs(const std::vector<ContactBody>& bodies, PairKind kind);
 
   /// Which bodies may touch which, this frame; a body beside itself: its fragments.
   void allow(std::uint32_t a, std::uint32_t b, bool near) noexcept;
   bool any_allowed() const noexcept;
 
-  /// Brings the list up to date with where the candidates are now.
-  /// @param changed  candidates or facets are not what they were when it was made
-  void update(std::vector<ContactBody>& bodies, bool changed) noexcept;
+  /// Brings the lists up to date with where the candidates are now, after a step of dt.
+  /// @param changed  candidates or facets are not what they were when they were made
+  void update(std::vector<ContactBody>& bodies, bool changed, double dt) noexcept;
 
-  const std::vector<NearPair>& pairs() const { return pairs_; }
+  const std::vector<NearPair>& masses() const { return masses_; }  // (mass, mass)
+  const std::vector<NearPair>& facets() const { return facets_; }  // (mass, facet)
   std::int64_t rebuilds() const { return rebuilds_; }
   std::int64_t overflows() const { return overflows_; }  // pairs that found no room
 
@@ -46,19 +46,19 @@ class NearPairs {
   void choose_seekers(const std::vector<ContactBody>& bodies) noexcept;
   void seek_masses(const std::vector<ContactBody>& bodies) noexcept;
   void seek_facets(const std::vector<ContactBody>& bodies) noexcept;
-  void consider_mass(const std::vector<ContactBody>& bodies, std::uint32_t b, std::uint32_t n, std::uint32_t id) noexcept;
-  void add(std::uint32_t body, std::uint32_t n, std::uint32_t other_body, std::uint32_t other) noexcept;
+  void add(std::vector<NearPair>& list, PairEnd mass, PairEnd other) noexcept;
   PairEnd place_of(std::uint32_t id) const noexcept;
 
   std::uint32_t n_bodies_;
-  bool with_facets_;
+  PairKind kind_;
   std::vector<std::uint8_t> allowed_;  // (n_bodies, n_bodies)
   std::vector<std::uint32_t> first_;   // id of the first candidate of each body  (n_bodies + 1)
   // Of each candidate: may it meet another body, may it meet its own?
   std::vector<std::uint8_t> seeks_other_, seeks_own_;
   PointGrid grid_;
-  double skin_ = 0, size_ = 0;  // [m]
-  std::vector<NearPair> pairs_;
+  double smallest_L_ = 0, largest_L_ = 0;
+  double skin_ = 0, reach_ = 0;  // now [m]
+  std::vector<NearPair> masses_, facets_;
   std::int64_t rebuilds_ = 0, overflows_ = 0;
   bool fresh_ = false;
 };

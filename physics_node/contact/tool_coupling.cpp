@@ -20,7 +20,7 @@ constexpr double stiffness_range = 50;     // times the first guess, either way
 
 ToolCoupling::ToolCoupling(const ToolSpec& tool, std::uint32_t index,
                            const std::vector<TouchableBody>& bodies)
-    : index_(index), set_point_(tool.set_point) {
+    : Tool(index, tool.set_point) {
   contacts_.reserve(bodies.size());
   for (const auto& body : bodies) {
     contacts_.emplace_back(*body.surface, *body.moving, tool.radius);
@@ -41,24 +41,25 @@ void ToolCoupling::take(const ToolState* state, double dt) noexcept {
     proxy_ = vec(state->proxy);
     if (engaged_) target = vec(state->force_on_hand);
   }
+  raw_force_ = target;
   // First-order low pass: F := F + (1 - e^(-2 pi f dt)) (target - F).
   force_ += (1 - std::exp(-2 * std::numbers::pi * force_cutoff_Hz * dt)) * (target - force_);
   if (target.isZero() && force_.norm() < negligible_force) force_.setZero();
 }
 
-std::uint32_t ToolCoupling::find_contact(double t) noexcept {
+void ToolCoupling::find_contact(double t) noexcept {
   forces_.clear();
   moving_share_ = 0;
   indentation_.setZero();
   plane_velocity_.setZero();
-  if (!seen_) return 0;
+  if (!seen_) return;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t b = 0; b < contacts_.size(); ++b) {
     contacts_[b].look(proxy_, t);
     const double distance = contacts_[b].nearest_distance(proxy_);
     if (distance < least) least = distance, touched_ = b;
   }
-  if (!std::isfinite(least)) return 0;
+  if (!std::isfinite(least)) return;
 
   ToolContact& contact = contacts_[touched_];
   contact.find_shares(proxy_);
@@ -69,7 +70,6 @@ std::uint32_t ToolCoupling::find_contact(double t) noexcept {
     if (!force_.isZero()) forces_.push_back({share.cell, -share.share * force_});
   }
   follow_stiffness(frame_dt_);
-  return static_cast<std::uint32_t>(forces_.size());
 }
 
 double ToolCoupling::first_stiffness(std::size_t body) const noexcept {
@@ -118,18 +118,6 @@ void ToolCoupling::write_patch(ContactPatch& patch, std::uint64_t frame, std::in
     facet.stiffness = K_o;
     facet.velocity = array(plane_velocity_);
   }
-}
-
-void ToolCoupling::write_wrench(ToolWrench& wrench, std::uint64_t frame, std::int64_t now_ns,
-                                double t) const noexcept {
-  wrench.tool = index_;
-  wrench.tick = frame;
-  wrench.stamp_ns = now_ns;
-  wrench.t = t;
-  wrench.force = array(force_);
-  wrench.moment = array((tip_ - set_point_).cross(force_));
-  wrench.set_point = array(set_point_);
-  wrench.n_contacts = static_cast<std::uint32_t>(forces_.size());
 }
 
 }  // namespace palpate::physics

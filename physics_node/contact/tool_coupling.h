@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "common/message/messages.h"
+#include "physics_node/contact/tool.h"
 #include "physics_node/contact/tool_contact.h"
 
 namespace palpate::physics {
@@ -22,7 +23,7 @@ struct TouchableBody {
   std::unique_ptr<ContactSurface> surface;
 };
 
-class ToolCoupling {
+class ToolCoupling final : public Tool {
  public:
   static constexpr std::size_t most_forces = 16384;
 
@@ -30,21 +31,20 @@ class ToolCoupling {
 
   /// Takes the newest state of the hand, or none where nothing fresh has come: then the force dies away.
   /// @param dt  of the frame [s]
-  void take(const ToolState* state, double dt) noexcept;
+  void take(const ToolState* state, double dt) noexcept override;
 
-  /// Finds the body, the plane and the masses under the tool. @return masses that carry the force
-  std::uint32_t find_contact(double t) noexcept;
+  /// Finds the body, the plane and the masses under the tool.
+  void find_contact(double t) noexcept override;
 
-  /// Forces on the masses of the touched body during the coming frame.
-  std::span<const NodalForce> forces() const { return forces_; }
-  std::size_t touched_body() const { return touched_; }  // index; meaningful while forces() is not empty
+  std::span<const NodalForce> forces() const noexcept override { return forces_; }
+  std::size_t touched_body() const noexcept override { return touched_; }
 
-  void write_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) noexcept;
-  void write_wrench(ToolWrench& wrench, std::uint64_t frame, std::int64_t now_ns, double t) const noexcept;
+  void write_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) noexcept override;
 
-  const Vec3& tip() const { return tip_; }
-  const Vec3& force() const { return force_; }  // on the tool [N]
-  bool engaged() const { return seen_ && engaged_; }
+  Vec3 tip() const noexcept override { return tip_; }
+  Wrench wrench() const noexcept override { return {force_, (tip_ - set_point_).cross(force_)}; }
+  Wrench raw_wrench() const noexcept override { return {raw_force_, (tip_ - set_point_).cross(raw_force_)}; }
+  std::uint32_t contacts() const noexcept override { return static_cast<std::uint32_t>(forces_.size()); }
 
  private:
   /// Stiffness of the tissue under the tip: the force over the indentation d that it made, both along the force,
@@ -56,8 +56,6 @@ class ToolCoupling {
   bool remembers_rest() const noexcept;
   double first_stiffness(std::size_t body) const noexcept;
 
-  std::uint32_t index_;
-  Vec3 set_point_;
   std::vector<ToolContact> contacts_;  // with each body
   std::vector<const MovingBody*> moving_;
   bool seen_ = false;
@@ -67,6 +65,7 @@ class ToolCoupling {
   Vec3 tip_ = Vec3::Zero();
   Vec3 proxy_ = Vec3::Zero();
   Vec3 force_ = Vec3::Zero();  // on the tool, low-passed [N]
+  Vec3 raw_force_ = Vec3::Zero();  // the same before that [N]
   std::size_t touched_ = 0;
   double moving_share_ = 0;
   Vec3 indentation_ = Vec3::Zero();  // mean displacement of the masses under the tip [m]

@@ -98,7 +98,8 @@ void PhysicsLoop::take_commands() {
 
 void PhysicsLoop::publish_hand() {
   const auto frame = static_cast<std::uint64_t>(world_->report().frames);
-  for (auto& tool : world_->tools()) {
+  for (std::size_t n = 0; n < world_->n_tools(); ++n) {
+    Tool& tool = world_->tool(n);
     tool.write_patch(patch_, frame, now_ns());
     wire_.patches.write(patch_);
     tool.write_wrench(wrench_, frame, now_ns(), world_->t());

@@ -44,12 +44,13 @@ std::FILE* Recorder::make_csv(const std::string& name, const char* heading) {
 
 void Recorder::make_files(const World& world) {
   for (const auto& name : tool_names_)
-    make_csv(trace_name(name), "t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm,contacts");
+    make_csv(trace_name(name), "t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm,contacts,"
+             "raw_fx_N,raw_fy_N,raw_fz_N,raw_mx_Nm,raw_my_Nm,raw_mz_Nm");
   if (spec_.energy)
     energy_csv_ =
         make_csv("energy.csv",
                  "t_s,kinetic_J,elastic_J,gravitational_J,dissipated_J,plastic_J,numerical_J,broken_J,"
-                 "guard_J,tool_work_J");
+                 "guard_J,tool_work_J,contact_J");
   hdf5_ = std::make_unique<Hdf5File>(folder_ + "/record.h5", Hdf5File::Mode::create);
   hdf5_->set_text("palpate_record", "1");
   hdf5_->set_text("title", world.scene().title);
@@ -81,8 +82,11 @@ void Recorder::write_rows() {
   ToolRow row;
   while (rows_->pop(row)) {
     const auto& [p, f, m] = std::tie(row.p, row.force, row.moment);
-    std::fprintf(csv_[row.tool], "%.6f,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%u\n", row.t, p[0], p[1],
+    std::fprintf(csv_[row.tool], "%.6f,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%u", row.t, p[0], p[1],
                  p[2], f[0], f[1], f[2], m[0], m[1], m[2], row.contacts);
+    for (const auto& raw : {row.raw_force, row.raw_moment})
+      for (const double value : raw) std::fprintf(csv_[row.tool], ",%.9g", value);
+    std::fprintf(csv_[row.tool], "\n");
     const std::array<double, 10> numbers{row.t, p[0], p[1], p[2], f[0], f[1], f[2], m[0], m[1], m[2]};
     hdf5_->append<double>("/tools/" + tool_names_[row.tool] + "/t_p_force_moment", numbers.data());
   }
@@ -92,9 +96,9 @@ void Recorder::write_energy() {
   EnergyRow row;
   while (energy_rows_->pop(row)) {
     const EnergyLedger& e = row.ledger;
-    std::fprintf(energy_csv_, "%.6f,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", row.t, e.kinetic,
+    std::fprintf(energy_csv_, "%.6f,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", row.t, e.kinetic,
                  e.elastic, e.gravitational, e.dissipated, e.plastic, e.numerical, e.broken, e.guard,
-                 e.tool_work);
+                 e.tool_work, e.contact);
   }
 }
 

@@ -63,17 +63,14 @@ bool Recorder::is_due(const World& world, std::int64_t& n) const noexcept {
 
 void Recorder::note_tools(const World& world) noexcept {
   for (std::uint32_t n = 0; n < tallies_.size(); ++n) {
-    const ToolCoupling& tool = world.tools()[n];
-    ToolRow row{n,
-                static_cast<std::uint32_t>(tool.forces().size()),
-                world.t(),
-                array(tool.tip()),
-                array(tool.force()),
-                array((tool.tip() - world.scene().tools[n].set_point).cross(tool.force()))};
+    const Tool& tool = world.tool(n);
+    const Wrench now = tool.wrench(), raw = tool.raw_wrench();
+    ToolRow row{n, tool.contacts(), world.t(), array(tool.tip()), array(now.force), array(now.moment),
+                array(raw.force), array(raw.moment)};
     Tally& tally = tallies_[n];
-    tally.peak = std::max(tally.peak, tool.force().norm());
+    tally.peak = std::max(tally.peak, now.force.norm());
     tally.moment_peak = std::max(tally.moment_peak, std::hypot(row.moment[0], row.moment[1], row.moment[2]));
-    tally.squares += tool.force().squaredNorm();
+    tally.squares += now.force.squaredNorm();
     tally.contacts_max = std::max(tally.contacts_max, row.contacts);
     ++tally.rows;
     if (!spec_.forces) continue;

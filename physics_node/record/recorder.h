@@ -46,7 +46,8 @@ class Recorder {
     std::uint32_t tool = 0;
     std::uint32_t contacts = 0;
     double t = 0;
-    Array3 p{}, force{}, moment{};
+    Array3 p{}, force{}, moment{};  // force and moment low-passed
+    Array3 raw_force{}, raw_moment{};
   };
   struct EnergyRow {
     double t = 0;

@@ -36,6 +36,7 @@ nlohmann::json energy_part(const EnergyLedger& ledger) {
           {"dissipated", ledger.dissipated}, {"gravitational", ledger.gravitational},
           {"plastic", ledger.plastic},     {"broken", ledger.broken},
           {"tool_work", ledger.tool_work}, {"guard", ledger.guard},
+          {"contact", ledger.contact},
           {"numerical", ledger.numerical},
           {"exchanged", ledger.exchanged}, {"balance_error", ledger.balance_error()}};
 }
@@ -97,6 +98,15 @@ nlohmann::json physics_summary(const World& world, const Recorder* recorder, dou
                    {"unsolved", world.report().unsolved},
                    {"warnings", world.report().warnings + static_cast<std::int64_t>(world.remarks().size())}};
   if (const auto why = world.stopped()) part["guard"]["stopped"] = *why;
+  if (const Collisions* collisions = world.collisions()) {
+    const CollisionTally& tally = collisions->tally();
+    part["contact"] = {{"candidates", collisions->n_candidates()},
+                       {"collisions", tally.collisions},
+                       {"stopped", tally.stopped},
+                       {"overflows", tally.overflows},
+                       {"rebuilds", tally.rebuilds}};
+    if (scene.contact.count_passages) part["contact"]["passages"] = tally.passages;
+  }
   for (std::size_t n = 0; recorder != nullptr && n < scene.tools.size(); ++n) {
     part["tools"][scene.tools[n].name] = {{"contacts_max", recorder->contacts_max(n)},
                                           {"force_peak", recorder->force_peak(n)},

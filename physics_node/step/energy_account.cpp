@@ -33,6 +33,7 @@ void EnergyAccount::restart(const MovingBodies& bodies, const Vec3& gravity, con
   lost_ = sum_losses(bodies);
   work_ = report.tool_work;
   exchange_ = report.tool_exchange;
+  contact_ = report.contact_lost;
   guard_ = 0;
 }
 
@@ -47,6 +48,7 @@ EnergyLedger EnergyAccount::book(const Energies& now, const Losses& lost,
   ledger.numerical = lost.numerical - lost_.numerical;
   ledger.broken = lost.broken - lost_.broken;
   ledger.tool_work = report.tool_work - work_;
+  ledger.contact = report.contact_lost - contact_;
   ledger.guard = guard_;
   ledger.start = start_.kinetic + start_.elastic + start_.gravitational;
   ledger.exchanged = start_.kinetic + start_.elastic + (report.tool_exchange - exchange_) +

@@ -34,6 +34,7 @@ class EnergyAccount {
   Energies start_;
   Losses lost_;                     // at the start
   double work_ = 0, exchange_ = 0;  // of tools, at the start [J]
+  double contact_ = 0;              // lost at the start [J]
   double guard_ = 0;                // [J]
 };
 

@@ -12,14 +12,15 @@ struct EnergyLedger {
   double plastic = 0;        // by yielding
   double numerical = 0;      // to the integrator; only backward_euler
   double broken = 0;         // elastic energy of elements when they broke
+  double contact = 0;        // in collisions with a restitution below 1
   double tool_work = 0;      // done by tools on tissue
   double guard = 0;          // taken out where the guard restored a state
   double start = 0;          // kinetic + elastic + gravitational at the start
   double exchanged = 0;      // kinetic and elastic at the start, |work| of tools and gravity: what the error is measured by
 
-  /// start + tool_work - dissipated - plastic - numerical - broken - guard - (kinetic + elastic + gravitational)
+  /// start + tool_work - dissipated - plastic - numerical - broken - contact - guard - (kinetic + elastic + gravitational)
   double missing() const {
-    const double lost = dissipated + plastic + numerical + broken + guard;
+    const double lost = dissipated + plastic + numerical + broken + contact + guard;
     return start + tool_work - lost - kinetic - elastic - gravitational;
   }
   /// |missing| over exchanged; 0 where nothing was exchanged.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/math/hash.h"
+#include "physics_node/step/bounce.h"
 #include "physics_node/step/element_step.h"
 #include "physics_node/step/measure.h"
 #include "physics_node/step/saved_state.h"
@@ -27,6 +28,8 @@ class LatticeBody final : public MovingBody {
   const Body& body() const noexcept override { return body_; }
 
   std::int64_t element_forces_and_integrate(const ExplicitStep& step) noexcept override {
+    if (step.verlet && step.dt != last_dt_) begin_leapfrog();
+    last_dt_ = step.dt;
     return element_step(body_, state_, step);  // sleeping rows are skipped
   }
 
@@ -60,19 +63,35 @@ class LatticeBody final : public MovingBody {
     return work;
   }
 
-  std::int64_t bounce_off_floor(double height) noexcept override {
-    std::int64_t bounced = 0;
-    for (const RowSegment& row : body_.lattice.rows) {
-      const double z = body_.lattice.rest_position(row.first).z();  // of all masses of a row
-      for (Index cell = row.first; cell < row.first + row.count; ++cell) {
-        const auto c = static_cast<std::size_t>(cell);
-        if (state_.v[2][c] >= 0 || z + static_cast<double>(state_.u[2][c]) >= height) continue;
-        state_.v[2][c] = -state_.v[2][c];
-        if (state_.v_half[2].size() > 0) state_.v_half[2][c] = -state_.v_half[2][c];
-        ++bounced;
-      }
+  void push(Index cell, const Vec3& dv, double dt) noexcept override {
+    const auto c = static_cast<std::size_t>(cell);
+    if (state_.inverse_mass[c] == 0) return;
+    sleep_.wake_cell(body_, state_, cell);
+    const bool verlet = state_.v_half[0].size() > 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double d = dv[static_cast<Eigen::Index>(a)];
+      state_.v[a][c] += static_cast<Real>(d);
+      state_.u[a][c] += static_cast<Real>(dt * d);
+      if (verlet) state_.v_half[a][c] += static_cast<Real>(d);
     }
-    return bounced;
+  }
+
+  void prepare_contact() override {
+    for (auto& axis : v_before_)
+      if (axis.size() == 0) axis = ZeroedArray<Real>(n_cells());
+  }
+  void remember_velocities() noexcept override {
+    if (v_before_[0].size() == 0) return;
+    const Three<Real>& moving = moving_velocity();
+    for (std::size_t r = 0; r < body_.lattice.rows.size(); ++r) {
+      const RowSegment& row = body_.lattice.rows[r];
+      for (std::size_t a = 0; a < 3; ++a)
+        std::copy_n(moving[a].data() + row.first, row.count, v_before_[a].data() + row.first);
+    }
+  }
+
+  PlaneImpulse bounce_off(const Plane& plane, double e, double dt) noexcept override {
+    return bounce(body_, state_, moving_velocity(), v_before_, plane, e, dt);
   }
 
   void sleep_and_wake(double frame_seconds) noexcept override { sleep_.look(body_, state_, frame_seconds); }
@@ -144,6 +163,16 @@ class LatticeBody final : public MovingBody {
   }
   Vec3 displacement(Index cell) const noexcept override { return vector_of(state_.u, cell); }
   Vec3 velocity(Index cell) const noexcept override { return vector_of(state_.v, cell); }
+  void read(std::span<const Index> cells, std::span<const Vec3> rest, double dt, std::span<Vec3> x, std::span<Vec3> v,
+            std::span<Vec3> v_move) const noexcept override {
+    const Three<Real>& moving = moving_velocity();
+    const bool known = v_before_[0].size() > 0 && !implicit_;
+    for (std::size_t n = 0; n < cells.size(); ++n) {
+      v_move[n] = vector_of(moving, cells[n]);
+      v[n] = known ? Vec3(0.5 * (v_move[n] + vector_of(v_before_, cells[n]))) : v_move[n];
+      x[n] = rest[n] + vector_of(state_.u, cells[n]) - dt * v_move[n];
+    }
+  }
   Mask mask(Index cell) const noexcept override { return state_.mask[static_cast<std::size_t>(cell)]; }
   std::span<const Break> fresh_breaks() const noexcept override { return state_.fresh.list; }
   bool fresh_overflow() const noexcept override { return any_yields(body_) && state_.fresh.overflow; }
@@ -180,6 +209,15 @@ class LatticeBody final : public MovingBody {
   }
 
  private:
+  /// With another step the velocity half a step ago is another one: starts from the one now.
+  void begin_leapfrog() noexcept {
+    for (std::size_t a = 0; a < 3; ++a)
+      for (const RowSegment& row : body_.lattice.rows)
+        std::copy_n(state_.v[a].data() + row.first, row.count, state_.v_half[a].data() + row.first);
+    state_.v_half_known = false;
+  }
+
+  const Three<Real>& moving_velocity() const { return state_.v_half[0].size() > 0 ? state_.v_half : state_.v; }
   std::size_t n_cells() const { return static_cast<std::size_t>(body_.lattice.n_cells()); }
   static Vec3 vector_of(const Three<Real>& three, Index cell) noexcept {
     const auto c = static_cast<std::size_t>(cell);
@@ -189,8 +227,10 @@ class LatticeBody final : public MovingBody {
 
   Body body_;
   LatticeState<Real> state_;
+  Three<Real> v_before_;  // that moved the masses in the step before the last; only for contact
   Sleep sleep_;
   SavedState<Real> saved_[2];
+  double last_dt_ = 0;    // of an explicit step [s]
   std::size_t good_ = 0;  // the other one is to prove itself
   std::unique_ptr<ImplicitStep<Real>> implicit_;  // only for backward_euler
 };

@@ -51,6 +51,18 @@ struct Momenta {
   Vec3 angular = Vec3::Zero();  // about the origin [kg m^2/s]
 };
 
+/// A fixed plane; tissue stays where n . x >= height.
+struct Plane {
+  Vec3 n = Vec3::UnitZ();
+  double height = 0;  // [m]
+};
+struct PlaneImpulse {
+  std::int64_t masses = 0;
+  Vec3 linear = Vec3::Zero();   // on the body [N s]
+  Vec3 angular = Vec3::Zero();  // about the origin [N m s]
+  double lost = 0;              // [J]
+};
+
 struct BodyCounts {
   std::int64_t elements = 0;  // at the start
   std::int64_t live_elements = 0;
@@ -72,9 +84,16 @@ class MovingBody {
   /// Adds forces that act during the step just integrated. Held masses ignore them; sleeping rows wake.
   /// @return work done by the forces [J]
   virtual double kick(std::span<const NodalForce> forces, double dt) noexcept = 0;
-  /// Perfectly elastic exchange with the plane z = height: masses below it and approaching are reflected.
-  /// @return how many
-  virtual std::int64_t bounce_off_floor(double height) noexcept = 0;
+  /// Makes room for remember_velocities(); once, while loading.
+  virtual void prepare_contact() = 0;
+  /// Before a step in which something may touch: so that contact knows the velocities at its beginning. See read().
+  virtual void remember_velocities() noexcept = 0;
+  /// An impulse at the beginning of the step just integrated: adds dv to the velocity of a mass and dt dv to its place. A held
+  /// mass stays; a sleeping one wakes.
+  virtual void push(Index cell, const Vec3& dv, double dt) noexcept = 0;
+  /// Masses that were behind the plane when the step began, and approached it, are reflected: v_n := -e v_n.
+  /// @return impulse that the plane gave, and the kinetic energy that it took
+  virtual PlaneImpulse bounce_off(const Plane& plane, double e, double dt) noexcept = 0;
   /// Lets quiet rows sleep and disturbed ones wake, from what the last watched step saw.
   /// @param frame_seconds  since the last call
   virtual void sleep_and_wake(double frame_seconds) noexcept = 0;
@@ -98,6 +117,12 @@ class MovingBody {
   virtual Vec3 displacement(Index cell) const noexcept = 0;  // from rest [m]
   virtual Vec3 velocity(Index cell) const noexcept = 0;
   virtual Mask mask(Index cell) const noexcept = 0;
+  /// Some masses at the beginning of the step just integrated, all in one call: place x, velocity v, and the velocity v_move
+  /// at which it moved them. With the explicit integrators v is the mean of v_move before and after the elements acted, so
+  /// that an impulse that keeps the energy of v keeps the energy that the integrator keeps.
+  /// @param rest  their rest positions
+  virtual void read(std::span<const Index> cells, std::span<const Vec3> rest, double dt, std::span<Vec3> x,
+                    std::span<Vec3> v, std::span<Vec3> v_move) const noexcept = 0;
   /// Elements that broke in the last step, in storage order; what breaks next makes the span another one.
   virtual std::span<const Break> fresh_breaks() const noexcept = 0;
   /// The list is not all: anything may have changed. After a reset and a restore at once and still after the next step, and

@@ -43,6 +43,7 @@ struct StepReport {
   std::int64_t warnings = 0;
   std::int64_t broken = 0;  // elements
   double tool_work = 0;      // done by tools on tissue [J]
+  double contact_lost = 0;   // kinetic energy, in collisions and at floor and walls [J]
   double tool_exchange = 0;  // sum of its magnitude over all steps [J]
 
   StageTime& operator[](Stage stage) { return stages[static_cast<std::size_t>(stage)]; }

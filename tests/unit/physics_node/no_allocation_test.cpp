@@ -36,7 +36,8 @@ std::size_t allocations_in(World& world, const std::optional<ToolState>& hand, i
   run(world, hand, frames);
   ContactPatch patch;
   ToolWrench wrench;
-  for (auto& tool : world.tools()) {
+  for (std::size_t n = 0; n < world.n_tools(); ++n) {
+    Tool& tool = world.tool(n);
     tool.write_patch(patch, 1, 1);
     tool.write_wrench(wrench, 1, 1, 0);
   }

@@ -14,7 +14,7 @@ TEST(ToolCoupling, CarriesASteadyForceIntoTheMasses) {
   World world(pressed_slab());
   const auto hand = steady_hand({0, 0, 1.5});
   run(world, hand, 700);
-  const ToolCoupling& tool = world.tools().front();
+  const Tool& tool = world.tool(0);
   EXPECT_LT((tool.force() - Vec3(0, 0, 1.5)).norm(), 1e-6);
   EXPECT_LT((total(tool.forces()) + Vec3(0, 0, 1.5)).norm(), 1e-6);
   EXPECT_GT(tool.forces().size(), 4u);
@@ -24,12 +24,12 @@ TEST(ToolCoupling, LetsGoWhenTheHandFallsSilent) {
   World world(pressed_slab());
   run(world, steady_hand({0, 0, 1.5}), 1000);
   run(world, std::nullopt, 100);
-  const double fading = world.tools().front().force().norm();
+  const double fading = world.tool(0).force().norm();
   EXPECT_LT(fading, 0.1);
   EXPECT_GT(fading, 0);
   run(world, std::nullopt, 1000);
-  EXPECT_EQ(world.tools().front().force(), Vec3(Vec3::Zero()));
-  EXPECT_TRUE(world.tools().front().forces().empty());
+  EXPECT_EQ(world.tool(0).force(), Vec3(Vec3::Zero()));
+  EXPECT_TRUE(world.tool(0).forces().empty());
 }
 
 TEST(ToolCoupling, IgnoresTheForceOfAHandThatIsNotEngaged) {
@@ -37,14 +37,14 @@ TEST(ToolCoupling, IgnoresTheForceOfAHandThatIsNotEngaged) {
   auto hand = steady_hand({0, 0, 1.5});
   hand->engaged = 0;
   run(world, hand, 500);
-  EXPECT_EQ(world.tools().front().force(), Vec3(Vec3::Zero()));
+  EXPECT_EQ(world.tool(0).force(), Vec3(Vec3::Zero()));
 }
 
 TEST(ToolCoupling, OffersThePlaneWhereItWouldBeWithoutTheForce) {
   World world(pressed_slab());
   run(world, steady_hand({0, 0, 1.0}), 1000);
   ContactPatch patch;
-  world.tools().front().write_patch(patch, 77, 5);
+  world.tool(0).write_patch(patch, 77, 5);
   ASSERT_GT(patch.n_facets, 0u);
   EXPECT_EQ(patch.tick, 77u);
   EXPECT_EQ(patch.answers, 9u);
@@ -61,7 +61,7 @@ TEST(ToolCoupling, TellsForceAndMomentAboutTheSetPoint) {
   hand->p_WT = {0.01, 0.02, slab_top};
   run(world, hand, 700);
   ToolWrench wrench;
-  world.tools().front().write_wrench(wrench, 1, 2, 3.0);
+  world.tool(0).write_wrench(wrench, 1, 2, 3.0);
   EXPECT_NEAR(wrench.force[2], 1.0, 1e-6);
   EXPECT_NEAR(wrench.moment[0], 0.02, 1e-6);   // y F_z
   EXPECT_NEAR(wrench.moment[1], -0.01, 1e-6);  // - x F_z
@@ -72,7 +72,7 @@ TEST(ToolCoupling, IsFreeBeforeTheHandIsSeen) {
   World world(pressed_slab());
   run(world, std::nullopt, 10);
   ContactPatch patch;
-  world.tools().front().write_patch(patch, 1, 1);
+  world.tool(0).write_patch(patch, 1, 1);
   EXPECT_EQ(patch.n_facets, 0u);
   EXPECT_EQ(patch.answers, 0u);
 }

@@ -31,7 +31,7 @@ class Recording : public testing::Test {
     recorder.finish();
     n_masses_ = static_cast<std::uint64_t>(world.body(0).body().lattice.n_masses());
     top_ = world.body(0).body().lattice.masses.back();
-    last_force_ = world.tools().front().force();
+    last_force_ = world.tool(0).force();
     last_energy_ = world.ledger();
     EXPECT_EQ(recorder.dropped(), 0u);
     EXPECT_NEAR(recorder.force_peak(0), last_force_.norm(), 1e-12);

@@ -7,16 +7,15 @@
 
 namespace palpate::physics {
 
-struct SweepReport {
+struct SweptReport {
   std::int64_t collisions = 0;
   std::int64_t stopped = 0;  // masses that no impulse could keep apart and that were made to move together
   double lost = 0;           // kinetic energy [J]
 };
 
-/// One step of contact. The masses are where the step without contact took them, x + dt v; impulses act at its beginning,
-/// so the caller adds dv to the velocity and dt dv to the place.
+/// One step of contact: impulses at its beginning, which change what the masses move by in it.
 ///
-/// For each pair, with q the point of the facet nearest to mass p at the beginning, weights w_k, d = |p - q|, n = (p - q) / d:
+/// For each pair, with q the point of the facet nearest to mass p, weights w_k, d = |p - q|, n = (p - q) / d:
 ///   h = (edge + L) / (2 sqrt 3);  v_n = n . (v_p - sum w_k v_k);  W = 1/m_p + sum w_k^2 / m_k
 ///   d + dt v_n < h and v_n < 0:   J = -(1 + e) v_n / W on p, -w_k J on the corners
 /// over all pairs in order, until none approaches or eight times. The force acts along the line between the two points, so
@@ -27,10 +26,10 @@ struct SweepReport {
 /// distance whatever happens. So a mass that begins on one side of a facet ends on that side.
 /// Source: Bridson, Fedkiw, Anderson 2002 (impulses first, zones that move together last).
 /// Deviation: zones move without rotation; their angular momentum is not kept. They are counted in `stopped`.
-class Sweep {
+class SweptContact {
  public:
-  explicit Sweep(const std::vector<ContactBody>& bodies, std::size_t most_pairs);
-  SweepReport step(const std::vector<ContactBody>& bodies, std::span<const NearPair> pairs, double e, double dt,
+  explicit SweptContact(const std::vector<ContactBody>& bodies, std::size_t most_pairs);
+  SweptReport step(const std::vector<ContactBody>& bodies, std::span<const NearPair> pairs, double e, double dt,
                    ContactImpulses& impulses) noexcept;
 
  private:
@@ -62,6 +61,7 @@ class Sweep {
     double mass = 0;
     bool fixed = false;
     Vec3 velocity = Vec3::Zero();
+    Vec3 given = Vec3::Zero();  // impulse to all its masses [N s]
   };
   std::vector<Sum> sums_;              // by candidate, meaningful for roots of zones
 };

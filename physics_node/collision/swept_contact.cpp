@@ -1,4 +1,4 @@
-#include "physics_node/collision/sweep.h"
+#include "physics_node/collision/swept_contact.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ double least_distance(double distance, double h) { return std::max(0.1 * distanc
 
 }  // namespace
 
-Sweep::Sweep(const std::vector<ContactBody>& bodies, std::size_t most_pairs) {
+SweptContact::SweptContact(const std::vector<ContactBody>& bodies, std::size_t most_pairs) {
   std::uint32_t n = 0;
   for (const auto& body : bodies) {
     first_.push_back(n);
@@ -36,19 +36,16 @@ Sweep::Sweep(const std::vector<ContactBody>& bodies, std::size_t most_pairs) {
   active_.reserve(most_pairs);
 }
 
-void Sweep::find_active(const std::vector<ContactBody>& bodies, std::span<const NearPair> pairs, double dt) noexcept {
+void SweptContact::find_active(const std::vector<ContactBody>& bodies, std::span<const NearPair> pairs, double dt) noexcept {
   active_.clear();
   for (const NearPair& pair : pairs) {
     const Candidates& c = bodies[pair.mass.body].candidates();
     const ContactBody& other = bodies[pair.other.body];
     const Facets::Corners& k = other.facets()->all()[pair.other.n];
     const Candidates& d = other.candidates();
-    const auto start = [&](const Candidates& of, std::uint32_t n) { return Vec3(of.x()[n] - dt * of.v_move()[n]); };
-    const Vec3 p = start(c, pair.mass.n);
-    const Triangle t{start(d, k[0]), start(d, k[1]), start(d, k[2])};
-    const double edge = k[0] == k[1] ? d.length() : ((t[0] - t[1]).norm() + (t[1] - t[2]).norm() + (t[2] - t[0]).norm()) / 3;
-    const double h = swept_distance(edge, c);
-    const ClosestPoint nearest = closest_point(p, t);
+    const FacetNow facet = facet_now(d, k);
+    const double h = swept_distance(facet.edge, c);
+    const ClosestPoint nearest = closest_point(c.x()[pair.mass.n], facet.corner);
     double farthest = 0;
     for (const std::uint32_t corner : k)
       farthest = std::max(farthest, (c.v_move()[pair.mass.n] - d.v_move()[corner]).squaredNorm());
@@ -72,7 +69,7 @@ void Sweep::find_active(const std::vector<ContactBody>& bodies, std::span<const 
   }
 }
 
-std::int64_t Sweep::push_apart(const std::vector<ContactBody>& bodies, double e, double dt, ContactImpulses& impulses,
+std::int64_t SweptContact::push_apart(const std::vector<ContactBody>& bodies, double e, double dt, ContactImpulses& impulses,
                                double& lost) noexcept {
   std::int64_t collisions = 0;
   for (const Active& a : active_) {
@@ -95,24 +92,21 @@ std::int64_t Sweep::push_apart(const std::vector<ContactBody>& bodies, double e,
   return collisions;
 }
 
-bool Sweep::would_pass(const std::vector<ContactBody>& bodies, const Active& a, double dt,
+bool SweptContact::would_pass(const std::vector<ContactBody>& bodies, const Active& a, double dt,
                        const ContactImpulses& impulses) const noexcept {
-  const auto start = [&](PairEnd at) {
-    const Candidates& c = bodies[at.body].candidates();
-    return Vec3(c.x()[at.n] - dt * c.v_move()[at.n]);
-  };
+  const auto start = [&](PairEnd at) { return bodies[at.body].candidates().x()[at.n]; };
   const auto moves = [&](PairEnd at) { return Vec3(dt * impulses.v_move(bodies, at)); };
   const Triangle t{start(a.end[1]), start(a.end[2]), start(a.end[3])};
   const Triangle by{moves(a.end[1]), moves(a.end[2]), moves(a.end[3])};
   return comes_nearer(start(a.end[0]), moves(a.end[0]), t, by, least_distance(a.distance, a.h));
 }
 
-std::uint32_t Sweep::zone_of(std::uint32_t id) noexcept {
+std::uint32_t SweptContact::zone_of(std::uint32_t id) noexcept {
   while (parent_[id] != id) id = parent_[id] = parent_[parent_[id]];
   return id;
 }
 
-void Sweep::join(const Active& a) noexcept {
+void SweptContact::join(const Active& a) noexcept {
   for (const PairEnd& at : a.end) {
     const std::uint32_t id = id_of(at);
     if (in_zone_[id] == 0) {
@@ -125,7 +119,7 @@ void Sweep::join(const Active& a) noexcept {
 }
 
 /// V = sum m v / sum m of the masses of a zone; that of a held or driven one where there is any.
-void Sweep::move_zones_together(const std::vector<ContactBody>& bodies, ContactImpulses& impulses) noexcept {
+void SweptContact::move_zones_together(const std::vector<ContactBody>& bodies, ContactImpulses& impulses) noexcept {
   for (const PairEnd& at : zoned_) sums_[id_of(at)] = Sum{};
   for (const PairEnd& at : zoned_) {
     Sum& sum = sums_[zone_of(id_of(at))];
@@ -139,15 +133,22 @@ void Sweep::move_zones_together(const std::vector<ContactBody>& bodies, ContactI
     sum.mass += 1 / w;
   }
   for (const PairEnd& at : zoned_) {
-    const Sum& sum = sums_[zone_of(id_of(at))];
+    Sum& sum = sums_[zone_of(id_of(at))];
     const Vec3 V = sum.fixed ? sum.velocity : Vec3(sum.momentum / sum.mass);
-    impulses.set_velocity(bodies, at, V - bodies[at.body].candidates().v_move()[at.n]);
+    sum.given += impulses.set_change(bodies, at, V - bodies[at.body].candidates().v_move()[at.n]);
+  }
+  // What a zone with a held or driven mass was given came from there.
+  for (const PairEnd& at : zoned_) {
+    Sum& sum = sums_[zone_of(id_of(at))];
+    if (!sum.fixed || bodies[at.body].candidates().inverse_mass(at.n) != 0) continue;
+    impulses.push(bodies, at, -sum.given);
+    sum.given.setZero();
   }
 }
 
-SweepReport Sweep::step(const std::vector<ContactBody>& bodies, std::span<const NearPair> pairs, double e, double dt,
+SweptReport SweptContact::step(const std::vector<ContactBody>& bodies, std::span<const NearPair> pairs, double e, double dt,
                         ContactImpulses& impulses) noexcept {
-  SweepReport report;
+  SweptReport report;
   find_active(bodies, pairs, dt);
   if (active_.empty()) return report;
   for (int n = 0; n < most_sweeps; ++n) {

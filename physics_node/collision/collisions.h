@@ -1,0 +1,69 @@
+#pragma once
+// Contact between bodies, and of the fragments of a body with each other: one door for the frame that moves them.
+//
+// A frame first asks which bodies are near at all; where none is, contact is skipped. Then each step, after the masses have
+// moved, impulses are found and given.
+
+#include <memory>
+
+#include "common/scene/scene.h"
+#include "physics_node/collision/exchange.h"
+#include "physics_node/collision/swept_contact.h"
+
+namespace palpate::physics {
+
+struct CollisionTally {
+  std::int64_t collisions = 0;   // impulses between two masses, or a mass and a facet
+  std::int64_t passages = 0;     // masses that went through a facet; counted only on request
+  std::int64_t stopped = 0;      // masses that had to be made to move together
+  std::int64_t overflows = 0;    // pairs that found no room in the list
+  std::int64_t rebuilds = 0;     // of the list
+  double lost = 0;               // kinetic energy [J]
+  double driven_work = 0;        // done by hands through masses that they drive [J]
+};
+
+class Collisions {
+ public:
+  Collisions(const std::vector<std::unique_ptr<MovingBody>>& bodies, const ContactSpec& spec);
+
+  /// Which bodies may touch in the coming frame. @return false: none, so that there is nothing to do in its steps
+  bool begin_frame(double frame_seconds) noexcept;
+
+  void before_step() noexcept;
+  /// After every step, whether anything is near or not: follows elements that broke.
+  void follow_breaks() noexcept;
+  /// One step of contact, after the masses have moved by it. Contract: allocates and throws nothing.
+  void step(double dt) noexcept;
+
+  /// The longest step in which nothing near moves farther than a quarter of the smallest L; only swept contact asks for one.
+  double wanted_step() const noexcept { return wanted_step_; }
+
+  /// What a body has taken since the last call.
+  BodyImpulse take_impulse(std::size_t body) noexcept { return impulses_.take(static_cast<std::uint32_t>(body)); }
+  const CollisionTally& tally() const { return tally_; }
+  std::size_t n_candidates() const noexcept;
+  std::size_t n_pairs() const { return near_.masses().size() + near_.facets().size(); }
+
+  /// After a reset or a restore: everything anew.
+  void restart() noexcept;
+
+ private:
+  bool are_near(std::uint32_t a, std::uint32_t b, double frame_seconds) noexcept;
+  void give_impulses(double dt) noexcept;
+
+  ContactSpec spec_;
+  bool swept_;
+  std::vector<MovingBody*> moving_;
+  std::vector<ContactBody> bodies_;
+  NearPairs near_;
+  ContactImpulses impulses_;
+  std::unique_ptr<SweptContact> swept_contact_;  // swept only
+  CollisionTally tally_;
+  std::vector<double> apart_;     // of each pair of bodies: how far they may still travel until they could be near [m]
+  double smallest_L_ = 0;
+  double wanted_step_ = 0;
+  bool changed_ = true;
+  bool any_near_ = false;
+};
+
+}  // namespace palpate::physics

@@ -1,0 +1,35 @@
+#include "physics_node/contact/handle.h"
+
+#include <algorithm>
+
+namespace palpate::physics {
+
+Handle::Handle(const Body& body) : tip_(body.tip), cell_(body.handle) {
+  for (const Index cell : cell_) {
+    rest_.push_back(body.lattice.rest_position(cell));
+    mass_.push_back(law_at(body, cell).mass);
+  }
+  for (auto* array : {&x_, &v_, &v_move_, &v_0_}) array->assign(cell_.size(), Vec3::Zero());
+}
+
+void Handle::reset() noexcept { std::fill(v_0_.begin(), v_0_.end(), Vec3::Zero()); }
+
+HandleWork Handle::lead(MovingBody& moving, const Pose& pose, double dt) noexcept {
+  HandleWork sum;
+  const Eigen::Matrix3d R = pose.q.toRotationMatrix();
+  moving.read(cell_, rest_, 0, x_, v_, v_move_);
+  for (std::size_t n = 0; n < cell_.size(); ++n) {
+    const Vec3 target = pose.p + R * (rest_[n] - tip_);
+    const Vec3 dv = (target - x_[n]) / dt;  // on the velocity that moves the mass
+    const Vec3 v = v_move_[n] + dv;
+    moving.push(cell_[n], dv, dt);
+    const double m = mass_[n];
+    sum.work += m * (dv.dot(v) + 0.5 * (v.squaredNorm() - v_0_[n].squaredNorm()) - (v - v_0_[n]).dot(v));
+    sum.linear += m * dv;
+    sum.angular += m * target.cross(dv);
+    v_0_[n] = v;
+  }
+  return sum;
+}
+
+}  // namespace palpate::physics

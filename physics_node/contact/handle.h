@@ -1,0 +1,46 @@
+#pragma once
+// The masses of a tool by which a hand holds it, led along the hand's path.
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "physics_node/step/moving_body.h"
+
+namespace palpate::physics {
+
+struct Pose {
+  Vec3 p = Vec3::Zero();                                     // of the tip [m]
+  Eigen::Quaterniond q = Eigen::Quaterniond::Identity();     // turned from how the body rests
+};
+
+/// Work that the hand did, and the impulse that it gave.
+struct HandleWork {
+  double work = 0;              // [J]
+  Vec3 linear = Vec3::Zero();   // [N s]
+  Vec3 angular = Vec3::Zero();  // about the origin [N m s]
+};
+
+class Handle {
+ public:
+  explicit Handle(const Body& body);
+
+  /// After the elements have moved everything by dt: puts each mass of the handle where the pose wants it, by the velocity
+  /// that leads there from where it was at the beginning of the step,
+  ///   v := (p + R (X - X_tip) - x_0) / dt,   x := x_0 + dt v.
+  /// The hand's work is its force m (v - v_1) / dt along dt v, v_1 as the elements left it, and what the change of speed from
+  /// v_0 took: m (v - v_1) . v + m (v^2 - v_0^2) / 2 - m (v - v_0) . v.
+  /// @param v_0  is remembered from the step before
+  HandleWork lead(MovingBody& moving, const Pose& pose, double dt) noexcept;
+  /// Stands still, as at rest.
+  void reset() noexcept;
+
+  std::size_t size() const { return cell_.size(); }
+
+ private:
+  Vec3 tip_;
+  std::vector<Index> cell_;
+  std::vector<Vec3> rest_, x_, v_, v_move_, v_0_;
+  std::vector<double> mass_;
+};
+
+}  // namespace palpate::physics

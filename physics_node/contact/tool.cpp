@@ -1,0 +1,19 @@
+#include "physics_node/contact/tool.h"
+
+#include "common/message/vec3.h"
+
+namespace palpate::physics {
+
+void Tool::write_wrench(ToolWrench& out, std::uint64_t frame, std::int64_t now_ns, double t) const noexcept {
+  const Wrench now = wrench();
+  out.tool = index_;
+  out.tick = frame;
+  out.stamp_ns = now_ns;
+  out.t = t;
+  out.force = array(now.force);
+  out.moment = array(now.moment);
+  out.set_point = array(set_point_);
+  out.n_contacts = contacts();
+}
+
+}  // namespace palpate::physics

@@ -1,0 +1,46 @@
+#pragma once
+// What the frame, the wire and the record ask of a tool, whatever it is.
+
+#include <span>
+
+#include "common/message/messages.h"
+#include "physics_node/step/moving_body.h"
+
+namespace palpate::physics {
+
+/// On the tool, in right-handed world axes; the moment is about the tool's set point. (EQUATIONS C-15)
+struct Wrench {
+  Vec3 force = Vec3::Zero();   // [N]
+  Vec3 moment = Vec3::Zero();  // [N m]
+};
+
+class Tool {
+ public:
+  virtual ~Tool() = default;
+
+  /// Takes the newest state of the hand, or none where nothing fresh has come.
+  /// @param dt  of the frame [s]
+  virtual void take(const ToolState* state, double dt) noexcept = 0;
+  /// Before the steps of a frame: looks for what it touches.
+  virtual void find_contact(double t) noexcept = 0;
+  /// Forces on masses of the touched body during the coming frame; a tool that is a body has none, it collides.
+  virtual std::span<const NodalForce> forces() const noexcept { return {}; }
+  virtual std::size_t touched_body() const noexcept { return 0; }  // meaningful while forces() is not empty
+  virtual void reset() noexcept {}
+
+  virtual void write_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) noexcept = 0;
+  void write_wrench(ToolWrench& wrench, std::uint64_t frame, std::int64_t now_ns, double t) const noexcept;
+
+  virtual Vec3 tip() const noexcept = 0;               // where the hand holds it [m]
+  virtual Wrench wrench() const noexcept = 0;          // low-passed
+  virtual Wrench raw_wrench() const noexcept = 0;      // of the last frame alone
+  virtual std::uint32_t contacts() const noexcept = 0; // masses that carry or collide
+  Vec3 force() const noexcept { return wrench().force; }
+
+ protected:
+  Tool(std::uint32_t index, const Vec3& set_point) : index_(index), set_point_(set_point) {}
+  std::uint32_t index_;
+  Vec3 set_point_;
+};
+
+}  // namespace palpate::physics

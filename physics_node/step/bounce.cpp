@@ -1,0 +1,56 @@
+#include "physics_node/step/bounce.h"
+
+namespace palpate::physics {
+namespace {
+
+template <class Real>
+Vec3 vector_of(const Three<Real>& three, std::size_t c) {
+  return {static_cast<double>(three[0][c]), static_cast<double>(three[1][c]), static_cast<double>(three[2][c])};
+}
+
+}  // namespace
+
+template <class Real>
+PlaneImpulse bounce(const Body& body, LatticeState<Real>& state, const Three<Real>& moving, const Three<Real>& before,
+                    const Plane& plane, double e, double dt) noexcept {
+  PlaneImpulse sum;
+  const bool verlet = state.v_half[0].size() > 0;
+  for (std::size_t r = 0; r < body.lattice.rows.size(); ++r) {
+    if (state.row_state[r] != RowState::awake) continue;
+    const RowSegment& row = body.lattice.rows[r];
+    const Vec3 first = body.lattice.rest_position(row.first);
+    // Masses of a row rest two steps of x apart.
+    const Vec3 along = body.lattice.rest_position(row.first + 1) - first;
+    const double rest = plane.n.dot(first) - plane.height;
+    const double per_mass = plane.n.dot(along);
+    for (Index i = 0; i < row.count; ++i) {
+      const auto c = static_cast<std::size_t>(row.first + i);
+      const Vec3 u = vector_of(state.u, c);
+      const Vec3 v_move = vector_of(moving, c);
+      if (rest + per_mass * i + plane.n.dot(u - dt * v_move) >= 0 || state.inverse_mass[c] == 0) continue;
+      const double v_n = 0.5 * plane.n.dot(v_move + vector_of(before, c));
+      if (v_n >= 0) continue;
+      const double dv = -(1 + e) * v_n;
+      for (std::size_t a = 0; a < 3; ++a) {
+        const Real d = static_cast<Real>(dv * plane.n[static_cast<Eigen::Index>(a)]);
+        state.v[a][c] += d;
+        state.u[a][c] += static_cast<Real>(dt) * d;
+        if (verlet) state.v_half[a][c] += d;
+      }
+      const double mass = 1 / static_cast<double>(state.inverse_mass[c]);
+      const Vec3 J = mass * dv * plane.n;
+      ++sum.masses;
+      sum.linear += J;
+      sum.angular += (first + i * along + u - dt * v_move).cross(J);
+      sum.lost += 0.5 * mass * (1 - e * e) * v_n * v_n;
+    }
+  }
+  return sum;
+}
+
+template PlaneImpulse bounce(const Body&, LatticeState<float>&, const Three<float>&, const Three<float>&, const Plane&,
+                             double, double) noexcept;
+template PlaneImpulse bounce(const Body&, LatticeState<double>&, const Three<double>&, const Three<double>&, const Plane&,
+                             double, double) noexcept;
+
+}  // namespace palpate::physics

@@ -1,0 +1,17 @@
+#pragma once
+// Floor and walls.
+
+#include "physics_node/step/moving_body.h"
+#include "physics_node/step/state.h"
+
+namespace palpate::physics {
+
+/// Masses that were behind the plane when the step of dt began, and moved further behind it, are reflected there: v_n := -e v_n,
+/// with v as MovingBody::read() has it, and the step goes on from there. Skips rows that sleep.
+/// @param moving  velocity that moved the masses in the step; @param before  in the one before
+/// Source: Wakamatsu & Honma 2011 (bodies that fall on a floor).
+template <class Real>
+PlaneImpulse bounce(const Body& body, LatticeState<Real>& state, const Three<Real>& moving, const Three<Real>& before,
+                    const Plane& plane, double e, double dt) noexcept;
+
+}  // namespace palpate::physics
