@@ -46,6 +46,7 @@ World::World(const Scene& scene) : scene_(scene) {
     const double bucket =
         4 * (lattice.kind == LatticeKind::fcc ? lattice.rest_length[0] : lattice.step.maxCoeff());
     bodies_.push_back(make_moving_body(std::move(body), scene.physics.precision, integrator));
+    fragments_.push_back(any_yields(bodies_.back()->body()) ? std::make_unique<Fragments>(*bodies_.back()) : nullptr);
     touchable_.push_back({bodies_.back().get(), std::make_unique<ContactSurface>(*bodies_.back(), bucket)});
   }
   for (std::uint32_t n = 0; n < scene.tools.size(); ++n) tools_.emplace_back(scene.tools[n], n, touchable_);
@@ -101,7 +102,7 @@ void World::implicit_step(double dt, bool watch) noexcept {
     for (auto& body : bodies_) body->bounce_off_floor(scene_.floor->height);
   ++report_[Stage::element_forces].skipped;  // part of the solution
   ++report_[Stage::contact_forces].skipped;
-  count_yield_and_break();
+  follow_breaks();
   ++report_.steps;
 }
 
@@ -114,9 +115,14 @@ void World::book_work(double work) noexcept {
   report_.tool_exchange += std::abs(work);
 }
 
-void World::count_yield_and_break() noexcept {
-  StageTime& time = report_[Stage::yield_and_break];  // its time is that of the pass over the elements
-  ++(any_yields_ ? time.calls : time.skipped);
+void World::follow_breaks() noexcept {
+  if (!any_yields_) {
+    ++report_[Stage::yield_and_break].skipped;
+    return;
+  }
+  const StageTimer timer(report_, Stage::yield_and_break);  // of the fragments; the rest is part of the pass
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    if (fragments_[b]) fragments_[b]->update(*bodies_[b]);
 }
 
 std::span<const NodalForce> World::gathered(std::size_t body) noexcept {
@@ -149,7 +155,7 @@ void World::step(double dt, bool watch) noexcept {
     ++report_[Stage::contact_forces].skipped;
   }
   ++report_[Stage::integrate].skipped;  // fused with the forces
-  count_yield_and_break();
+  follow_breaks();
   ++report_.steps;
 }
 
@@ -190,7 +196,10 @@ void World::guard() noexcept {
 
 void World::recover(std::size_t culprit) noexcept {
   // Tools and gravity did work on a state that is thrown away: what is booked starts anew from the state restored.
-  for (auto& body : bodies_) body->restore();
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    bodies_[b]->restore();
+    if (fragments_[b]) fragments_[b]->update(*bodies_[b]);
+  }
   ++report_.restored;
   account_.write_off(ledger());
   if (recoveries_ == most_recoveries) {
@@ -239,7 +248,10 @@ void World::frame(std::span<const std::optional<ToolState>> tools) noexcept {
 }
 
 void World::reset() noexcept {
-  for (auto& body : bodies_) body->reset();
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    bodies_[b]->reset();
+    if (fragments_[b]) fragments_[b]->update(*bodies_[b]);
+  }
   n_substeps_ = std::max(1, n_substeps_ >> recoveries_);
   dt_ = frame_dt_ / n_substeps_;
   recoveries_ = 0;

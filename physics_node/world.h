@@ -11,6 +11,7 @@
 #include "common/message/messages.h"
 #include "common/scene/scene.h"
 #include "physics_node/contact/tool_coupling.h"
+#include "physics_node/fragments/fragments.h"
 #include "physics_node/step/energy_account.h"
 #include "physics_node/step/moving_body.h"
 #include "physics_node/step/step_report.h"
@@ -40,6 +41,8 @@ class World {
   MovingBody& body(std::size_t b) {
     return *bodies_[b];
   }  // to start a test or a benchmark from a given state
+  /// What has come off; null for a body that cannot break.
+  const Fragments* fragments(std::size_t b) const { return fragments_[b].get(); }
   std::vector<ToolCoupling>& tools() { return tools_; }
   const std::vector<ToolCoupling>& tools() const { return tools_; }
   StepReport& report() { return report_; }
@@ -65,12 +68,13 @@ class World {
   void guard() noexcept;
   void save_all(bool good) noexcept;
   void book_work(double work) noexcept;
-  void count_yield_and_break() noexcept;
+  void follow_breaks() noexcept;
   /// Back to the last good state, with half the step; gives up after the step has been halved too often.
   void recover(std::size_t culprit) noexcept;
 
   Scene scene_;
   std::vector<std::unique_ptr<MovingBody>> bodies_;
+  std::vector<std::unique_ptr<Fragments>> fragments_;  // of each body that yields, null elsewhere
   std::vector<TouchableBody> touchable_;
   std::vector<ToolCoupling> tools_;
   std::vector<NodalForce> gathered_;

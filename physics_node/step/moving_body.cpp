@@ -145,6 +145,7 @@ class LatticeBody final : public MovingBody {
   Vec3 displacement(Index cell) const noexcept override { return vector_of(state_.u, cell); }
   Vec3 velocity(Index cell) const noexcept override { return vector_of(state_.v, cell); }
   Mask mask(Index cell) const noexcept override { return state_.mask[static_cast<std::size_t>(cell)]; }
+  std::span<const Mask> masks() const noexcept override { return {state_.mask.data(), state_.mask.size()}; }
   std::span<const Break> fresh_breaks() const noexcept override { return state_.fresh.list; }
   bool fresh_overflow() const noexcept override { return any_yields(body_) && state_.fresh.overflow; }
   std::int64_t breaks() const noexcept override { return state_.breaks; }

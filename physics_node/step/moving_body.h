@@ -98,6 +98,8 @@ class MovingBody {
   virtual Vec3 displacement(Index cell) const noexcept = 0;  // from rest [m]
   virtual Vec3 velocity(Index cell) const noexcept = 0;
   virtual Mask mask(Index cell) const noexcept = 0;
+  /// Live elements of every storage cell, as bits  (n_cells)
+  virtual std::span<const Mask> masks() const noexcept = 0;
   /// Elements that broke in the last step, in storage order; what breaks next makes the span another one.
   virtual std::span<const Break> fresh_breaks() const noexcept = 0;
   /// The list is not all: anything may have changed. After a reset and a restore at once and still after the next step, and
