@@ -68,6 +68,7 @@ World::World(const Scene& scene) : scene_(scene) {
 }
 
 void World::restart_ledger() {
+  for (auto& body : bodies_) body->restart_momentum();
   account_.restart(bodies_, scene_.gravity, report_);
   save_all(false);
   save_all(true);
@@ -198,6 +199,7 @@ void World::recover(std::size_t culprit) noexcept {
   // Tools and gravity did work on a state that is thrown away: what is booked starts anew from the state restored.
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     bodies_[b]->restore();
+    bodies_[b]->restart_momentum();
     if (fragments_[b]) fragments_[b]->update(*bodies_[b]);
   }
   ++report_.restored;

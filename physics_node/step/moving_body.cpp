@@ -27,11 +27,15 @@ class LatticeBody final : public MovingBody {
   const Body& body() const noexcept override { return body_; }
 
   std::int64_t element_forces_and_integrate(const ExplicitStep& step) noexcept override {
+    momentum_.step(step.gravity, step.verlet && !state_.v_half_known ? 0.5 * step.dt : step.dt, step.dt);
     return element_step(body_, state_, step);  // sleeping rows are skipped
   }
 
   ImplicitReport implicit_step(const ExplicitStep& step, std::span<const NodalForce> forces) noexcept override {
     for (const NodalForce& nodal : forces) sleep_.wake_cell(body_, state_, nodal.cell);
+    for (const NodalForce& nodal : forces)
+      momentum_.hit(step.dt * nodal.force, position(nodal.cell));  // before it moves on with it
+    momentum_.step(step.gravity, step.dt, step.dt);
     const ImplicitReport report = implicit_->step(body_, state_, step, forces);
     // Commits yield and break where the step ended, and lets the ledger watch.
     ExplicitStep look = step;
@@ -47,6 +51,8 @@ class LatticeBody final : public MovingBody {
       if (state_.inverse_mass[c] == 0) continue;
       sleep_.wake_cell(body_, state_, nodal.cell);
       const bool verlet = state_.v_half[0].size() > 0;
+      const Three<Real>& moving = moving_velocity();
+      momentum_.push(dt * nodal.force, position(nodal.cell) - dt * vector_of(moving, nodal.cell), dt);
       for (std::size_t a = 0; a < 3; ++a) {
         const Real dv =
             static_cast<Real>(dt * nodal.force[static_cast<Eigen::Index>(a)]) * state_.inverse_mass[c];
@@ -55,7 +61,7 @@ class LatticeBody final : public MovingBody {
         state_.u[a][c] += static_cast<Real>(dt) * dv;
         if (verlet) state_.v_half[a][c] += dv;
       }
-      work += dt * nodal.force.dot(vector_of(verlet ? state_.v_half : state_.v, nodal.cell));  // F . dx
+      work += dt * nodal.force.dot(vector_of(moving, nodal.cell));  // F . dx
     }
     return work;
   }
@@ -67,6 +73,8 @@ class LatticeBody final : public MovingBody {
       for (Index cell = row.first; cell < row.first + row.count; ++cell) {
         const auto c = static_cast<std::size_t>(cell);
         if (state_.v[2][c] >= 0 || z + static_cast<double>(state_.u[2][c]) >= height) continue;
+        const auto v = static_cast<double>(moving_velocity()[2][c]);
+        momentum_.hit(Vec3(0, 0, -2 * law_at(body_, cell).mass * v), position(cell));
         state_.v[2][c] = -state_.v[2][c];
         if (state_.v_half[2].size() > 0) state_.v_half[2][c] = -state_.v_half[2][c];
         ++bounced;
@@ -159,7 +167,14 @@ class LatticeBody final : public MovingBody {
 
   Energies energies(const Vec3& gravity) const override { return measure_energies(body_, state_, gravity); }
   Losses losses() const override { return measure_losses(state_); }
-  Momenta momenta() const override { return measure_momenta(body_, state_); }
+  Momenta momenta() const override { return measure_momenta(body_, state_.u, state_.v).momenta; }
+  void restart_momentum() noexcept override {
+    momentum_.restart(measure_momenta(body_, state_.u, moving_velocity()));
+  }
+  MomentumAccount& momentum_account() noexcept override { return momentum_; }
+  MomentumBalance momentum_balance() const override {
+    return momentum_.balance(measure_momenta(body_, state_.u, moving_velocity()).momenta);
+  }
   BodyCounts counts() const override { return measure_counts(body_, state_); }
 
   std::uint64_t hash(std::uint64_t seed) const noexcept override {
@@ -181,6 +196,10 @@ class LatticeBody final : public MovingBody {
   }
 
  private:
+  /// The velocity that moves the masses, whose momentum forces change and nothing else.
+  const Three<Real>& moving_velocity() const noexcept {
+    return state_.v_half[0].size() > 0 ? state_.v_half : state_.v;
+  }
   std::size_t n_cells() const { return static_cast<std::size_t>(body_.lattice.n_cells()); }
   static Vec3 vector_of(const Three<Real>& three, Index cell) noexcept {
     const auto c = static_cast<std::size_t>(cell);
@@ -191,6 +210,7 @@ class LatticeBody final : public MovingBody {
   Body body_;
   LatticeState<Real> state_;
   Sleep sleep_;
+  MomentumAccount momentum_;
   SavedState<Real> saved_[2];
   std::size_t good_ = 0;  // the other one is to prove itself
   std::unique_ptr<ImplicitStep<Real>> implicit_;  // only for backward_euler

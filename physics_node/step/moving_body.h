@@ -11,6 +11,7 @@
 #include "physics_node/step/fresh_breaks.h"
 #include "physics_node/step/implicit_step.h"
 #include "physics_node/step/mass_flags.h"
+#include "physics_node/step/momentum_account.h"
 
 namespace palpate::physics {
 
@@ -44,11 +45,6 @@ struct Watch {
 
   double energy() const { return kinetic + elastic; }
   bool is_finite() const { return std::isfinite(kinetic + elastic + fallen); }
-};
-
-struct Momenta {
-  Vec3 linear = Vec3::Zero();   // [kg m/s]
-  Vec3 angular = Vec3::Zero();  // about the origin [kg m^2/s]
 };
 
 struct BodyCounts {
@@ -111,6 +107,12 @@ class MovingBody {
   virtual Energies energies(const Vec3& gravity) const = 0;
   virtual Losses losses() const = 0;
   virtual Momenta momenta() const = 0;
+  /// Begins the books of momentum with what there is now.
+  virtual void restart_momentum() noexcept = 0;
+  /// Where impulses from outside that no member here gives are booked.
+  virtual MomentumAccount& momentum_account() noexcept = 0;
+  /// What the books of momentum miss; means nothing where masses are held or dampers are not axial.
+  virtual MomentumBalance momentum_balance() const = 0;
   virtual BodyCounts counts() const = 0;
   /// Hash of displacement, velocity, live elements and plastic state of all masses, continued from `seed`.
   virtual std::uint64_t hash(std::uint64_t seed) const noexcept = 0;
