@@ -47,6 +47,7 @@ World::World(const Scene& scene) : scene_(scene) {
     const double bucket =
         4 * (lattice.kind == LatticeKind::fcc ? lattice.rest_length[0] : lattice.step.maxCoeff());
     bodies_.push_back(make_moving_body(std::move(body), scene.physics.precision, integrator));
+    fragments_.push_back(any_yields(bodies_.back()->body()) ? std::make_unique<Fragments>(*bodies_.back()) : nullptr);
     touchable_.push_back({bodies_.back().get(), std::make_unique<ContactSurface>(*bodies_.back(), bucket)});
   }
   make_tools();
@@ -89,6 +90,7 @@ void World::make_tools() {
 }
 
 void World::restart_ledger() {
+  for (auto& body : bodies_) body->restart_momentum();
   account_.restart(bodies_, scene_.gravity, report_);
   save_all(false);
   save_all(true);
@@ -131,9 +133,15 @@ void World::book_work(double work) noexcept {
   report_.tool_exchange += std::abs(work);
 }
 
-void World::count_yield_and_break() noexcept {
-  StageTime& time = report_[Stage::yield_and_break];  // its time is that of the pass over the elements
-  ++(any_yields_ ? time.calls : time.skipped);
+void World::follow_breaks() noexcept {
+  if (!any_yields_) {
+    ++report_[Stage::yield_and_break].skipped;
+    return;
+  }
+  const StageTimer timer(report_, Stage::yield_and_break);  // of the fragments; the rest is part of the pass
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    if (fragments_[b]) fragments_[b]->update(*bodies_[b]);
+  if (collisions_) collisions_->follow_breaks();
 }
 
 std::span<const NodalForce> World::gathered(std::size_t body) noexcept {
@@ -185,8 +193,7 @@ void World::step(double dt, double done, bool watch) noexcept {
   } else {
     move_bodies(dt, watch);
   }
-  count_yield_and_break();
-  if (collisions_ && any_yields_) collisions_->follow_breaks();
+  follow_breaks();
   touch(dt, done);
   ++report_.steps;
 }
@@ -228,7 +235,11 @@ void World::guard() noexcept {
 
 void World::recover(std::size_t culprit) noexcept {
   // Tools and gravity did work on a state that is thrown away: what is booked starts anew from the state restored.
-  for (auto& body : bodies_) body->restore();
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    bodies_[b]->restore();
+    bodies_[b]->restart_momentum();
+    if (fragments_[b]) fragments_[b]->update(*bodies_[b]);
+  }
   if (collisions_) collisions_->restart();
   ++report_.restored;
   account_.write_off(ledger());
@@ -298,7 +309,10 @@ void World::frame(std::span<const std::optional<ToolState>> tools) noexcept {
 }
 
 void World::reset() noexcept {
-  for (auto& body : bodies_) body->reset();
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    bodies_[b]->reset();
+    if (fragments_[b]) fragments_[b]->update(*bodies_[b]);
+  }
   for (auto& tool : tools_) tool->reset();
   if (collisions_) collisions_->restart();
   n_substeps_ = std::max(1, n_substeps_ >> recoveries_);

@@ -13,6 +13,7 @@
 #include "physics_node/collision/collisions.h"
 #include "physics_node/contact/body_tool.h"
 #include "physics_node/contact/tool_coupling.h"
+#include "physics_node/fragments/fragments.h"
 #include "physics_node/step/energy_account.h"
 #include "physics_node/step/moving_body.h"
 #include "physics_node/step/step_report.h"
@@ -42,6 +43,8 @@ class World {
   MovingBody& body(std::size_t b) {
     return *bodies_[b];
   }  // to start a test or a benchmark from a given state
+  /// What has come off; null for a body that cannot break.
+  const Fragments* fragments(std::size_t b) const { return fragments_[b].get(); }
   Tool& tool(std::size_t n) { return *tools_[n]; }
   const Tool& tool(std::size_t n) const { return *tools_[n]; }
   std::size_t n_tools() const { return tools_.size(); }
@@ -76,12 +79,13 @@ class World {
   void guard() noexcept;
   void save_all(bool good) noexcept;
   void book_work(double work) noexcept;
-  void count_yield_and_break() noexcept;
+  void follow_breaks() noexcept;
   /// Back to the last good state, with half the step; gives up after the step has been halved too often.
   void recover(std::size_t culprit) noexcept;
 
   Scene scene_;
   std::vector<std::unique_ptr<MovingBody>> bodies_;
+  std::vector<std::unique_ptr<Fragments>> fragments_;  // of each body that yields, null elsewhere
   std::vector<TouchableBody> touchable_;
   std::vector<std::unique_ptr<Tool>> tools_;
   std::vector<BodyTool*> body_tools_;  // those of them that are bodies

@@ -11,9 +11,9 @@ Vec3 vector_of(const Three<Real>& three, std::size_t c) {
 }  // namespace
 
 template <class Real>
-PlaneImpulse bounce(const Body& body, LatticeState<Real>& state, const Three<Real>& moving, const Three<Real>& before,
-                    const Plane& plane, double e, double dt) noexcept {
-  PlaneImpulse sum;
+Bounces bounce(const Body& body, LatticeState<Real>& state, const Three<Real>& moving, const Three<Real>& before,
+                    const Plane& plane, double e, double dt, MomentumAccount& momentum) noexcept {
+  Bounces sum;
   const bool verlet = state.v_half[0].size() > 0;
   for (std::size_t r = 0; r < body.lattice.rows.size(); ++r) {
     if (state.row_state[r] != RowState::awake) continue;
@@ -40,17 +40,16 @@ PlaneImpulse bounce(const Body& body, LatticeState<Real>& state, const Three<Rea
       const double mass = 1 / static_cast<double>(state.inverse_mass[c]);
       const Vec3 J = mass * dv * plane.n;
       ++sum.masses;
-      sum.linear += J;
-      sum.angular += (first + i * along + u - dt * v_move).cross(J);
+      momentum.push(J, first + i * along + u - dt * v_move, dt);
       sum.lost += 0.5 * mass * (1 - e * e) * v_n * v_n;
     }
   }
   return sum;
 }
 
-template PlaneImpulse bounce(const Body&, LatticeState<float>&, const Three<float>&, const Three<float>&, const Plane&,
-                             double, double) noexcept;
-template PlaneImpulse bounce(const Body&, LatticeState<double>&, const Three<double>&, const Three<double>&, const Plane&,
-                             double, double) noexcept;
+template Bounces bounce(const Body&, LatticeState<float>&, const Three<float>&, const Three<float>&, const Plane&,
+                             double, double, MomentumAccount&) noexcept;
+template Bounces bounce(const Body&, LatticeState<double>&, const Three<double>&, const Three<double>&, const Plane&,
+                             double, double, MomentumAccount&) noexcept;
 
 }  // namespace palpate::physics

@@ -79,14 +79,20 @@ Losses measure_losses(const LatticeState<Real>& state) {
 }
 
 template <class Real>
-Momenta measure_momenta(const Body& body, const LatticeState<Real>& state) {
-  Momenta p;
+MomentumAccount::Start measure_momenta(const Body& body, const Three<Real>& u, const Three<Real>& v) noexcept {
+  MomentumAccount::Start sum;
   for (const Index i : body.lattice.masses) {
-    const Vec3 mv = law_at(body, i).mass * vector_of(state.v, i);
-    p.linear += mv;
-    p.angular += (body.lattice.rest_position(i) + vector_of(state.u, i)).cross(mv);
+    const double m = law_at(body, i).mass;
+    const Vec3 x = body.lattice.rest_position(i) + vector_of(u, i);
+    const Vec3 mv = m * vector_of(v, i);
+    sum.momenta.linear += mv;
+    sum.momenta.angular += x.cross(mv);
+    sum.mass_moment += m * x;
+    sum.mass += m;
+    sum.linear += mv.norm();
+    sum.angular += x.cross(mv).norm();
   }
-  return p;
+  return sum;
 }
 
 template <class Real>
@@ -121,8 +127,10 @@ template Energies measure_energies(const Body&, const LatticeState<float>&, cons
 template Energies measure_energies(const Body&, const LatticeState<double>&, const Vec3&);
 template Losses measure_losses(const LatticeState<float>&);
 template Losses measure_losses(const LatticeState<double>&);
-template Momenta measure_momenta(const Body&, const LatticeState<float>&);
-template Momenta measure_momenta(const Body&, const LatticeState<double>&);
+template MomentumAccount::Start measure_momenta(const Body&, const Three<float>&,
+                                                const Three<float>&) noexcept;
+template MomentumAccount::Start measure_momenta(const Body&, const Three<double>&,
+                                                const Three<double>&) noexcept;
 template BodyCounts measure_counts(const Body&, const LatticeState<float>&);
 template BodyCounts measure_counts(const Body&, const LatticeState<double>&);
 

@@ -15,8 +15,9 @@ Energies measure_energies(const Body& body, const LatticeState<Real>& state, con
 template <class Real>
 Losses measure_losses(const LatticeState<Real>& state);
 
+/// Of all masses, held ones too, with velocities v. @return momenta, mass, and what the books of momentum begin with
 template <class Real>
-Momenta measure_momenta(const Body& body, const LatticeState<Real>& state);
+MomentumAccount::Start measure_momenta(const Body& body, const Three<Real>& u, const Three<Real>& v) noexcept;
 
 template <class Real>
 BodyCounts measure_counts(const Body& body, const LatticeState<Real>& state);

@@ -28,13 +28,17 @@ class LatticeBody final : public MovingBody {
   const Body& body() const noexcept override { return body_; }
 
   std::int64_t element_forces_and_integrate(const ExplicitStep& step) noexcept override {
-    if (step.verlet && step.dt != last_dt_) begin_leapfrog();
+    if (step.verlet && step.dt != last_dt_) begin_leapfrog(step.gravity);
     last_dt_ = step.dt;
+    momentum_.step(step.gravity, step.verlet && !state_.v_half_known ? 0.5 * step.dt : step.dt, step.dt);
     return element_step(body_, state_, step);  // sleeping rows are skipped
   }
 
   ImplicitReport implicit_step(const ExplicitStep& step, std::span<const NodalForce> forces) noexcept override {
     for (const NodalForce& nodal : forces) sleep_.wake_cell(body_, state_, nodal.cell);
+    for (const NodalForce& nodal : forces)
+      momentum_.hit(step.dt * nodal.force, position(nodal.cell));  // before it moves on with it
+    momentum_.step(step.gravity, step.dt, step.dt);
     const ImplicitReport report = implicit_->step(body_, state_, step, forces);
     // Commits yield and break where the step ended, and lets the ledger watch.
     ExplicitStep look = step;
@@ -50,6 +54,8 @@ class LatticeBody final : public MovingBody {
       if (state_.inverse_mass[c] == 0) continue;
       sleep_.wake_cell(body_, state_, nodal.cell);
       const bool verlet = state_.v_half[0].size() > 0;
+      const Three<Real>& moving = moving_velocity();
+      momentum_.push(dt * nodal.force, position(nodal.cell) - dt * vector_of(moving, nodal.cell), dt);
       for (std::size_t a = 0; a < 3; ++a) {
         const Real dv =
             static_cast<Real>(dt * nodal.force[static_cast<Eigen::Index>(a)]) * state_.inverse_mass[c];
@@ -58,7 +64,7 @@ class LatticeBody final : public MovingBody {
         state_.u[a][c] += static_cast<Real>(dt) * dv;
         if (verlet) state_.v_half[a][c] += dv;
       }
-      work += dt * nodal.force.dot(vector_of(verlet ? state_.v_half : state_.v, nodal.cell));  // F . dx
+      work += dt * nodal.force.dot(vector_of(moving, nodal.cell));  // F . dx
     }
     return work;
   }
@@ -68,6 +74,8 @@ class LatticeBody final : public MovingBody {
     if (state_.inverse_mass[c] == 0) return;
     sleep_.wake_cell(body_, state_, cell);
     const bool verlet = state_.v_half[0].size() > 0;
+    momentum_.push(dv / static_cast<double>(state_.inverse_mass[c]), position(cell) - dt * vector_of(moving_velocity(), cell),
+                   dt);
     for (std::size_t a = 0; a < 3; ++a) {
       const double d = dv[static_cast<Eigen::Index>(a)];
       state_.v[a][c] += static_cast<Real>(d);
@@ -90,8 +98,8 @@ class LatticeBody final : public MovingBody {
     }
   }
 
-  PlaneImpulse bounce_off(const Plane& plane, double e, double dt) noexcept override {
-    return bounce(body_, state_, moving_velocity(), v_before_, plane, e, dt);
+  Bounces bounce_off(const Plane& plane, double e, double dt) noexcept override {
+    return bounce(body_, state_, moving_velocity(), v_before_, plane, e, dt, momentum_);
   }
 
   void sleep_and_wake(double frame_seconds) noexcept override { sleep_.look(body_, state_, frame_seconds); }
@@ -174,6 +182,7 @@ class LatticeBody final : public MovingBody {
     }
   }
   Mask mask(Index cell) const noexcept override { return state_.mask[static_cast<std::size_t>(cell)]; }
+  std::span<const Mask> masks() const noexcept override { return {state_.mask.data(), state_.mask.size()}; }
   std::span<const Break> fresh_breaks() const noexcept override { return state_.fresh.list; }
   bool fresh_overflow() const noexcept override { return any_yields(body_) && state_.fresh.overflow; }
   std::int64_t breaks() const noexcept override { return state_.breaks; }
@@ -187,7 +196,14 @@ class LatticeBody final : public MovingBody {
 
   Energies energies(const Vec3& gravity) const override { return measure_energies(body_, state_, gravity); }
   Losses losses() const override { return measure_losses(state_); }
-  Momenta momenta() const override { return measure_momenta(body_, state_); }
+  Momenta momenta() const override { return measure_momenta(body_, state_.u, state_.v).momenta; }
+  void restart_momentum() noexcept override {
+    momentum_.restart(measure_momenta(body_, state_.u, moving_velocity()));
+  }
+  MomentumAccount& momentum_account() noexcept override { return momentum_; }
+  MomentumBalance momentum_balance() const override {
+    return momentum_.balance(measure_momenta(body_, state_.u, moving_velocity()).momenta);
+  }
   BodyCounts counts() const override { return measure_counts(body_, state_); }
 
   std::uint64_t hash(std::uint64_t seed) const noexcept override {
@@ -210,14 +226,18 @@ class LatticeBody final : public MovingBody {
 
  private:
   /// With another step the velocity half a step ago is another one: starts from the one now.
-  void begin_leapfrog() noexcept {
+  void begin_leapfrog(const Vec3& gravity) noexcept {
     for (std::size_t a = 0; a < 3; ++a)
       for (const RowSegment& row : body_.lattice.rows)
         std::copy_n(state_.v[a].data() + row.first, row.count, state_.v_half[a].data() + row.first);
+    if (state_.v_half_known) momentum_.step(gravity, 0.5 * last_dt_, 0);
     state_.v_half_known = false;
   }
 
-  const Three<Real>& moving_velocity() const { return state_.v_half[0].size() > 0 ? state_.v_half : state_.v; }
+  /// The velocity that moves the masses, whose momentum forces change and nothing else.
+  const Three<Real>& moving_velocity() const noexcept {
+    return state_.v_half[0].size() > 0 ? state_.v_half : state_.v;
+  }
   std::size_t n_cells() const { return static_cast<std::size_t>(body_.lattice.n_cells()); }
   static Vec3 vector_of(const Three<Real>& three, Index cell) noexcept {
     const auto c = static_cast<std::size_t>(cell);
@@ -229,6 +249,7 @@ class LatticeBody final : public MovingBody {
   LatticeState<Real> state_;
   Three<Real> v_before_;  // that moved the masses in the step before the last; only for contact
   Sleep sleep_;
+  MomentumAccount momentum_;
   SavedState<Real> saved_[2];
   double last_dt_ = 0;    // of an explicit step [s]
   std::size_t good_ = 0;  // the other one is to prove itself

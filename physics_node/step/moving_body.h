@@ -11,6 +11,7 @@
 #include "physics_node/step/fresh_breaks.h"
 #include "physics_node/step/implicit_step.h"
 #include "physics_node/step/mass_flags.h"
+#include "physics_node/step/momentum_account.h"
 
 namespace palpate::physics {
 
@@ -46,21 +47,14 @@ struct Watch {
   bool is_finite() const { return std::isfinite(kinetic + elastic + fallen); }
 };
 
-struct Momenta {
-  Vec3 linear = Vec3::Zero();   // [kg m/s]
-  Vec3 angular = Vec3::Zero();  // about the origin [kg m^2/s]
-};
-
 /// A fixed plane; tissue stays where n . x >= height.
 struct Plane {
   Vec3 n = Vec3::UnitZ();
   double height = 0;  // [m]
 };
-struct PlaneImpulse {
+struct Bounces {
   std::int64_t masses = 0;
-  Vec3 linear = Vec3::Zero();   // on the body [N s]
-  Vec3 angular = Vec3::Zero();  // about the origin [N m s]
-  double lost = 0;              // [J]
+  double lost = 0;  // kinetic energy [J]
 };
 
 struct BodyCounts {
@@ -92,8 +86,8 @@ class MovingBody {
   /// mass stays; a sleeping one wakes.
   virtual void push(Index cell, const Vec3& dv, double dt) noexcept = 0;
   /// Masses that were behind the plane when the step began, and approached it, are reflected: v_n := -e v_n.
-  /// @return impulse that the plane gave, and the kinetic energy that it took
-  virtual PlaneImpulse bounce_off(const Plane& plane, double e, double dt) noexcept = 0;
+  /// @return how many, and the kinetic energy that the plane took
+  virtual Bounces bounce_off(const Plane& plane, double e, double dt) noexcept = 0;
   /// Lets quiet rows sleep and disturbed ones wake, from what the last watched step saw.
   /// @param frame_seconds  since the last call
   virtual void sleep_and_wake(double frame_seconds) noexcept = 0;
@@ -123,6 +117,8 @@ class MovingBody {
   /// @param rest  their rest positions
   virtual void read(std::span<const Index> cells, std::span<const Vec3> rest, double dt, std::span<Vec3> x,
                     std::span<Vec3> v, std::span<Vec3> v_move) const noexcept = 0;
+  /// Live elements of every storage cell, as bits  (n_cells)
+  virtual std::span<const Mask> masks() const noexcept = 0;
   /// Elements that broke in the last step, in storage order; what breaks next makes the span another one.
   virtual std::span<const Break> fresh_breaks() const noexcept = 0;
   /// The list is not all: anything may have changed. After a reset and a restore at once and still after the next step, and
@@ -134,6 +130,12 @@ class MovingBody {
   virtual Energies energies(const Vec3& gravity) const = 0;
   virtual Losses losses() const = 0;
   virtual Momenta momenta() const = 0;
+  /// Begins the books of momentum with what there is now.
+  virtual void restart_momentum() noexcept = 0;
+  /// Where impulses from outside that no member here gives are booked.
+  virtual MomentumAccount& momentum_account() noexcept = 0;
+  /// What the books of momentum miss; means nothing where masses are held or dampers are not axial.
+  virtual MomentumBalance momentum_balance() const = 0;
   virtual BodyCounts counts() const = 0;
   /// Hash of displacement, velocity, live elements and plastic state of all masses, continued from `seed`.
   virtual std::uint64_t hash(std::uint64_t seed) const noexcept = 0;

@@ -4,7 +4,7 @@
 #include <set>
 #include <tuple>
 
-#include "physics_node/step/moving_body.h"
+#include "physics_node/world.h"
 #include "tests/support/physics/small_worlds.h"
 
 namespace palpate::physics::test {
@@ -149,6 +149,49 @@ TEST(Momentum, IsNotChangedByABreak) {
     EXPECT_GT(moving->breaks(), 100);
   }
 }
+
+struct Books {
+  const char* integrator;
+  const char* precision;
+  double linear, angular;  // largest error
+};
+void PrintTo(const Books& b, std::ostream* out) { *out << b.integrator << " " << b.precision; }
+
+class MomentumBooks : public testing::TestWithParam<Books> {};
+
+/// A ball breaks on the floor, aside of the origin, and is pushed on one of its masses all the time.
+TEST_P(MomentumBooks, HoldWhatGravityFloorAndPushesPutIn) {
+  const Books& books = GetParam();
+  Recipe recipe;
+  recipe.shape = Recipe::sphere(40);
+  recipe.material = brittle;
+  recipe.material += "\nviscosity_N_s_per_m = 0.05";
+  recipe.body = "velocity_m_per_s = [0.3, 0.1, -2]\nat_mm = [100, 50, 45]";
+  recipe.precision = books.precision;
+  recipe.physics = std::string("integrator = \"") + books.integrator + "\"";
+  recipe.gravity = "[1, 0, -9.81]";
+  recipe.world = floor_at(0);
+  World world(scene_of(recipe));
+  MovingBody& body = world.body(0);
+  for (int n = 0; n < 150; ++n) {
+    const NodalForce push{body.body().lattice.masses[100], Vec3(0.1, -0.2, 0.05)};
+    body.kick({&push, 1}, world.step_seconds());
+    world.frame({});
+  }
+  EXPECT_GT(body.breaks(), 10);
+  EXPECT_EQ(world.report().restored, 0);
+  const MomentumBalance balance = body.momentum_balance();
+  EXPECT_GT(balance.linear, 0.5);
+  EXPECT_GT(balance.angular, 0.05);
+  EXPECT_LT(balance.missing.linear.norm(), books.linear * balance.linear);
+  EXPECT_LT(balance.missing.angular.norm(), books.angular * balance.angular);
+}
+INSTANTIATE_TEST_SUITE_P(EveryIntegrator, MomentumBooks,
+                         testing::Values(Books{"symplectic_euler", "double", 1e-12, 1e-12},
+                                         Books{"symplectic_euler", "single", 1e-5, 1e-5},
+                                         Books{"velocity_verlet", "double", 1e-12, 1e-12},
+                                         Books{"velocity_verlet", "single", 1e-5, 1e-5},
+                                         Books{"backward_euler", "double", 1e-6, 1e-2}));
 
 }  // namespace
 }  // namespace palpate::physics::test
