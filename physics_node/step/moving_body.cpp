@@ -30,7 +30,8 @@ class LatticeBody final : public MovingBody {
     return element_step(body_, state_, step);  // sleeping rows are skipped
   }
 
-  ImplicitReport implicit_step(const ExplicitStep& step, std::span<const NodalForce> forces) noexcept override {
+  ImplicitReport implicit_step(const ExplicitStep& step,
+                               std::span<const NodalForce> forces) noexcept override {
     for (const NodalForce& nodal : forces) sleep_.wake_cell(body_, state_, nodal.cell);
     const ImplicitReport report = implicit_->step(body_, state_, step, forces);
     // Commits yield and break where the step ended, and lets the ledger watch.
@@ -62,10 +63,12 @@ class LatticeBody final : public MovingBody {
 
   std::int64_t bounce_off_floor(double height) noexcept override {
     std::int64_t bounced = 0;
+    const double rise = body_.lattice.along_row().z();  // 0 where the lattice does not turn
     for (const RowSegment& row : body_.lattice.rows) {
-      const double z = body_.lattice.rest_position(row.first).z();  // of all masses of a row
+      const double first = body_.lattice.rest_position(row.first).z();
       for (Index cell = row.first; cell < row.first + row.count; ++cell) {
         const auto c = static_cast<std::size_t>(cell);
+        const double z = first + rise * (cell - row.first);
         if (state_.v[2][c] >= 0 || z + static_cast<double>(state_.u[2][c]) >= height) continue;
         state_.v[2][c] = -state_.v[2][c];
         if (state_.v_half[2].size() > 0) state_.v_half[2][c] = -state_.v_half[2][c];
@@ -188,7 +191,7 @@ class LatticeBody final : public MovingBody {
   LatticeState<Real> state_;
   Sleep sleep_;
   SavedState<Real> saved_[2];
-  std::size_t good_ = 0;  // the other one is to prove itself
+  std::size_t good_ = 0;                          // the other one is to prove itself
   std::unique_ptr<ImplicitStep<Real>> implicit_;  // only for backward_euler
 };
 
