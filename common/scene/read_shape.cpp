@@ -146,12 +146,12 @@ void refuse_small_tool(TableReader& body, const BodySpec& spec) {
   }
   const auto* needle = std::get_if<NeedleShape>(&spec.shape);
   if (needle == nullptr || needle->diameter <= 0) return;
-  if (needle->diameter < 3 * spacing)
+  if (needle->diameter < 4 * spacing)
     body.complain(
         "diameter_mm",
-        fmt::format("\"diameter_mm\" in {} is {:g}; a tube with a wall of one cell is three cells wide or "
+        fmt::format("\"diameter_mm\" in {} is {:g}; a tube with a wall of one cell is four cells wide or "
                     "more, {:g} with spacing_mm = {:g}",
-                    body.title(), mm_from_m(needle->diameter), 3 * mm, mm));
+                    body.title(), mm_from_m(needle->diameter), 4 * mm, mm));
   const double shortest =
       needle->sharpening > 0 ? needle->diameter / std::tan(needle->sharpening) + 2 * spacing : 0;
   if (needle->length > 0 && needle->length < shortest)

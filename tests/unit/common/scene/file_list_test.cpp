@@ -34,13 +34,15 @@ TEST(FileList, CountsInNames) {
   EXPECT_TRUE(in_natural_order("a1b2", "a1b10"));
   EXPECT_NE(in_natural_order("s02", "s2"), in_natural_order("s2", "s02")) << "a strict order";
   EXPECT_FALSE(in_natural_order("s2", "s2"));
-  EXPECT_TRUE(in_natural_order("s99999999999999999999", "s100000000000000000000")) << "however long a number is";
+  EXPECT_TRUE(in_natural_order("s99999999999999999999", "s100000000000000000000"))
+      << "however long a number is";
 }
 
 TEST(FileList, FindsTheFilesOfAFolder) {
   const auto folder = test::scene_folder() + "/planes";
   std::filesystem::create_directories(folder + "/p_3.png");  // a folder is no file
-  for (const auto* name : {"p_10.png", "p_1.png", "p_2.png", "q_1.png", "p_1.txt"}) std::ofstream(folder + "/" + name) << "x";
+  for (const auto* name : {"p_10.png", "p_1.png", "p_2.png", "q_1.png", "p_1.txt"})
+    std::ofstream(folder + "/" + name) << "x";
   EXPECT_THAT(files_of_pattern(folder + "/p_*.png"),
               ElementsAre(folder + "/p_1.png", folder + "/p_2.png", folder + "/p_10.png"));
   EXPECT_THAT(files_of_pattern(folder + "/q_1.png"), ElementsAre(folder + "/q_1.png"));

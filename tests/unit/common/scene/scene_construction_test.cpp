@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, ConstructionMistakes, testing::ValuesIn(std::ve
     {body("shape = \"needle\"\nlength_mm = 40\ndiameter_mm = 6\ntheta_deg = [0, 0, 0]"), "9:13", "is a list of 3; write [swing, twist, rotation, sharpening]"},
     {body("shape = \"needle\"\nlength_mm = 40\ndiameter_mm = 6\ntheta_deg = [0, 0, 0, 91]"), "9:13", "the sharpening angle in [[body]] \"b\" is 91; write a number from 5 to 90"},
     {body("shape = \"needle\"\nlength_mm = 90\ndiameter_mm = 6\ntheta_deg = [0, 0, 0, 4.9]"), "9:13", "is 4.9; write a number from 5 to 90"},
-    {body("shape = \"needle\"\nlength_mm = 40\ndiameter_mm = 2.9\ntheta_deg = [0, 0, 0, 30]"), "8:15", "three cells wide or more, 3 with spacing_mm = 1"},
+    {body("shape = \"needle\"\nlength_mm = 40\ndiameter_mm = 3.9\ntheta_deg = [0, 0, 0, 30]"), "8:15", "four cells wide or more, 4 with spacing_mm = 1"},
     {body("shape = \"needle\"\nlength_mm = 12\ndiameter_mm = 6\ntheta_deg = [0, 0, 0, 30]"), "7:13", "the bevel and two cells of shaft take 12.39"},
     {body(box + "\ntheta_deg = [0, 0, 9]\nlattice = \"voxel\""), "8:13", "voxels lie along the axes of the world; leave \"theta_deg\" out"},
     {body(tube + "\nwall_layers = 0"), "9:15", "is 0; write a whole number from 1"},
