@@ -48,6 +48,7 @@ void read_root(toml::table& table, ReadContext& context) {
   read_bodies(root, context);
   read_tools(root, context);
   read_floor(root, context);
+  read_walls(root, context);
   read_contact(root, context);
   read_render(root, context);
   read_record(root, context);

@@ -1,4 +1,4 @@
-// `fixed` of a body: faces of the shape and boxes in the world whose masses are held.
+// `fixed` of a body: faces of the shape and boxes in the world whose masses are held; and `handle`, faces that a hand moves.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -41,6 +41,12 @@ void read_fixed(TableReader& body, ReadContext& context, BodySpec& spec) {
     else
       body.complain_value("fixed", item, form);
   }
+}
+
+void read_handle(TableReader& body, BodySpec& spec) {
+  const auto chosen = body.read_words("handle", {faces.begin(), faces.end()});
+  if (!chosen) return;
+  std::copy(chosen->begin(), chosen->end(), spec.handle_faces.begin());
 }
 
 }  // namespace palpate

@@ -15,6 +15,7 @@ struct ReadContext {
 
 void read_physics(TableReader& root, ReadContext& context);    // [physics]
 void read_floor(TableReader& root, ReadContext& context);      // [floor]
+void read_walls(TableReader& root, ReadContext& context);      // [[wall]]
 void read_contact(TableReader& root, ReadContext& context);    // [contact]
 void read_materials(TableReader& root, ReadContext& context);  // [material.NAME]
 void read_devices(TableReader& root, ReadContext& context);    // [device.NAME]
@@ -23,12 +24,26 @@ void read_tools(TableReader& root, ReadContext& context);      // [[tool]]
 void read_render(TableReader& root, ReadContext& context);     // [render]
 void read_record(TableReader& root, ReadContext& context);     // [record]
 
-/// The shape of a body and the keys that belong to it.
-void read_shape(TableReader& body, ReadContext& context, BodySpec& spec);
+/// A body from its table, which may hold other keys, too.
+BodySpec read_body(TableReader& reader, ReadContext& context);
+/// The shape of a body and the keys that belong to it. @return whether there is such a shape
+bool read_shape(TableReader& body, ReadContext& context, BodySpec& spec);
+/// A blade of fewer than two cells is none, nor is a tube without a hole or without a shaft above its bevel.
+void refuse_small_tool(TableReader& body, const BodySpec& spec);
+VolumeShape read_volume_shape(TableReader& body, ReadContext& context);
+VolumeShape read_slices_shape(TableReader& body, ReadContext& context);
 /// `fixed` of a body: faces and boxes.
 void read_fixed(TableReader& body, ReadContext& context, BodySpec& spec);
+/// `handle` of a body: faces instead of those that its shape is held at.
+void read_handle(TableReader& body, BodySpec& spec);
 /// `regions` of a body, whose shape and material are known by now.
 void read_regions(TableReader& body, ReadContext& context, BodySpec& spec);
+/// [[body.cavity]]
+void read_cavities(TableReader& body, ReadContext& context, BodySpec& spec);
+
+/// box_min_mm and box_max_mm; center_mm and radius_mm.
+BoxRegion read_box_place(TableReader& reader);
+BallRegion read_ball_place(TableReader& reader);
 
 /// The tables of [[key]]; complains if the key holds anything else.
 std::vector<const toml::table*> tables_of_list(TableReader& root, const std::string& key, std::size_t most);

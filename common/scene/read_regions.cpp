@@ -13,34 +13,12 @@ constexpr std::size_t most_regions = 64;
 constexpr std::string_view form =
     "{ material = \"NAME\" } with box_min_mm and box_max_mm, center_mm and radius_mm, or intensity";
 
-void read_box(TableReader& reader, RegionSpec& region) {
-  reader.require("box_min_mm", "give the lowest corner of the box as [x, y, z]");
-  reader.require("box_max_mm", "give the highest corner of the box as [x, y, z]");
-  BoxRegion box;
-  const auto min = reader.read_vector_mm("box_min_mm");
-  const auto max = reader.read_vector_mm("box_max_mm");
-  set_if(box.min, min);
-  set_if(box.max, max);
-  if (min && max && (min->array() > max->array()).any())
-    reader.complain("box_max_mm", "\"box_max_mm\" lies below \"box_min_mm\"; swap the corners of the box");
-  region.where = box;
-}
-
-void read_ball(TableReader& reader, RegionSpec& region) {
-  reader.require("center_mm", "give the middle of the ball as [x, y, z]");
-  reader.require("radius_mm", "give the radius of the ball");
-  BallRegion ball;
-  set_if(ball.center, reader.read_vector_mm("center_mm"));
-  set_if(ball.radius, reader.read_length_mm("radius_mm"));
-  region.where = ball;
-}
-
 void read_intensity(TableReader& reader, bool is_volume, RegionSpec& region) {
   IntensityRegion window;
   if (!is_volume)
     reader.complain("intensity",
-                    "\"intensity\" needs an image, and this body's shape is no \"volume\"; give a "
-                    "box or a ball instead");
+                    "\"intensity\" needs an image, and this body's shape is neither \"volume\" nor "
+                    "\"slices\"; give a box or a ball instead");
   if (const auto ends = reader.read_numbers("intensity", 2, "[lowest, highest]")) {
     window = {(*ends)[0], (*ends)[1]};
     if (window.lo > window.hi)
@@ -62,8 +40,8 @@ void read_where(TableReader& reader, bool is_volume, RegionSpec& region) {
   if (ways == 0) reader.complain_lack("a place", advice);
   if (ways > 1)
     reader.complain_at(reader.place(), fmt::format("{} has {} places; {}", reader.title(), ways, advice));
-  if (box) read_box(reader, region);
-  if (ball) read_ball(reader, region);
+  if (box) region.where = read_box_place(reader);
+  if (ball) region.where = read_ball_place(reader);
   if (intensity) read_intensity(reader, is_volume, region);
   reader.allow({"box_min_mm", "box_max_mm", "center_mm", "radius_mm", "intensity"});
 }

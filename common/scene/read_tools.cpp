@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "common/math/units.h"
 #include "common/message/messages.h"
 #include "common/scene/near_miss.h"
 #include "common/scene/read_parts.h"
@@ -10,32 +11,103 @@
 namespace palpate {
 namespace {
 
-void read_tool_shape(TableReader& reader) {
-  const std::vector<std::string> later = {"stick", "knife", "needle"};
-  const auto* value = reader.find("shape");
-  if (value == nullptr || value->value_or(std::string()) == "point") return;
-  const auto word = value->value_or(std::string());
-  if (std::count(later.begin(), later.end(), word) > 0)
-    reader.complain("shape",
-                    fmt::format("tool shape \"{}\" is not built by this version; it builds \"point\"", word));
-  else
-    reader.complain_value("shape", *value, "\"point\"");
+const std::vector<std::string> tool_shapes = {"point", "knife", "needle"};
+
+/// A knife or needle in the table of its tool, under the name of the tool.
+void read_own_body(TableReader& reader, ReadContext& context, ToolSpec& spec) {
+  const auto body = read_body(reader, context);
+  spec.shape = ToolShape::body;
+  spec.name = spec.body = body.name;
+  context.scene.bodies.push_back(body);
+  if (context.scene.bodies.size() > max_bodies)
+    reader.complain("shape", fmt::format("too many bodies, those of tools included; at most {}", max_bodies));
+}
+
+/// name, and shape = "point" or body = NAME.
+void read_other_shape(TableReader& reader, ToolSpec& spec) {
+  reader.require("name", "give each tool a name of its own");
+  set_if(spec.name, reader.read_name("name"));
+  const auto* shape = reader.find("shape");
+  const auto body = reader.read_text("body");
+  if (body) {
+    spec.shape = ToolShape::body;
+    spec.body = *body;
+  }
+  if (shape != nullptr && reader.has("body"))
+    reader.complain("body", "both \"shape\" and \"body\" are given; keep one of them");
+  else if (shape != nullptr && shape->value_or(std::string()) != "point")
+    reader.complain_value("shape", *shape,
+                          quoted_list(tool_shapes) + ", or body = the name of a [[body]] instead");
+}
+
+/// The body of a tool: there is one, a hand can hold it, and nobody else does.
+const BodySpec* find_tool_body(TableReader& reader, const ReadContext& context, const ToolSpec& spec) {
+  const auto& bodies = context.scene.bodies;
+  const auto body =
+      std::find_if(bodies.begin(), bodies.end(), [&](const BodySpec& b) { return b.name == spec.body; });
+  if (body != bodies.end()) return &*body;
+  if (!spec.body.empty())
+    reader.complain("body", fmt::format("there is no [[body]] \"{}\"; {}", spec.body,
+                                        advice(spec.body, names_of(bodies), "bodies in this scene")));
+  return nullptr;
+}
+
+void check_tool_body(TableReader& reader, const ReadContext& context, const ToolSpec& spec,
+                     const BodySpec& body) {
+  for (const auto& other : context.scene.tools)
+    if (other.shape == ToolShape::body && other.body == body.name)
+      reader.complain("body",
+                      fmt::format("body \"{}\" is tool \"{}\" already; give each tool a body of its own",
+                                  body.name, other.name));
+  const auto marked = [](const std::array<bool, 6>& faces) {
+    return std::count(faces.begin(), faces.end(), true) > 0;
+  };
+  if (!marked(body.handle_faces))
+    reader.complain("body",
+                    fmt::format("body \"{}\" has no handle; give it handle = [\"+z\"] or other faces that "
+                                "move with the hand",
+                                body.name));
+  if (marked(body.fixed_faces) || !body.fixed_boxes.empty())
+    reader.complain("body",
+                    fmt::format("body \"{}\" is fixed; a tool moves, so leave \"fixed\" out", body.name));
+  const auto& devices = context.scene.devices;
+  const auto device = std::find_if(devices.begin(), devices.end(),
+                                   [&](const DeviceSpec& d) { return d.name == spec.device; });
+  if (device == devices.end() || device->driver != "simulated" || device->waypoints.empty()) return;
+  constexpr double most = 1e-3;
+  const Vec3 begin = device->waypoints.front().p * mm_from_m(1), tip = body.at * mm_from_m(1);
+  if ((device->waypoints.front().p - body.at).norm() <= most) return;
+  reader.complain(
+      "device",
+      fmt::format("the path of device \"{}\" begins at [{:g}, {:g}, {:g}], {:.3g} mm from the tip of "
+                  "body \"{}\"; begin within 1 mm of its at_mm = [{:g}, {:g}, {:g}]",
+                  device->name, begin.x(), begin.y(), begin.z(), (begin - tip).norm(), body.name, tip.x(),
+                  tip.y(), tip.z()));
 }
 
 ToolSpec read_tool(TableReader& reader, ReadContext& context) {
   ToolSpec spec;
   spec.place = reader.place();
-  reader.require("name", "give each tool a name of its own");
-  set_if(spec.name, reader.read_name("name"));
+  const auto* shape = reader.find("shape");
+  const auto word = shape == nullptr ? std::string() : shape->value_or(std::string());
+  if (!reader.has("body") && (word == "knife" || word == "needle"))
+    read_own_body(reader, context, spec);
+  else
+    read_other_shape(reader, spec);
   refuse_known_name(reader, spec.name, names_of(context.scene.tools));
-  read_tool_shape(reader);
   reader.require("device", "name a [device.NAME] of this scene");
   if (const auto device = reader.read_text("device")) {
     spec.device = *device;
     refuse_unknown_reference(reader, "device", *device, names_of(context.scene.devices));
   }
   set_if(spec.set_point, reader.read_vector_mm("set_point_mm"));
-  set_if(spec.radius, reader.read_length_mm("radius_mm"));
+  if (spec.shape == ToolShape::body) {
+    set_if(spec.low_pass_Hz, reader.read_number("low_pass_Hz", positive));
+    if (const auto* body = find_tool_body(reader, context, spec))
+      check_tool_body(reader, context, spec, *body);
+  } else {
+    set_if(spec.radius, reader.read_length_mm("radius_mm"));
+  }
   set_if(spec.stiffness, reader.read_number("stiffness_N_per_m", positive));
   set_if(spec.damping, reader.read_number("damping_N_s_per_m", not_negative));
   reader.refuse_left_over();

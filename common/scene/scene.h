@@ -63,7 +63,20 @@ struct MaterialSpec {
 
 struct SphereShape { double radius = 0; };
 struct BoxShape { Vec3 size = Vec3::Zero(); };
-struct TubeShape { double outer_radius = 0, inner_radius = 0, length = 0; int axis = 2; };
+struct TubeShape {
+  double outer_radius = 0, inner_radius = 0, length = 0;
+  int axis = 2;
+  std::optional<int> wall_layers{};  // instead of inner_radius: masses (fcc) or cells (voxel) from the outside in
+};
+/// A plate one cell thick. Where all angles are 0 its edge runs from the tip along +x, the blade stands up along +z from
+/// the edge, and its sides look to -y and +y.
+struct KnifeShape { double length = 0, height = 0; };
+/// A bevelled tube with a wall of one cell. Where all angles are 0 it points down: the shaft runs from the tip along +z, and
+/// the opening of the bevel looks to +x.
+struct NeedleShape {
+  double length = 0, diameter = 0;  // diameter: outer
+  double sharpening = 0;            // angle between the plane of the bevel and the axis, (0, pi/2] [rad]
+};
 struct DeformableRegion {
   bool all = true;                    // or the kept cells within radius_voxels (Chebyshev) of the centre
   std::array<int, 3> center_voxel{};  // in the partition used
@@ -71,20 +84,26 @@ struct DeformableRegion {
   bool gravity_center = false;        // centre: of gravity of all kept cells, not center_voxel
   std::optional<int> nearest{};       // instead of the radius: so many kept cells, the nearest to the centre
 };
+/// Pictures of parallel planes, the lowest first.
+struct SliceStack {
+  std::vector<std::string> files;  // PNG, found from the folder of the scene file
+  Vec3 spacing = Vec3::Zero();     // of pixels along a row, of rows, of planes [m]
+};
 struct VolumeShape {
   std::string file;                               // found from the folder of the scene file
+  std::optional<SliceStack> slices{};             // instead of the file
   double keep_min = 0, keep_max = 0;              // intensity window that is tissue, inclusive
   std::optional<std::array<int, 3>> partition;    // resample to nx, ny, nz cells; absent: as stored
   DeformableRegion deformable;
   bool largest_component = false;                 // keep only the largest 6-connected component
 };
-using Shape = std::variant<SphereShape, BoxShape, TubeShape, VolumeShape>;
+using Shape = std::variant<SphereShape, BoxShape, TubeShape, KnifeShape, NeedleShape, VolumeShape>;
 
 enum class LatticeKind { fcc, voxel };
 
 struct FixedBox { Vec3 min = Vec3::Zero(), max = Vec3::Zero(); };  // world [m]
 
-/// A part of a body that is of another material: where the tissue rests, or how bright its image is.
+/// A part of a body that is of another material, or empty: where the tissue rests, or how bright its image is.
 struct BoxRegion { Vec3 min = Vec3::Zero(), max = Vec3::Zero(); };     // world [m]
 struct BallRegion { Vec3 center = Vec3::Zero(); double radius = 0; };  // world [m]
 struct IntensityRegion { double lo = 0, hi = 0; };                     // inclusive; of a volume only
@@ -94,15 +113,23 @@ struct RegionSpec {
   Place place;
 };
 
+/// Material that is taken away from a shape.
+struct CavitySpec {
+  std::variant<BoxRegion, BallRegion> where;
+  Place place;
+};
+
 struct BodySpec {
   std::string name;
   LatticeKind lattice = LatticeKind::fcc;
-  std::optional<double> spacing;       // [m]; absent only for a volume, which brings its own
+  std::optional<double> spacing;       // [m]; absent only for a volume of voxels, which brings its own
   std::string material;
   std::vector<RegionSpec> regions;     // of other materials; later ones win
-  Vec3 at = Vec3::Zero();              // centre of the shape [m]
+  std::vector<CavitySpec> cavities;
+  Vec3 at = Vec3::Zero();              // centre of the shape, or tip of a knife or needle [m]
+  Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();  // R_WB about `at`, from theta_deg; fcc only
   Vec3 velocity = Vec3::Zero();        // [m/s]
-  std::array<bool, 6> fixed_faces{};   // -x +x -y +y -z +z: masses on that face of the shape are held
+  std::array<bool, 6> fixed_faces{};   // -x +x -y +y -z +z in its own frame: masses on that face are held
   std::vector<FixedBox> fixed_boxes;   // masses inside are held
   std::array<bool, 6> handle_faces{};  // of a tool, in its own frame: masses on that face move with the hand
   Shape shape = BoxShape{};
@@ -111,7 +138,10 @@ struct BodySpec {
 
 struct FloorSpec { double height = 0; };
 /// A fixed plane; tissue stays on the side that the normal points to.
-struct WallSpec { Vec3 point = Vec3::Zero(), normal = Vec3::UnitZ(); };  // world [m]; unit
+struct WallSpec {
+  Vec3 point = Vec3::Zero();     // world [m]
+  Vec3 normal = Vec3::UnitZ();   // of length 1
+};
 
 /// How bodies, and the fragments of bodies, touch each other.
 ///   paper  mass against mass at L / sqrt(3), whatever the stretch                              P0

@@ -17,10 +17,24 @@ struct ShapeText {
                        mm_from_m(shape.size[1]), mm_from_m(shape.size[2]));
   }
   std::string operator()(const TubeShape& shape) const {
-    return fmt::format("tube of radius {:.6g} to {:.6g} mm, {:.6g} mm long", mm_from_m(shape.inner_radius),
-                       mm_from_m(shape.outer_radius), mm_from_m(shape.length));
+    const auto wall = shape.wall_layers
+                          ? fmt::format("radius {:.6g} mm, a wall of {} layers",
+                                        mm_from_m(shape.outer_radius), *shape.wall_layers)
+                          : fmt::format("radius {:.6g} to {:.6g} mm", mm_from_m(shape.inner_radius),
+                                        mm_from_m(shape.outer_radius));
+    return fmt::format("tube of {}, {:.6g} mm long", wall, mm_from_m(shape.length));
+  }
+  std::string operator()(const KnifeShape& shape) const {
+    return fmt::format("knife of {:.6g} x {:.6g} mm", mm_from_m(shape.length), mm_from_m(shape.height));
+  }
+  std::string operator()(const NeedleShape& shape) const {
+    return fmt::format("needle of diameter {:.6g} mm, {:.6g} mm long, sharpened to {:.6g} degrees",
+                       mm_from_m(shape.diameter), mm_from_m(shape.length), deg_from_rad(shape.sharpening));
   }
   std::string operator()(const VolumeShape& shape) const {
+    if (shape.slices)
+      return fmt::format("{} slices from {}, intensity {:.6g} to {:.6g}", shape.slices->files.size(),
+                         shape.slices->files.front(), shape.keep_min, shape.keep_max);
     return fmt::format("volume {}, intensity {:.6g} to {:.6g}", shape.file, shape.keep_min, shape.keep_max);
   }
 };
@@ -32,6 +46,7 @@ std::string body_text(const BodySpec& body) {
   if (body.spacing) text += fmt::format(" of {:.6g} mm", mm_from_m(*body.spacing));
   text += fmt::format(", material {}", body.material);
   for (const auto& region : body.regions) text += fmt::format(", {} in a region", region.material);
+  if (!body.cavities.empty()) text += fmt::format(", {} cavities", body.cavities.size());
   return text + "\n";
 }
 
@@ -49,6 +64,9 @@ std::string material_text(const MaterialSpec& material) {
 }
 
 std::string tool_text(const ToolSpec& tool, const Scene& scene) {
+  if (tool.shape == ToolShape::body)
+    return fmt::format("tool         {}: body {}, device {} (driver {})\n", tool.name, tool.body, tool.device,
+                       scene.device(tool.device).driver);
   return fmt::format("tool         {}: radius {:.6g} mm, {:.6g} N/m, device {} (driver {})\n", tool.name,
                      mm_from_m(tool.radius), tool.stiffness, tool.device, scene.device(tool.device).driver);
 }

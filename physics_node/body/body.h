@@ -21,11 +21,13 @@ struct Body {
   std::vector<std::uint8_t>
       law_of;  // of each storage cell, an index of laws (n_cells); EMPTY: all masses have `law`
   std::optional<Cells> cells;        // of a voxel body; an fcc body has none
+  std::vector<float> intensity;      // of each storage cell, of an fcc body in an image; else EMPTY (n_cells)
   std::vector<double> inverse_mass;  // of each storage cell, 0: held or empty [1/kg]  (n_cells)
   Vec3 velocity = Vec3::Zero();      // at the start [m/s]
   Index n_held = 0;                  // masses that do not move
-  std::vector<Index> handle;         // storage cells of the masses that a hand drives, in storage order; of tools only
-  Vec3 tip = Vec3::Zero();           // where the hand's tip is while the body is at rest: at_mm of the scene [m]
+  std::vector<Index>
+      handle;               // storage cells of the masses that a hand drives, in storage order; of tools only
+  Vec3 tip = Vec3::Zero();  // where the hand's tip is while the body is at rest: at_mm of the scene [m]
 };
 
 /// The law of the mass in a storage cell.
@@ -39,7 +41,9 @@ inline bool any_damped(const Body& body) {
   return std::any_of(body.laws.begin(), body.laws.end(), [](const ElementLaw& law) { return law.damped; });
 }
 
-/// Builds a body's lattice, laws and held masses.
+/// Builds a body's lattice, laws, held masses and handle. On a face are the masses within a quarter of a grid step of it (held)
+/// or within three quarters of the spacing (handle: on fcc the two outermost layers, so that no knife hangs on one row).
+/// Faces are those of the masses in the body's own frame.
 /// @param materials  of the scene; the body and its regions name them, and they must be there
 /// @throws InputError
 Body build_body(const BodySpec& spec, const std::vector<MaterialSpec>& materials);

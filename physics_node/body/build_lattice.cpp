@@ -1,8 +1,5 @@
 #include "physics_node/body/build_lattice.h"
 
-#include <cmath>
-#include <numbers>
-
 namespace palpate::physics {
 namespace {
 
@@ -40,29 +37,6 @@ void join_elements(Lattice& lattice, const Holds& holds) {
   }
 }
 
-bool inside(const BodySpec& body, const Vec3& p) {
-  constexpr double slack = 1e-9;  // [m], so that a point meant to lie on the surface is inside
-  if (const auto* sphere = std::get_if<SphereShape>(&body.shape)) return p.norm() <= sphere->radius + slack;
-  if (const auto* tube = std::get_if<TubeShape>(&body.shape)) {
-    const double along = p[tube->axis];
-    const double across = std::sqrt(std::max(0.0, p.squaredNorm() - along * along));
-    return std::abs(along) <= 0.5 * tube->length + slack && across <= tube->outer_radius + slack &&
-           across >= tube->inner_radius - slack;
-  }
-  const auto& box = std::get<BoxShape>(body.shape);
-  return (p.array().abs() <= 0.5 * box.size.array() + slack).all();
-}
-
-Vec3 half_extent(const BodySpec& body) {
-  if (const auto* sphere = std::get_if<SphereShape>(&body.shape)) return Vec3::Constant(sphere->radius);
-  if (const auto* tube = std::get_if<TubeShape>(&body.shape)) {
-    Vec3 half = Vec3::Constant(tube->outer_radius);
-    half[tube->axis] = 0.5 * tube->length;
-    return half;
-  }
-  return 0.5 * std::get<BoxShape>(body.shape).size;
-}
-
 }  // namespace
 
 Lattice voxel_lattice(const Cells& cells) {
@@ -95,28 +69,6 @@ Lattice voxel_lattice(const Cells& cells) {
     }
     return false;
   });
-  return lattice;
-}
-
-Lattice fcc_lattice(const BodySpec& body) {
-  const double step = *body.spacing / std::numbers::sqrt2;
-  const Vec3 half = half_extent(body);
-  const bool is_box = std::holds_alternative<BoxShape>(body.shape);
-  // Grid coordinate (0, 0, 0) is the lowest corner of a box; elsewhere an even number of steps below the centre.
-  const Vec3i below = is_box ? Vec3i::Zero() : Vec3i(2 * (half / (2 * step)).array().ceil().cast<int>());
-  const Vec3i extent =
-      is_box ? Vec3i((2 * half / step).array().floor().cast<int>() + 2) : Vec3i(2 * below.array() + 1);
-  const Vec3 origin = is_box ? Vec3(body.at - half) : Vec3(body.at - step * below.cast<double>());
-
-  Lattice lattice = make_lattice(LatticeKind::fcc, extent, origin, Vec3::Constant(step));
-  for (int z = 0; z < extent.z(); ++z)
-    for (int y = 0; y < extent.y(); ++y)
-      for (int x = (y + z) & 1; x < extent.x(); x += 2) {
-        const Vec3 p = origin + step * Vec3(x, y, z) - body.at;
-        if (inside(body, p)) lattice.mass_share[static_cast<std::size_t>(lattice.cell_of({x, y, z}))] = 1.0F;
-      }
-  index_masses(lattice);
-  join_elements(lattice, [](const Vec3i&, std::size_t) { return true; });
   return lattice;
 }
 

@@ -8,46 +8,70 @@
 
 #include "common/error/error.h"
 #include "common/math/units.h"
+#include "common/record/slice_stack.h"
 #include "physics_node/body/deformable.h"
+#include "physics_node/body/solid_shape.h"
 
 namespace palpate::physics {
 namespace {
 
-bool contains(const SphereShape& shape, const Vec3& p) { return p.norm() <= shape.radius; }
-bool contains(const BoxShape& shape, const Vec3& p) {
-  return (p.array().abs() <= 0.5 * shape.size.array()).all();
-}
-bool contains(const TubeShape& shape, const Vec3& p) {
-  const double along = p[shape.axis];
-  const double across = std::sqrt(std::max(0.0, p.squaredNorm() - along * along));
-  return std::abs(along) <= 0.5 * shape.length && across <= shape.outer_radius &&
-         across >= shape.inner_radius;
+/// Empties the cells of a tube that are further in than so many layers, each one face further from the outside.
+void keep_outer_cells(const BodySpec& body, int axis, int layers, Cells& cells) {
+  std::vector<int> layer(cells.filled.size(), 0);
+  const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+  const std::array<Vec3i, 4> sides{Vec3i::Unit(b), -Vec3i::Unit(b), Vec3i::Unit(c), -Vec3i::Unit(c)};
+  for (int n = 1; n <= layers; ++n)
+    for (int k = 0; k < cells.size.z(); ++k)
+      for (int j = 0; j < cells.size.y(); ++j)
+        for (int i = 0; i < cells.size.x(); ++i) {
+          auto& mine = layer[cells.index(i, j, k)];
+          if (mine != 0 || !cells.is_filled(i, j, k)) continue;
+          for (const Vec3i& side : sides) {
+            const Vec3i at = Vec3i(i, j, k) + side;
+            const bool beyond = beyond_outer_wall(body, cells.centre_of(at.x(), at.y(), at.z()) - body.at);
+            const bool behind = n > 1 && cells.is_filled(at.x(), at.y(), at.z()) &&
+                                layer[cells.index(at.x(), at.y(), at.z())] == n - 1;
+            if (n == 1 ? beyond : behind) mine = n;
+          }
+        }
+  bool hollow = false;
+  for (std::size_t n = 0; n < layer.size(); ++n) {
+    hollow = hollow || (cells.filled[n] != 0 && layer[n] == 0);
+    cells.filled[n] = layer[n] != 0 ? 1 : 0;
+  }
+  if (!hollow)
+    throw InputError(fmt::format("{}: body \"{}\" is filled by its wall; make it wider or spacing_mm smaller",
+                                 body.place.text(), body.name));
 }
 
-Vec3 extent_of(const SphereShape& shape) { return Vec3::Constant(2 * shape.radius); }
-Vec3 extent_of(const BoxShape& shape) { return shape.size; }
-Vec3 extent_of(const TubeShape& shape) {
-  Vec3 extent = Vec3::Constant(2 * shape.outer_radius);
-  extent[shape.axis] = shape.length;
-  return extent;
-}
-
-template <class S>
-Cells solid_cells(const BodySpec& body, const S& shape) {
+Cells solid_cells(const BodySpec& body) {
   Cells cells;
+  const Bounds bounds = bounds_of(body);
   cells.spacing = Vec3::Constant(*body.spacing);
-  cells.size = (extent_of(shape) / *body.spacing).array().round().max(1.0).template cast<int>();
+  cells.size = ((bounds.hi - bounds.lo) / *body.spacing).array().round().max(1.0).cast<int>();
   cells.corner = body.at - 0.5 * cells.spacing.cwiseProduct(cells.size.cast<double>());
   cells.filled.assign(static_cast<std::size_t>(cells.size.cast<std::int64_t>().prod()), 0);
   for (int k = 0; k < cells.size.z(); ++k)
     for (int j = 0; j < cells.size.y(); ++j)
-      for (int i = 0; i < cells.size.x(); ++i) {
-        const Vec3 centre =
-            cells.corner + cells.spacing.cwiseProduct(Vec3(i + 0.5, j + 0.5, k + 0.5)) - body.at;
-        cells.filled[cells.index(i, j, k)] = contains(shape, centre) ? 1 : 0;
-      }
-  cells.deformable = cells.filled;
+      for (int i = 0; i < cells.size.x(); ++i)
+        cells.filled[cells.index(i, j, k)] = holds(body, cells.centre_of(i, j, k) - body.at, 0.0) ? 1 : 0;
+  if (const auto layers = wall_layers_of(body))
+    keep_outer_cells(body, std::get<TubeShape>(body.shape).axis, *layers, cells);
   return cells;
+}
+
+/// @param mirrored  x will be turned round later
+void carve(const BodySpec& body, bool mirrored, Cells& cells) {
+  if (body.cavities.empty()) return;
+  Carver carver(body);
+  for (int k = 0; k < cells.size.z(); ++k)
+    for (int j = 0; j < cells.size.y(); ++j)
+      for (int i = 0; i < cells.size.x(); ++i) {
+        auto& filled = cells.filled[cells.index(i, j, k)];
+        const int in_world = mirrored ? cells.size.x() - 1 - i : i;
+        if (filled != 0 && carver.takes(cells.centre_of(in_world, j, k))) filled = 0;
+      }
+  carver.refuse_unused();
 }
 
 void mirror_x(Cells& cells) {
@@ -64,11 +88,12 @@ void mirror_x(Cells& cells) {
 }
 
 Cells volume_cells(const BodySpec& body, const VolumeShape& shape) {
-  Volume volume = read_volume(shape.file);
+  Volume volume =
+      shape.slices ? read_slices(shape.slices->files, shape.slices->spacing) : read_volume(shape.file);
   if (shape.partition) volume = resample(volume, *shape.partition);
   Cells cells;
   cells.size = {volume.size[0], volume.size[1], volume.size[2]};
-  cells.spacing = body.spacing ? Vec3::Constant(*body.spacing) : volume.spacing;
+  cells.spacing = volume.spacing;
   cells.corner = body.at - 0.5 * cells.spacing.cwiseProduct(cells.size.cast<double>());
   cells.filled.resize(volume.n_cells());
   for (std::size_t n = 0; n < volume.n_cells(); ++n) {
@@ -81,12 +106,14 @@ Cells volume_cells(const BodySpec& body, const VolumeShape& shape) {
         fmt::format("{}: body \"{}\" keeps no voxel between {} and {}; the image goes from {} to {}",
                     body.place.text(), body.name, shape.keep_min, shape.keep_max, *lo, *hi));
   }
+  // An image whose axes are left-handed would stand in the world as its mirror image: a left ear on the right.
+  const bool mirrored = volume.orientation && volume.orientation->determinant() < 0;
+  carve(body, mirrored, cells);
   if (shape.largest_component) keep_largest_component(cells);
   mark_deformable(cells, shape.deformable);
   cells.intensity = std::move(volume.intensity);
   cells.transfer = std::move(volume.transfer);
-  // An image whose axes are left-handed would stand in the world as its mirror image: a left ear on the right.
-  if (volume.orientation && volume.orientation->determinant() < 0) mirror_x(cells);
+  if (mirrored) mirror_x(cells);
   return cells;
 }
 
@@ -100,15 +127,14 @@ std::size_t Cells::n_deformable() const {
 }
 
 Cells make_cells(const BodySpec& body) {
-  Cells cells = std::visit(
-      [&](const auto& shape) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, VolumeShape>) {
-          return volume_cells(body, shape);
-        } else {
-          return solid_cells(body, shape);
-        }
-      },
-      body.shape);
+  Cells cells;
+  if (const auto* image = std::get_if<VolumeShape>(&body.shape)) {
+    cells = volume_cells(body, *image);
+  } else {
+    cells = solid_cells(body);
+    carve(body, false, cells);
+    cells.deformable = cells.filled;
+  }
   if (cells.n_deformable() == 0) {
     throw InputError(
         fmt::format("{}: body \"{}\" has no deformable tissue; its shape must be larger than one cell, or "

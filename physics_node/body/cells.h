@@ -31,14 +31,20 @@ struct Cells {
   }
   bool is_filled(int i, int j, int k) const { return inside(i, j, k) && filled[index(i, j, k)] != 0; }
   bool is_deformable(int i, int j, int k) const { return inside(i, j, k) && deformable[index(i, j, k)] != 0; }
+  /// The cell that a place in the world lies in, which need not be inside.
+  Vec3i cell_at(const Vec3& p) const { return ((p - corner).array() / spacing.array()).floor().cast<int>(); }
+  Vec3 centre_of(int i, int j, int k) const {
+    return corner + spacing.cwiseProduct(Vec3(i + 0.5, j + 0.5, k + 0.5));
+  }
   std::size_t n_filled() const;
   std::size_t n_deformable() const;
 };
 
-/// The cells of a body's shape. A volume is read from its file, resampled to the partition asked for, and
-/// thresholded; other shapes fill every cell whose centre lies inside. The axes of the image are those of the world,
+/// The cells of a body's shape. A volume is read from its file or its slices, resampled to the partition asked for, and
+/// thresholded; other shapes fill every cell whose centre lies inside, and of a tube with wall_layers so many from the outside
+/// in. Cells whose centre lies in a cavity are empty. The axes of the image are those of the world,
 /// but x is turned round where they are left-handed; center_voxel counts as the image does.
-/// @throws InputError: unreadable volume, nothing left within the window, nothing deformable
+/// @throws InputError: unreadable volume, nothing left within the window, a cavity that takes nothing, nothing deformable
 Cells make_cells(const BodySpec& body);
 
 /// Keeps only the largest 6-connected component of `filled`. @return how many components there were

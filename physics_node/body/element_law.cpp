@@ -33,7 +33,7 @@ Eigen::Matrix<double, 6, 6> homogenised_stiffness(const Lattice& lattice,
   Eigen::Matrix<double, 6, 6> C = Eigen::Matrix<double, 6, 6>::Zero();
   for (std::size_t d = 0; d < static_cast<std::size_t>(lattice.n_half); ++d) {
     const double L = lattice.rest_length[d];
-    const Vec3 n = lattice.rest_vector[d] / L;
+    const Vec3 n = lattice.axes.transpose() * lattice.rest_vector[d] / L;
     Eigen::Matrix<double, 6, 1> nn;
     for (std::size_t a = 0; a < 6; ++a) nn[static_cast<Eigen::Index>(a)] = n[voigt[a][0]] * n[voigt[a][1]];
     C += elements_per_mass(lattice.kind, d) * k1[d] * L * L / volume_per_mass(lattice) * nn * nn.transpose();

@@ -35,7 +35,7 @@ struct ElementLaw {
   double modulus = 0;  // mean Young's modulus along the axes [Pa]
 };
 
-/// Stiffness of the homogenised lattice in Voigt order xx yy zz yz xz xy (engineering shear) [Pa]:
+/// Stiffness of the homogenised lattice, in its own axes, in Voigt order xx yy zz yz xz xy (engineering shear) [Pa]:
 ///   C_ijkl = (1/V) sum over half directions of e k L^2 n_i n_j n_k n_l,   V the volume of a mass, e its elements_per_mass.
 Eigen::Matrix<double, 6, 6> homogenised_stiffness(const Lattice& lattice,
                                                   const std::array<double, max_half>& k1);
@@ -43,7 +43,7 @@ Eigen::Matrix<double, 6, 6> homogenised_stiffness(const Lattice& lattice,
 /// Volume that one whole mass stands for [m^3].
 double volume_per_mass(const Lattice& lattice);
 
-/// Mean of Young's moduli along x, y and z [Pa].
+/// Mean of Young's moduli along x, y and z of the stiffness given, so of a lattice whichever way it is turned [Pa].
 double axial_modulus(const Eigen::Matrix<double, 6, 6>& stiffness);
 
 /// Spring constants, damping and mass from a material. A modulus is met by the mean axial modulus of the lattice;

@@ -6,17 +6,14 @@
 
 #include "common/error/error.h"
 #include "physics_node/body/build_lattice.h"
+#include "physics_node/body/solid_shape.h"
 
 namespace palpate::physics {
 namespace {
 
-constexpr double slack = 1e-9;  // [m], so that a point meant to lie on a boundary is inside
-
-bool holds(const RegionSpec& region, const Vec3& p, double intensity) {
-  if (const auto* box = std::get_if<BoxRegion>(&region.where))
-    return (p.array() >= box->min.array() - slack).all() && (p.array() <= box->max.array() + slack).all();
-  if (const auto* ball = std::get_if<BallRegion>(&region.where))
-    return (p - ball->center).norm() <= ball->radius + slack;
+bool holds_mass(const RegionSpec& region, const Vec3& p, double intensity) {
+  if (const auto* box = std::get_if<BoxRegion>(&region.where)) return holds(*box, p);
+  if (const auto* ball = std::get_if<BallRegion>(&region.where)) return holds(*ball, p);
   const auto& window = std::get<IntensityRegion>(region.where);
   return intensity >= window.lo && intensity <= window.hi;
 }
@@ -30,7 +27,10 @@ class RegionMap {
   }
 
   std::size_t of_mass(Index cell) {
-    return body_.cells ? of_corner(cell) : of_point(body_.lattice.rest_position(cell), 0.0);
+    if (body_.cells) return of_corner(cell);
+    const auto n = static_cast<std::size_t>(cell);
+    return of_point(body_.lattice.rest_position(cell),
+                    body_.intensity.empty() ? 0.0 : static_cast<double>(body_.intensity[n]));
   }
 
   /// The first region that holds nothing, or none.
@@ -44,7 +44,7 @@ class RegionMap {
   std::size_t of_point(const Vec3& p, double intensity) {
     std::size_t last = 0;
     for (std::size_t r = 0; r < regions_.size(); ++r) {
-      if (!holds(regions_[r], p, intensity)) continue;
+      if (!holds_mass(regions_[r], p, intensity)) continue;
       used_[r] = true;
       last = r + 1;
     }

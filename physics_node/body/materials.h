@@ -1,7 +1,8 @@
 #pragma once
 // Which mass of a body is of which material, and what follows: laws and masses.
 //
-//   fcc    a mass is of the last region that holds its rest position, else of the body's own material.
+//   fcc    a mass is of the last region that holds its rest position, or whose window holds the intensity of its cell of
+//          the image, else of the body's own material.
 //   voxel  a cell is of the last region that holds its centre, or whose window holds its intensity, else of the body's
 //          own material. A mass is of what most of the deformable cells round it are of; where two have equally
 //          many, of the later region.

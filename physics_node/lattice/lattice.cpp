@@ -112,12 +112,15 @@ std::int64_t Lattice::n_elements() const {
   return ends / 2;
 }
 
-Lattice make_lattice(LatticeKind kind, const Vec3i& extent, const Vec3& origin, const Vec3& step) {
+Lattice make_lattice(LatticeKind kind, const Vec3i& extent, const Vec3& origin, const Vec3& step,
+                     const Eigen::Matrix3d& axes) {
   PALPATE_CHECK((extent.array() > 0).all(), "a lattice has at least one node each way");
+  PALPATE_CHECK(kind == LatticeKind::fcc || axes == Eigen::Matrix3d::Identity(), "voxels do not turn");
   Lattice lattice;
   lattice.kind = kind;
   lattice.origin = origin;
   lattice.step = step;
+  lattice.axes = axes;
   const int along_x = extent.x() / 2 + 1;
   const int rows_per_y = kind == LatticeKind::fcc ? 1 : 2;
   lattice.pitch = (lanes + along_x + lanes) / lanes * lanes * rows_per_y;
@@ -128,7 +131,7 @@ Lattice make_lattice(LatticeKind kind, const Vec3i& extent, const Vec3& origin, 
   for (int d = 0; d < 2 * lattice.n_half; ++d) {
     const auto n = static_cast<std::size_t>(d);
     const Vec3i delta = d < lattice.n_half ? directions[n] : Vec3i(-directions[n - directions.size()]);
-    lattice.rest_vector[n] = step.cwiseProduct(delta.cast<double>());
+    lattice.rest_vector[n] = axes * step.cwiseProduct(delta.cast<double>());
     lattice.rest_length[n] = lattice.rest_vector[n].norm();
     for (int row = 0; row < 2 * rows_per_y; ++row) {
       // Any grid coordinate in a row of this kind will do.

@@ -37,12 +37,14 @@ struct Lattice {
   Index pitch = 0;             // storage cells from a row to the next along y
   Vec3 origin = Vec3::Zero();  // rest position of grid coordinate (0, 0, 0) [m]
   Vec3 step = Vec3::Zero();    // of a grid coordinate [m]
+  /// R_WL: its columns are the axes of the grid in the world. Only fcc lattices turn.
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
 
   std::array<std::array<Index, max_directions>, max_row_kinds> offset{};  // to the neighbour, by row kind
   /// Directions in which a mass can have elements and is the first of the two in storage, by row kind.
   std::array<std::vector<int>, max_row_kinds> forward{};
-  std::array<Vec3, max_directions> rest_vector{};             // to the neighbour at rest [m]
-  std::array<double, max_directions> rest_length{};           // L [m]
+  std::array<Vec3, max_directions> rest_vector{};    // to the neighbour at rest [m]
+  std::array<double, max_directions> rest_length{};  // L [m]
 
   std::vector<RowSegment> rows;   // in storage order
   std::vector<Chunk> chunks;      // of rows, in order
@@ -60,7 +62,11 @@ struct Lattice {
   Vec3i grid_of(Index cell) const;
   /// The storage cell of the mass at a grid coordinate, or -1 where there is none. Any coordinate may be asked.
   Index mass_at(const Vec3i& grid) const;
-  Vec3 rest_position(Index cell) const { return origin + step.cwiseProduct(grid_of(cell).cast<double>()); }
+  Vec3 rest_position(Index cell) const {
+    return origin + axes * step.cwiseProduct(grid_of(cell).cast<double>());
+  }
+  /// From the rest position of a storage cell to that of the next one in its row [m].
+  Vec3 along_row() const { return axes.col(0) * (2 * step.x()); }
   int row_kind(Index cell) const;
   /// Does direction d lead to the next plane of z?
   bool leads_up(int d) const;
@@ -72,8 +78,9 @@ std::vector<Vec3i> half_directions(LatticeKind kind);
 /// Elements of a half direction per mass, deep inside: 1, or 1/2 for the face diagonals of voxels.
 double elements_per_mass(LatticeKind kind, std::size_t half_direction);
 
-/// An empty lattice whose box holds the grid coordinates [0, extent) and a halo. `step` as above.
-Lattice make_lattice(LatticeKind kind, const Vec3i& extent, const Vec3& origin, const Vec3& step);
+/// An empty lattice whose box holds the grid coordinates [0, extent) and a halo. `origin`, `step`, `axes` as above.
+Lattice make_lattice(LatticeKind kind, const Vec3i& extent, const Vec3& origin, const Vec3& step,
+                     const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity());
 
 /// Fills rows, chunks and masses from mass_share > 0.
 void index_masses(Lattice& lattice);

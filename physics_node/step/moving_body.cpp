@@ -34,7 +34,8 @@ class LatticeBody final : public MovingBody {
     return element_step(body_, state_, step);  // sleeping rows are skipped
   }
 
-  ImplicitReport implicit_step(const ExplicitStep& step, std::span<const NodalForce> forces) noexcept override {
+  ImplicitReport implicit_step(const ExplicitStep& step,
+                               std::span<const NodalForce> forces) noexcept override {
     for (const NodalForce& nodal : forces) sleep_.wake_cell(body_, state_, nodal.cell);
     for (const NodalForce& nodal : forces)
       momentum_.hit(step.dt * nodal.force, position(nodal.cell));  // before it moves on with it

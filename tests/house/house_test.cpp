@@ -112,6 +112,8 @@ INSTANTIATE_TEST_SUITE_P(
         DoorCase{"dds/dds.h", "haptic_node/wire.cpp", "haptic_node/loop/a.cpp", "DDS"},
         DoorCase{"palpate.h", "common/wire/topic.cpp", "render_node/view/a.cpp", "DDS"},
         DoorCase{"hdf5.h", "common/record/a.cpp", "physics_node/a.cpp", "HDF5"},
+        DoorCase{"png.h", "common/record/png_file.cpp", "common/record/volume.cpp", "PNG"},
+        DoorCase{"png.h", "render_node/image/png_file.cpp", "deploy/import/main.cpp", "PNG"},
         DoorCase{"toml++/toml.h", "common/scene/a.cpp", "common/record/a.cpp", "toml++"},
         DoorCase{"toml++/toml.h", "common/scene/b.h", "tests/unit/a.cpp", "toml++"},
         DoorCase{"GLFW/glfw3.h", "render_node/ui/a.cpp", "render_node/view/a.cpp", "GL"},

@@ -37,6 +37,8 @@ const std::vector<Door>& doors() {
        std::regex("^(common/wire/|(physics|haptic|render)_node/wire|tests/)"),
        "common/wire and the wire.* of a node"},
       {"HDF5", std::regex("^(hdf5|H5)"), std::regex("^(common/record/|tests/)"), "common/record"},
+      {"PNG", std::regex("^(png|pngconf|libpng.*/png)\\.h$"), std::regex("^(common/record/png_|render_node/image/|tests/)"),
+       "common/record/png_* and render_node/image"},
       {"toml++", std::regex("^toml(\\+\\+|plusplus)/"), std::regex("^common/scene/"), "common/scene"},
       {"GL", std::regex("^(GL/|GLES|GLFW/|EGL/|epoxy/|glad/|imgui|backends/imgui)"),
        std::regex("^render_node/(gl|ui)/"), "render_node/gl and render_node/ui"},

@@ -90,8 +90,7 @@ INSTANTIATE_TEST_SUITE_P(Bodies, SceneMistakes, testing::ValuesIn(std::vector<Mi
     {"name = \"head\"\n", "", "26:1", "[[body]] lacks \"name\""},
     {"name = \"head\"", "name = \"my head\"", "27:8", "write a name of letters, digits"},
     {"name = \"ball\"", "name = \"head\"", "37:8", "the name \"head\" is taken"},
-    {"shape = \"sphere\"", "shape = \"needle\"", "38:9", "shape \"needle\" is not built by this version; it builds \"sphere\", \"box\", \"tube\" and \"volume\""},
-    {"shape = \"sphere\"", "shape = \"ball\"", "38:9", "write \"sphere\", \"box\", \"tube\" or \"volume\""},
+    {"shape = \"sphere\"", "shape = \"ball\"", "38:9", "write \"sphere\", \"box\", \"tube\", \"knife\", \"needle\", \"volume\" or \"slices\""},
     {"shape = \"sphere\"\n", "", "36:1", "[[body]] \"ball\" lacks \"shape\""},
     {"radius_mm = 20", "radius_mm = 0", "39:13", "\"radius_mm\" in [[body]] \"ball\" is 0; write a number above 0"},
     {"lattice = \"fcc\"", "lattice = \"bcc\"", "40:11", "write \"fcc\" or \"voxel\""},
@@ -113,12 +112,12 @@ INSTANTIATE_TEST_SUITE_P(Volumes, SceneMistakes, testing::ValuesIn(std::vector<M
     {"[120, 120, 70]", "[120, 120, 0]", "31:24", "is 0; write a whole number from 1 to 4096"},
     {"{ center_voxel = [60, 20, 35], radius_voxels = 12 }", "\"some\"", "32:14", "write \"all\" or { center_voxel = [i, j, k] or center"},
     {"radius_voxels = 12", "radius_voxel = 12", "32:45", "unknown key \"radius_voxel\" in deformable of [[body]] \"head\""},
-    {"keep = [", "spacing_mm = 1\nkeep = [", "30:14", "a volume brings its own spacing"},
-    {"keep = [", "lattice = \"fcc\"\nkeep = [", "30:11", "write \"voxel\""},
+    {"keep = [", "spacing_mm = 1\nkeep = [", "30:14", "an image brings its own spacing"},
+    {"keep = [", "lattice = \"fcc\"\nspacing_mm = 3\nkeep = [", "34:14", "on an \"fcc\" lattice all of an image deforms; leave \"deformable\" out"},
 }));
 
 INSTANTIATE_TEST_SUITE_P(Tools, SceneMistakes, testing::ValuesIn(std::vector<Mistake>{
-    {"shape = \"point\"", "shape = \"knife\"", "74:9", "tool shape \"knife\" is not built by this version; it builds \"point\""},
+    {"shape = \"point\"", "shape = \"stick\"", "74:9", "\"shape\" in [[tool]] \"tip\" is \"stick\"; write \"point\", \"knife\" or \"needle\", or body = the name of a [[body]]"},
     {"device = \"right\"", "device = \"rihgt\"", "75:10", "there is no [device.rihgt]; did you mean \"right\"?"},
     {"device = \"right\"\n", "", "72:1", "[[tool]] \"tip\" lacks \"device\""},
     {"stiffness_N_per_m = 500", "stiffness_N_per_m = 0", "78:21", "write a number above 0"},
@@ -245,7 +244,7 @@ TEST(SceneReader, KeepsComplaintsOnOneLine) {
   for (const auto& line : complaints_about("\"a\\nb\" = 1\ntitle = [\"x\\n\"]\n")) EXPECT_EQ(line.find('\n'), line.npos);
   EXPECT_EQ(complaints_about("\"a\\nb\" = 1\n").at(0),
             "s.toml:1:1: unknown key \"a b\" in the scene; known keys: \"title\", \"seed\", \"gravity_m_per_s2\", "
-            "\"physics\", \"material\", \"device\", \"body\", \"tool\", \"floor\", \"contact\", \"render\" and \"record\"");
+            "\"physics\", \"material\", \"device\", \"body\", \"tool\", \"floor\", \"wall\", \"contact\", \"render\" and \"record\"");
 }
 
 }  // namespace

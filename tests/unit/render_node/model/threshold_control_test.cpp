@@ -13,6 +13,7 @@ Scene with_window(double lo, double hi) {
   volume.keep_min = lo;
   volume.keep_max = hi;
   scene.bodies[0].shape = volume;
+  scene.bodies[0].lattice = LatticeKind::voxel;
   return scene;
 }
 
