@@ -14,7 +14,7 @@ using Array3 = std::array<double, 3>;
 using Array4 = std::array<double, 4>;
 using Array3f = std::array<float, 3>;
 
-inline constexpr std::uint32_t wire_version = 1;  // a reader rejects every other version
+inline constexpr std::uint32_t wire_version = 2;  // a reader rejects every other version
 
 inline constexpr std::uint32_t max_tools = 8;
 inline constexpr std::uint32_t max_bodies = 64;
@@ -82,7 +82,8 @@ struct ToolWrench {
 };
 
 /// physics -> render. One chunk of what is visible of a body: vertices with their positions at publication
-/// and four-cornered facets. A set is complete when all n_chunks of one revision have come.
+/// and four-cornered facets. A set is complete when all n_chunks of one revision have come. A triangle repeats its last
+/// corner; a facet without an area is an element (a, b, b, b) or a mass (a, a, a, a) that belongs to no other facet.
 struct BodySurface {
   std::uint32_t body = 0;
   std::uint32_t revision = 0;      // grows with every cut, break or change of threshold; starts at 1
@@ -97,13 +98,15 @@ struct BodySurface {
   std::uint32_t first_facet = 0;
   std::uint32_t n_facets = 0;       // <= max_surface_facets
   std::array<Array3f, max_surface_vertices> position{};                      // [m]
-  std::array<std::array<std::uint32_t, 4>, max_surface_facets> corners{};    // < total_vertices; a triangle repeats its last
+  std::array<std::array<std::uint32_t, 4>, max_surface_facets> corners{};    // < total_vertices
   std::array<std::uint32_t, max_surface_facets> rgba{};                      // 0xAABBGGRR
 };
 
 /// State of a vertex.
-inline constexpr std::uint8_t vertex_yielded = 1;  // an element at this vertex has yielded: drawn dark
-inline constexpr std::uint8_t vertex_broken = 2;   // an element at this vertex has broken
+inline constexpr std::uint8_t vertex_yielded = 1;    // an element at this vertex has yielded
+inline constexpr std::uint8_t vertex_broken = 2;     // an element at this vertex has broken
+inline constexpr std::uint8_t vertex_share_one = 4;  // the other six bits: how many 63rds of its live elements have yielded,
+                                                     // which is how dark it is drawn; 0 unless vertex_yielded
 
 /// physics -> render. Where some vertices of a BodySurface revision are now. Only blocks that changed are sent.
 struct VertexBlock {

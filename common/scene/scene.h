@@ -198,6 +198,7 @@ struct RenderSpec {
   CameraSpec camera;
   std::optional<double> threshold;     // intensity shown from; absent: each volume's keep_min
   bool show_tool = true, show_force = true, show_panels = true, show_wire = false;
+  bool show_fragments = false;         // every fragment but the largest in a colour of its own
   double rate_Hz = 10;                 // frames per simulated second when headless
 };
 

@@ -87,10 +87,10 @@ Verdict judge(const palpate_wire_VertexBlock& wire) noexcept {
   }
   if (wire.revision == 0) return RejectReason::out_of_range;
   if (!finite(wire.t) || !finite(wire.position, wire.n_vertices)) return RejectReason::not_finite;
-  constexpr unsigned known_flags = vertex_yielded | vertex_broken;
-  const bool known = std::all_of(wire.flags, wire.flags + wire.n_vertices,
-                                 [](std::uint8_t flags) { return (flags & ~known_flags) == 0; });
-  if (!known) return RejectReason::out_of_range;
+  const bool sound = std::all_of(wire.flags, wire.flags + wire.n_vertices, [](std::uint8_t flags) {
+    return flags < vertex_share_one || (flags & vertex_yielded) != 0;
+  });
+  if (!sound) return RejectReason::out_of_range;
   return {};
 }
 

@@ -60,14 +60,31 @@ def label(axes, quantity):
     axes.spines[["top", "right"]].set_visible(False)
 
 
+def norm(parts):
+    return [sum(p * p for p in values) ** 0.5 for values in zip(*parts)]
+
+
 def draw_vector(axes, columns, letters, unit, symbol):
-    """Magnitude in black, components in colour."""
+    """Magnitude in black, components in colour. Where the trace has raw values too, they are thin behind the low-passed
+    ones; peaks far beyond these leave the picture, and a note says how high they are."""
     t = columns["t_s"]
     parts = [columns[f"{letter}_{unit}"] for letter in letters]
-    whole = [sum(p * p for p in values) ** 0.5 for values in zip(*parts)]
+    whole = norm(parts)
+    raw = [columns.get(f"raw_{letter}_{unit}") for letter in letters]
+    has_raw = all(part is not None for part in raw)
+    colours = [f"C{i}" for i in range(3)]
+    if has_raw:
+        axes.plot(t, norm(raw), color="black", linewidth=0.4, alpha=0.4, label=f"|{symbol}| raw")
+        for colour, part in zip(colours, raw):
+            axes.plot(t, part, color=colour, linewidth=0.4, alpha=0.4)
     axes.plot(t, whole, color="black", linewidth=1.4, label=f"|{symbol}|")
-    for axis, part in zip("xyz", parts):
-        axes.plot(t, part, linewidth=0.8, label=f"{symbol}$_{axis}$")
+    for axis, colour, part in zip("xyz", colours, parts):
+        axes.plot(t, part, color=colour, linewidth=1.2 if has_raw else 0.8, label=f"{symbol}$_{axis}$")
+    lowest = min(min(part) for part in parts)
+    room = max(whole) - min(lowest, 0)
+    if has_raw and room > 0 and max(norm(raw)) > max(whole) + room:
+        axes.set_ylim(min(lowest, 0) - room, max(whole) + room)
+        axes.set_title(f"raw peaks reach {max(norm(raw)):.3g} {unit.replace('Nm', 'N m')}", loc="right", fontsize="small")
 
 
 def draw_position(axes, columns):
@@ -79,7 +96,7 @@ def draw_position(axes, columns):
 
 
 def draw_tool(plt, name, columns, path):
-    moments = any(abs(m) > 1e-12 for axis in "xyz" for m in columns[f"m{axis}_Nm"])
+    moments = any(abs(m) > 1e-12 for axis in "xyz" for raw in ("", "raw_") for m in columns.get(f"{raw}m{axis}_Nm", []))
     rows = 3 if moments else 2
     figure, axes = plt.subplots(rows, 1, sharex=True, figsize=(8, 2.6 * rows), constrained_layout=True)
     draw_vector(axes[0], columns, ["fx", "fy", "fz"], "N", "F")

@@ -4,22 +4,25 @@
 #include <chrono>
 #include <cmath>
 
+#include "physics_node/appearance/colours.h"
+#include "physics_node/surface/loose_parts.h"
+
 namespace palpate::physics {
 namespace {
 
-constexpr float visible_motion = 1e-5F;           // [m]
-constexpr std::int64_t frames_between_cuts = 50;  // broken elements change a surface at most this often
-
-/// Plain colours for bodies without an image, one after the other (0xAABBGGRR).
-constexpr std::array<std::uint32_t, 5> plain{0xFF8FA8E0, 0xFFB0C890, 0xFFD0B080, 0xFF90C8D8, 0xFFC0A0D0};
-
+constexpr float visible_motion = 1e-5F;  // [m]
 Array3f float_of(const Vec3& p) {
   return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
 }
 
-std::uint8_t vertex_flags(std::uint8_t of_mass) {
-  return static_cast<std::uint8_t>(((of_mass & mass_yielded) != 0 ? vertex_yielded : 0) |
-                                   ((of_mass & mass_broken) != 0 ? vertex_broken : 0));
+std::uint8_t vertex_flags(const MovingBody& moving, Index cell) {
+  const std::uint8_t of_mass = moving.flags(cell);
+  unsigned flags = (of_mass & mass_broken) != 0 ? vertex_broken : 0;
+  if ((of_mass & mass_yielded) != 0) {
+    const auto share = static_cast<unsigned>(std::lround(63 * moving.yielded_share(cell)));
+    flags |= vertex_yielded | share * vertex_share_one;
+  }
+  return static_cast<std::uint8_t>(flags);
 }
 
 std::uint32_t chunks_for(std::size_t n, std::uint32_t per_chunk) {
@@ -28,15 +31,34 @@ std::uint32_t chunks_for(std::size_t n, std::uint32_t per_chunk) {
 
 }  // namespace
 
-Appearance::Appearance(const World& world, std::optional<double> threshold)
-    : world_(world), views_(world.n_bodies()) {
-  for (std::size_t b = 0; b < views_.size(); ++b)
-    show(b, make_surface(world.body(b), threshold, plain[b % plain.size()]));
+Appearance::Appearance(const World& world, std::optional<double> threshold, Remake how)
+    : world_(world), views_(world.n_bodies()), threshold_(threshold), how_(how) {
+  restored_ = world.report().restored;
+  for (std::size_t b = 0; b < views_.size(); ++b) {
+    views_[b].live = std::make_unique<LiveElements>(world.body(b));
+    views_[b].breaks = world.body(b).losses().breaks;
+    show(b, make(b));
+  }
+}
+
+/// From the copy of the live elements and what is constant: safe in another thread.
+Surface Appearance::make(std::size_t body) const {
+  const Body& constant = world_.body(body).body();
+  const LiveElements& live = *views_[body].live;
+  const std::uint32_t rgba = body_colour(world_.scene(), body);
+  Surface surface = make_surface(constant, live, threshold_, rgba);
+  add_loose_parts(constant, live, threshold_, rgba, surface);
+  return surface;
 }
 
 void Appearance::show(std::size_t body, Surface surface) {
   View& view = views_[body];
   view.surface = std::move(surface);
+  if (fragment_ && world_.scene().render.show_fragments) {
+    const auto label = [&](Index cell) { return fragment_(body, cell); };
+    colour_fragments(world_.body(body).body(), label, view.surface);
+  }
+  ++view.revision;
   view.published = false;
   view.sent.assign(view.surface.n_moving(), Array3f{NAN, NAN, NAN});
   view.sent_flags.assign(view.surface.n_moving(), 0);
@@ -47,39 +69,45 @@ void Appearance::set_threshold(double threshold) {
   poll();
 }
 
+/// Bodies whose surface is not that of their live elements and the threshold any more; takes note of both.
+std::vector<std::size_t> Appearance::outdated() {
+  std::vector<std::size_t> bodies;
+  const bool went_back = world_.report().restored != restored_;
+  restored_ = world_.report().restored;
+  for (std::size_t b = 0; b < views_.size(); ++b) {
+    const MovingBody& moving = world_.body(b);
+    const Body& body = moving.body();
+    const bool by_threshold = wanted_ && body.cells && !body.cells->intensity.empty();
+    bool by_breaks = false;
+    if (any_yields(body)) {
+      const std::int64_t breaks = moving.losses().breaks;  // fewer after a reset
+      by_breaks = went_back || breaks != views_[b].breaks;
+      views_[b].breaks = breaks;
+      if (by_breaks) views_[b].live->copy(moving);
+    }
+    if (by_threshold || by_breaks) bodies.push_back(b);
+  }
+  if (wanted_) threshold_ = wanted_;
+  wanted_.reset();
+  return bodies;
+}
+
 bool Appearance::poll() {
-  bool fresh = false;
-  if (pending_.valid() && pending_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
-    for (auto& [body, surface] : pending_.get()) {
-      show(body, std::move(surface));
-      ++views_[body].revision;
-      fresh = true;
+  if (pending_.valid() && pending_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
+    for (auto& [body, surface] : pending_.get()) show(body, std::move(surface));
+  if (!pending_.valid()) {
+    const auto bodies = outdated();
+    if (!bodies.empty() && how_ == Remake::at_once) {
+      for (const std::size_t b : bodies) show(b, make(b));
+    } else if (!bodies.empty()) {
+      pending_ = std::async(std::launch::async, [this, bodies] {
+        Made made;
+        for (const std::size_t b : bodies) made.emplace_back(b, make(b));
+        return made;
+      });
     }
   }
-  if (wanted_ && !pending_.valid()) {
-    pending_ = std::async(std::launch::async, [this, threshold = *wanted_] {
-      std::vector<std::pair<std::size_t, Surface>> made;
-      for (std::size_t b = 0; b < views_.size(); ++b) {
-        const Body& body = world_.body(b).body();  // constant: safe from another thread
-        if (body.cells && !body.cells->intensity.empty())
-          made.emplace_back(b, voxel_surface(body, threshold));
-      }
-      return made;
-    });
-    wanted_.reset();
-  }
-  const StepReport& report = world_.report();
-  if (report.broken != broken_seen_ && report.frames - frames_seen_ >= frames_between_cuts) {
-    broken_seen_ = report.broken;
-    frames_seen_ = report.frames;
-    for (std::size_t b = 0; b < views_.size(); ++b) {
-      if (world_.body(b).body().cells || !any_yields(world_.body(b).body())) continue;
-      show(b, make_surface(world_.body(b), std::nullopt, plain[b % plain.size()]));
-      ++views_[b].revision;
-      fresh = true;
-    }
-  }
-  return fresh || std::any_of(views_.begin(), views_.end(), [](const View& view) { return !view.published; });
+  return std::any_of(views_.begin(), views_.end(), [](const View& view) { return !view.published; });
 }
 
 int Appearance::write_surfaces(const std::function<void(const BodySurface&)>& sink) {
@@ -127,7 +155,7 @@ bool Appearance::block_changed(const View& view, const MovingBody& moving, std::
                                std::size_t last) const {
   for (std::size_t n = first; n < last; ++n) {
     const Index cell = view.surface.cell[n];
-    if (vertex_flags(moving.flags(cell)) != view.sent_flags[n]) return true;
+    if (vertex_flags(moving, cell) != view.sent_flags[n]) return true;
     const Array3f p = float_of(moving.position(cell));
     for (std::size_t a = 0; a < 3; ++a)
       if (!(std::abs(p[a] - view.sent[n][a]) <= visible_motion)) return true;
@@ -154,7 +182,7 @@ int Appearance::write_blocks(const std::function<void(const VertexBlock&)>& sink
       for (std::size_t n = first; n < last; ++n) {
         const Index cell = view.surface.cell[n];
         out.position[n - first] = view.sent[n] = float_of(moving.position(cell));
-        out.flags[n - first] = view.sent_flags[n] = vertex_flags(moving.flags(cell));
+        out.flags[n - first] = view.sent_flags[n] = vertex_flags(moving, cell);
       }
       sink(out);
       ++blocks;
@@ -169,7 +197,7 @@ void Appearance::resend() {
 
 std::size_t Appearance::facets_visible() const {
   std::size_t n = 0;
-  for (const View& view : views_) n += view.surface.facets.size();
+  for (const View& view : views_) n += view.surface.facets.size() - count_loose(view.surface);
   return n;
 }
 

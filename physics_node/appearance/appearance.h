@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <future>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -13,15 +14,25 @@
 
 namespace palpate::physics {
 
+/// Who makes a surface anew: poll() itself, so that pictures are the same each time, or a thread of its own meanwhile, so
+/// that frames go on.
+enum class Remake { at_once, beside };
+
 class Appearance {
  public:
   /// @param threshold  intensity from which tissue is shown; absent: all tissue
-  Appearance(const World& world, std::optional<double> threshold);
+  Appearance(const World& world, std::optional<double> threshold, Remake how = Remake::at_once);
 
-  /// Shows tissue from another intensity on. The new surfaces are made by a thread of their own; poll() takes them.
+  /// Shows tissue from another intensity on; poll() takes the new surfaces.
   void set_threshold(double threshold);
 
-  /// Takes finished surfaces, and follows elements that broke. @return true if write_surfaces has something new
+  /// Which fragment of a body a mass belongs to; what is shown from now on is coloured by it where the scene asks for that.
+  using FragmentOf = std::function<std::int32_t(std::size_t body, Index cell)>;
+  void colour_by(FragmentOf fragment) { fragment_ = std::move(fragment); }
+
+  /// Takes finished surfaces, and follows elements that broke or came back: of each body that has such, a copy of its live
+  /// elements goes into a new surface. Costs next to nothing where none has. Allocates: not for inside a frame.
+  /// @return true if write_surfaces has something new
   bool poll();
 
   /// All chunks of every body whose surface is new since the last call. @return chunks
@@ -34,17 +45,22 @@ class Appearance {
   /// Writes every block again next time: somebody new is looking.
   void resend();
 
-  std::size_t facets_visible() const;
+  std::size_t facets_visible() const;  // loose elements and masses are not facets
   std::size_t facets_total() const;
 
  private:
   struct View {
     Surface surface;
-    std::uint32_t revision = 1;
+    std::unique_ptr<LiveElements> live;  // what it was, or is being, made from
+    std::int64_t breaks = 0;             // of the body then
+    std::uint32_t revision = 0;
     bool published = false;
     std::vector<Array3f> sent;             // positions as last written (n_moving)
     std::vector<std::uint8_t> sent_flags;  // (n_moving)
   };
+  using Made = std::vector<std::pair<std::size_t, Surface>>;
+  Surface make(std::size_t body) const;
+  std::vector<std::size_t> outdated();
   void show(std::size_t body, Surface surface);
   bool block_changed(const View& view, const MovingBody& moving, std::size_t first, std::size_t last) const;
   void write_chunk(std::size_t body, std::uint32_t chunk,
@@ -52,12 +68,14 @@ class Appearance {
 
   const World& world_;
   std::vector<View> views_;
-  std::future<std::vector<std::pair<std::size_t, Surface>>> pending_;
-  std::optional<double> wanted_;  // threshold asked for while another is being made
-  std::int64_t broken_seen_ = 0;
-  std::int64_t frames_seen_ = 0;
+  std::optional<double> threshold_;  // of the surfaces shown or being made
+  std::optional<double> wanted_;     // threshold asked for since
+  Remake how_;
+  FragmentOf fragment_;
+  std::int64_t restored_ = 0;  // how often the guard had gone back when surfaces were last looked at
   std::unique_ptr<BodySurface> chunk_ = std::make_unique<BodySurface>();
   std::unique_ptr<VertexBlock> block_ = std::make_unique<VertexBlock>();
+  std::future<Made> pending_;  // the last member: it is waited for before what it reads goes
 };
 
 }  // namespace palpate::physics

@@ -37,7 +37,7 @@ PhysicsLoop::PhysicsLoop(const NodeOptions& options, const Scene& scene)
 
   const std::int64_t begin = now_ns();
   world_ = std::make_unique<World>(scene_);
-  appearance_ = std::make_unique<Appearance>(*world_, scene_.render.threshold);
+  appearance_ = std::make_unique<Appearance>(*world_, scene_.render.threshold, Remake::beside);
   if (!options_.out.empty()) {
     std::filesystem::create_directories(options_.out + "/parts");
     recorder_ = std::make_unique<Recorder>(*world_, options_.out, Recorder::WhenBehind::drop);

@@ -195,6 +195,10 @@ class LatticeBody final : public MovingBody {
     return flags;
   }
 
+  double yielded_share(Index cell) const noexcept override {
+    return any_yields(body_) ? physics::yielded_share(body_, state_, cell) : 0;
+  }
+
   Energies energies(const Vec3& gravity) const override { return measure_energies(body_, state_, gravity); }
   Losses losses() const override { return measure_losses(state_); }
   Momenta momenta() const override { return measure_momenta(body_, state_.u, state_.v).momenta; }

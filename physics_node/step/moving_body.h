@@ -127,6 +127,8 @@ class MovingBody {
   /// Elements broken since the start.
   virtual std::int64_t breaks() const noexcept = 0;
   virtual std::uint8_t flags(Index cell) const noexcept = 0;
+  /// How many of a mass's live elements have yielded, [0, 1]; of a mass without any, whether one had before it broke.
+  virtual double yielded_share(Index cell) const noexcept = 0;
   virtual Energies energies(const Vec3& gravity) const = 0;
   virtual Losses losses() const = 0;
   virtual Momenta momenta() const = 0;

@@ -69,9 +69,27 @@ bool has_yielded(const Body& body, const LatticeState<Real>& state, Index cell) 
   return false;
 }
 
+template <class Real>
+double yielded_share(const Body& body, const LatticeState<Real>& state, Index cell) noexcept {
+  const auto n_half = static_cast<std::size_t>(body.lattice.n_half);
+  const auto& offset = body.lattice.offset[static_cast<std::size_t>(body.lattice.row_kind(cell))];
+  const Mask live = state.mask[static_cast<std::size_t>(cell)];
+  if (live == 0) return has_yielded(body, state, cell) ? 1 : 0;
+  int alive = 0, yielded = 0;
+  for (std::size_t d = 0; d < 2 * n_half; ++d) {
+    if ((live >> d & 1) == 0) continue;
+    const Index owner = d < n_half ? cell : cell + offset[d];
+    ++alive;
+    yielded += state.hardening[d % n_half][static_cast<std::size_t>(owner)] > 0 ? 1 : 0;
+  }
+  return static_cast<double>(yielded) / alive;
+}
+
 template struct LatticeState<float>;
 template struct LatticeState<double>;
 template bool has_yielded(const Body&, const LatticeState<float>&, Index) noexcept;
 template bool has_yielded(const Body&, const LatticeState<double>&, Index) noexcept;
+template double yielded_share(const Body&, const LatticeState<float>&, Index) noexcept;
+template double yielded_share(const Body&, const LatticeState<double>&, Index) noexcept;
 
 }  // namespace palpate::physics

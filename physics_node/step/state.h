@@ -50,4 +50,8 @@ struct LatticeState {
 template <class Real>
 bool has_yielded(const Body& body, const LatticeState<Real>& state, Index cell) noexcept;
 
+/// How many of a mass's live elements have yielded, [0, 1]; of a mass without any, whether one had before it broke.
+template <class Real>
+double yielded_share(const Body& body, const LatticeState<Real>& state, Index cell) noexcept;
+
 }  // namespace palpate::physics

@@ -5,33 +5,6 @@
 namespace palpate::physics {
 namespace {
 
-/// Answers about masses and elements by grid coordinate.
-class Net {
- public:
-  Net(const Body& body, const MovingBody& moving) : lattice_(body.lattice), moving_(moving) {
-    const auto half = half_directions(LatticeKind::fcc);
-    for (std::size_t d = 0; d < 2 * half.size(); ++d) {
-      const Vec3i delta = d < half.size() ? half[d] : Vec3i(-half[d - half.size()]);
-      direction_[key(delta)] = static_cast<int>(d);
-    }
-  }
-
-  Index mass(const Vec3i& grid) const { return lattice_.mass_at(grid); }
-
-  /// Does a live element join two neighbouring grid points?
-  bool joined(const Vec3i& a, const Vec3i& b) const {
-    const Index cell = mass(a);
-    if (cell < 0 || mass(b) < 0) return false;
-    return (moving_.mask(cell) >> direction_.at(key(b - a)) & 1) != 0;
-  }
-
- private:
-  static int key(const Vec3i& delta) { return (delta.x() + 1) + 3 * (delta.y() + 1) + 9 * (delta.z() + 1); }
-  const Lattice& lattice_;
-  const MovingBody& moving_;
-  std::unordered_map<int, int> direction_;
-};
-
 Vec3i axis(int a, int sign) {
   Vec3i e = Vec3i::Zero();
   e[a] = sign;
@@ -46,7 +19,7 @@ struct Site {
   bool filled = false;  // at least five masses, every element between them alive
 };
 
-Site look_at(const Net& net, const Vec3i& centre) {
+Site look_at(const LiveNet& net, const Vec3i& centre) {
   Site site{centre, {}, 0, false};
   for (int n = 0; n < 6; ++n) {
     site.present[static_cast<std::size_t>(n)] = net.mass(centre + axis(n / 2, n % 2 == 0 ? -1 : 1)) >= 0;
@@ -68,7 +41,7 @@ Site look_at(const Net& net, const Vec3i& centre) {
 
 class Builder {
  public:
-  Builder(const Body& body, const Net& net, std::uint32_t rgba) : body_(body), net_(net), rgba_(rgba) {}
+  Builder(const Body& body, const LiveNet& net, std::uint32_t rgba) : body_(body), net_(net), rgba_(rgba) {}
 
   /// The triangle in the octant `s` of a site, between its octahedron and the tetrahedron beyond.
   void triangle(const Site& site, const Vec3i& s) {
@@ -119,15 +92,15 @@ class Builder {
   }
 
   const Body& body_;
-  const Net& net_;
+  const LiveNet& net_;
   std::uint32_t rgba_;
   std::unordered_map<Index, std::uint32_t> number_;
 };
 
 }  // namespace
 
-Surface fcc_surface(const Body& body, const MovingBody& moving, std::uint32_t rgba) {
-  const Net net(body, moving);
+Surface fcc_surface(const Body& body, const LiveElements& live, std::uint32_t rgba) {
+  const LiveNet net(body.lattice, live);
   Builder builder(body, net, rgba);
   const Vec3i extent(2 * body.lattice.size.x(), body.lattice.size.y(), body.lattice.size.z());
   for (int z = -1; z <= extent.z(); ++z)

@@ -8,6 +8,7 @@
 
 #include "physics_node/body/body.h"
 #include "physics_node/step/moving_body.h"
+#include "physics_node/surface/live_elements.h"
 
 namespace palpate::physics {
 
@@ -28,15 +29,22 @@ struct Surface {
 };
 
 /// Faces of shown cells that no other shown cell covers. Source: Takada & Abe, visible list; 6 neighbours (C-37).
+/// A cell that has lost an element is shown by its five tetrahedra instead: a triangle is there while its three elements
+/// live, a tetrahedron is filled while its six do (C-8), and what both sides fill is hidden.
 /// @param threshold  shows only cells of at least this intensity; absent: all tissue
-Surface voxel_surface(const Body& body, std::optional<double> threshold);
+/// @param rgba  of a body without an image
+Surface voxel_surface(const Body& body, const LiveElements& live, std::optional<double> threshold,
+                      std::uint32_t rgba);
 
-/// Facets of an fcc body: the triangles and squares that bound its filled tetrahedra and octahedra, from the elements
-/// alive now. A tetrahedron is filled while all its elements live, an octahedron while at least five of its six
+/// Facets of an fcc body: the triangles and squares that bound its filled tetrahedra and octahedra, from live elements.
+/// A tetrahedron is filled while all its elements live, an octahedron while at least five of its six
 /// masses hold together; a triangle that bounds nothing is a sheet and is shown too. Source: EQUATIONS C-8, C-12.
-Surface fcc_surface(const Body& body, const MovingBody& moving, std::uint32_t rgba);
+Surface fcc_surface(const Body& body, const LiveElements& live, std::uint32_t rgba);
 
 /// The surface of either kind.
+Surface make_surface(const Body& body, const LiveElements& live, std::optional<double> threshold,
+                     std::uint32_t plain_rgba);
+/// The same from the elements alive now.
 Surface make_surface(const MovingBody& moving, std::optional<double> threshold, std::uint32_t plain_rgba);
 
 }  // namespace palpate::physics

@@ -21,20 +21,24 @@ void main() {
   pixel = vec4(mix(vec3(0.70, 0.74, 0.79), vec3(0.94, 0.95, 0.97), smoothstep(0.0, 1.0, up)) + noise / 255.0, 1.0);
 }
 )";
-const char* const floor_vertex = R"(
+const char* const plane_vertex = R"(
 uniform mat4 clip_from_world;
 uniform vec3 middle;
+uniform vec3 along;
+uniform vec3 upward;
+uniform vec2 begin;
 uniform float reach;
 out vec2 across;
 out vec2 place;
 void main() {  // a strip of four corners
   across = vec2(gl_VertexID % 2 == 0 ? -1.0 : 1.0, gl_VertexID < 2 ? -1.0 : 1.0);
-  vec3 p = middle + vec3(across * reach, 0.0);
-  place = p.xy;
+  vec2 away = across * reach;
+  vec3 p = middle + away.x * along + away.y * upward;
+  place = begin + away;
   gl_Position = clip_from_world * vec4(p, 1.0);
 }
 )";
-const char* const floor_fragment = R"(
+const char* const plane_fragment = R"(
 in vec2 across;
 in vec2 place;
 uniform float cell;
@@ -51,7 +55,7 @@ void main() {
 }  // namespace
 
 BackdropDrawing::BackdropDrawing()
-    : gradient_(gradient_vertex, gradient_fragment), floor_(floor_vertex, floor_fragment) {}
+    : gradient_(gradient_vertex, gradient_fragment), plane_(plane_vertex, plane_fragment) {}
 
 void BackdropDrawing::draw_gradient() const {
   gradient_.use();
@@ -61,13 +65,22 @@ void BackdropDrawing::draw_gradient() const {
   glEnable(GL_DEPTH_TEST);
 }
 
-void BackdropDrawing::draw_floor(const Camera& camera, const Eigen::Vector3d& middle, double height,
-                                 double cell, double reach) const {
-  floor_.use();
-  floor_.set("clip_from_world", Eigen::Matrix4f((camera.projection() * camera.view()).cast<float>()));
-  floor_.set("middle", Eigen::Vector3f(Eigen::Vector3d(middle.x(), middle.y(), height).cast<float>()));
-  floor_.set("reach", static_cast<float>(reach));
-  floor_.set("cell", static_cast<float>(cell));
+void BackdropDrawing::draw_plane(const Camera& camera, const Vec3& middle, const Vec3& point,
+                                 const Vec3& normal, double cell, double reach) const {
+  // The grid of a plane across z counts along x and y, any other along the horizontal and up the slope.
+  const Vec3 level = normal.cross(Vec3::UnitZ());
+  const Vec3 along = level.norm() < 1e-6 ? Vec3(Vec3::UnitX()) : Vec3(-level.normalized());
+  const Vec3 upward = level.norm() < 1e-6 ? Vec3(Vec3::UnitY()) : Vec3(along.cross(normal).normalized());
+  const Vec3 nearest = middle - normal * normal.dot(middle - point);
+  plane_.use();
+  plane_.set("clip_from_world", Eigen::Matrix4f((camera.projection() * camera.view()).cast<float>()));
+  plane_.set("middle", Eigen::Vector3f(nearest.cast<float>()));
+  plane_.set("along", Eigen::Vector3f(along.cast<float>()));
+  plane_.set("upward", Eigen::Vector3f(upward.cast<float>()));
+  plane_.set("begin", Eigen::Vector2f(static_cast<float>(along.dot(nearest)),
+                                      static_cast<float>(upward.dot(nearest))));
+  plane_.set("reach", static_cast<float>(reach));
+  plane_.set("cell", static_cast<float>(cell));
   array_.bind();
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);

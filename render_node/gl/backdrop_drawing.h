@@ -1,5 +1,5 @@
 #pragma once
-// What stands behind and below: a soft gradient and, where the scene has a floor, a faint grid on it.
+// What stands behind and around: a soft gradient and, where the scene has a floor or walls, a faint grid on each.
 
 #include "render_node/gl/buffer.h"
 #include "render_node/gl/program.h"
@@ -14,15 +14,15 @@ class BackdropDrawing {
   /// Fills the picture; leaves the depth alone.
   void draw_gradient() const;
 
-  /// The floor after everything opaque: it fades out from `middle` and lets what is below it shine through.
-  /// @param height  of the floor [m]  @param cell  of the grid [m]  @param reach  where it has faded [m]
-  void draw_floor(const Camera& camera, const Eigen::Vector3d& middle, double height, double cell,
-                  double reach) const;
+  /// A plane, after everything opaque: it fades out from the place nearest to `middle` and lets what is beyond it shine
+  /// through. @param normal  unit  @param cell  of the grid [m]  @param reach  where it has faded [m]
+  void draw_plane(const Camera& camera, const Vec3& middle, const Vec3& point, const Vec3& normal,
+                  double cell, double reach) const;
 
  private:
   VertexArray array_;  // core OpenGL wants one bound, even an empty one
   Program gradient_;
-  Program floor_;
+  Program plane_;
 };
 
 }  // namespace palpate::render

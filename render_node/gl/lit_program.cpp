@@ -12,7 +12,7 @@ uniform vec3 key;
 uniform vec3 fill;
 uniform float gloss;
 uniform float opacity;
-uniform float darkness;
+uniform float paleness;
 vec4 lit(vec3 n, vec3 v, vec3 albedo) {
   vec3 ambient = mix(vec3(0.12, 0.10, 0.09), vec3(0.29, 0.31, 0.35), 0.5 + 0.5 * n.z);
   float k = max((dot(n, key) + 0.12) / 1.12, 0.0);
@@ -23,7 +23,7 @@ vec4 lit(vec3 n, vec3 v, vec3 albedo) {
   h8 *= h8;
   float away = 1.0 - clamp(dot(n, v), 0.0, 1.0);
   vec3 seen = (albedo * light + vec3(gloss * h8 * h8 * h8)) * (1.0 - 0.45 * away * away * away);
-  return vec4(sqrt(seen * (1.0 - darkness)), opacity);
+  return vec4(mix(sqrt(seen), vec3(0.95, 0.96, 0.97), paleness), opacity);
 }
 )";
 
@@ -34,11 +34,11 @@ layout(location = 2) in uint flags;
 layout(location = 3) in vec4 colour;
 uniform mat4 clip_from_world;
 uniform mat4 world_from_model;
+uniform float shading;
 vec3 albedo_here() {
-  vec3 albedo = colour.rgb * colour.rgb;
-  if ((flags & 1u) != 0u) albedo = albedo * 0.09 + vec3(0.004, 0.004, 0.012);  // yielded: dark
-  if ((flags & 2u) != 0u) albedo = vec3(0.14, 0.010, 0.014);                   // broken: dark red
-  return albedo;
+  vec3 light = colour.rgb * colour.rgb;
+  vec3 dark = light * 0.08 + vec3(0.004, 0.004, 0.010);
+  return mix(light, dark, shading * float(flags >> 2u) / 63.0);  // light: elastic, dark: yielded
 }
 )";
 
@@ -79,7 +79,45 @@ out vec4 pixel;
 void main() { pixel = seen; }
 )";
 
+const std::string vertex_bead = R"(
+uniform float bead_size;
+out vec3 world;
+out vec3 albedo;
+void main() {
+  vec4 p = world_from_model * vec4(position, 1.0);
+  world = p.xyz;
+  albedo = albedo_here();
+  gl_Position = clip_from_world * p;
+  gl_PointSize = max(bead_size / gl_Position.w, 2.0);
+}
+)";
+const std::string pixel_bead = R"(
+uniform vec3 to_right;
+uniform vec3 upwards;
+uniform vec3 to_viewer;
+in vec3 world;
+in vec3 albedo;
+out vec4 pixel;
+void main() {
+  vec2 q = 2.0 * gl_PointCoord - 1.0;
+  float up2 = 1.0 - dot(q, q);
+  if (up2 < 0.0) discard;
+  vec3 n = q.x * to_right - q.y * upwards + sqrt(up2) * to_viewer;
+  pixel = lit(n, normalize(eye - world), albedo);
+}
+)";
+
+const std::string vertex_line = R"(
+out vec4 seen;
+void main() {
+  seen = vec4(sqrt(0.42 * albedo_here()), 1.0);
+  gl_Position = clip_from_world * world_from_model * vec4(position, 1.0);
+}
+)";
+
 Program program_for(Lighting lighting) {
+  if (lighting == Lighting::as_beads) return Program(vertex_source + vertex_bead, light_source + pixel_bead);
+  if (lighting == Lighting::as_lines) return Program(vertex_source + vertex_line, pixel_passed_on);
   if (lighting == Lighting::at_vertices)
     return Program(vertex_source + light_source + vertex_lit, pixel_passed_on);
   return Program(vertex_source + vertex_for_pixels, light_source + pixel_lit);
@@ -100,8 +138,12 @@ void LitProgram::begin(const Camera& camera) const {
   program_.set("eye", Eigen::Vector3f(camera.eye().cast<float>()));
   program_.set("key", in_world(camera, {-0.55, 0.65, 0.62}));
   program_.set("fill", in_world(camera, {0.85, 0.05, 0.45}));
+  program_.set("to_right", in_world(camera, Vec3::UnitX()));
+  program_.set("upwards", in_world(camera, Vec3::UnitY()));
+  program_.set("to_viewer", in_world(camera, Vec3::UnitZ()));
   finish(0, 1);
-  darken(0);
+  pale(0);
+  shade(1);
 }
 
 void LitProgram::place(const Eigen::Matrix4f& world_from_model) const {
@@ -113,6 +155,13 @@ void LitProgram::finish(float gloss, float opacity) const {
   program_.set("opacity", opacity);
 }
 
-void LitProgram::darken(float share) const { program_.set("darkness", share); }
+void LitProgram::pale(float share) const { program_.set("paleness", share); }
+void LitProgram::shade(float share) const { program_.set("shading", share); }
+
+void LitProgram::size_beads(const Camera& camera, float radius, int height) const {
+  // A length l at the distance w of clip space covers l / w * P_11 * height / 2 pixels.
+  const auto pixels_per_metre = static_cast<float>(camera.projection()(1, 1) * height / 2);
+  program_.set("bead_size", 2 * radius * pixels_per_metre);
+}
 
 }  // namespace palpate::render

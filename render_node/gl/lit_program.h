@@ -1,7 +1,8 @@
 #pragma once
 // The one way surfaces are lit: a hemispheric ambient light from the sky (world z) and the ground, a soft key light
 // from the upper left of the viewer and a weak fill from the right, a little gloss, and silhouettes slightly darker.
-// Colours are lit as squares of what is shown (nearly the light they stand for).
+// Colours are lit as squares of what is shown (nearly the light they stand for). Light and dark: a vertex is the darker,
+// the more of its live elements have yielded.
 
 #include <Eigen/Core>
 
@@ -13,12 +14,13 @@ namespace palpate::render {
 // Attribute locations of the vertex shader.
 inline constexpr unsigned at_position = 0;  // vec3, model space
 inline constexpr unsigned at_normal = 1;    // vec3, model space, unit
-inline constexpr unsigned at_flags = 2;     // uint, vertex_yielded | vertex_broken
+inline constexpr unsigned at_flags = 2;     // uint, flags of VertexBlock
 inline constexpr unsigned at_colour = 3;    // vec4, as shown
 
 /// Where the light is computed. Facets of about a pixel look the same lit at their vertices, at a third of the cost in
-/// software; but only pixels know which side of an open surface they show.
-enum class Lighting { at_pixels, at_vertices };
+/// software; but only pixels know which side of an open surface they show. Points are drawn as beads, that is as small
+/// balls that face the viewer; lines are not lit, their colour says enough.
+enum class Lighting { at_pixels, at_vertices, as_beads, as_lines };
 
 class LitProgram {
  public:
@@ -29,8 +31,12 @@ class LitProgram {
   void place(const Eigen::Matrix4f& world_from_model) const;
   /// @param gloss  strength of the highlight, 0..1  @param opacity  1: opaque
   void finish(float gloss, float opacity) const;
-  /// @param share  0: lit, 1: plain black, for wires
-  void darken(float share) const;
+  /// @param share  of white in the colour, 0: none. Lines over a pale surface are easily seen.
+  void pale(float share) const;
+  /// How dark elements are shown that have yielded: 1 nearly black, less where colours are to be told apart.
+  void shade(float share) const;
+  /// Of beads. @param radius [m]  @param height  of the picture [px]
+  void size_beads(const Camera& camera, float radius, int height) const;
 
  private:
   Program program_;

@@ -10,6 +10,7 @@ namespace palpate::render {
 namespace {
 
 const Eigen::Vector3f steel(0.74F, 0.77F, 0.82F);
+constexpr float bead_radius = 0.16F;  // of the length of an element
 const Eigen::Vector3f arrow_colour(1.0F, 0.45F, 0.10F);
 
 // The stick comes from where a scripted hand starts, leaning a little so that it does not hide the arrow.
@@ -35,6 +36,7 @@ Painter::Painter(const Scene& scene, const ViewModel& model)
     tools_[i].radius = scene.tools[i].radius;
     tools_[i].axis = stick_axis(device);
     tools_[i].force_limit = device.force_limit;
+    tools_[i].is_body = scene.tools[i].shape == ToolShape::body;
   }
 }
 
@@ -58,38 +60,59 @@ void Painter::draw(ViewModel& model, const Camera& camera, const PaintOptions& o
   glDepthFunc(GL_LEQUAL);
   glClear(GL_DEPTH_BUFFER_BIT);
   backdrop_.draw_gradient();
-  draw_bodies(model, camera, options);
+  draw_bodies(model, camera, options, height);
   at_pixels_.begin(camera);
   for (std::size_t i = 0; i < tools_.size(); ++i) draw_tool(tools_[i], model.tools()[i], options);
-  if (scene_.floor && size_ > 0) {
-    const double cell = 2 * palpate::render::arrow_metres_per_newton(1.0, size_ / 4);
-    backdrop_.draw_floor(camera, model.box().center(), scene_.floor->height, cell, 5 * size_);
-  }
+  draw_planes(model, camera);
 }
 
-void Painter::draw_bodies(ViewModel& model, const Camera& camera, const PaintOptions& options) {
+void Painter::draw_planes(const ViewModel& model, const Camera& camera) {
+  if (size_ <= 0) return;
+  const double cell = 2 * palpate::render::arrow_metres_per_newton(1.0, size_ / 4);
+  const Vec3 middle = model.box().center();
+  if (scene_.floor)
+    backdrop_.draw_plane(camera, middle, {0, 0, scene_.floor->height}, Vec3::UnitZ(), cell, 5 * size_);
+  for (const WallSpec& wall : scene_.walls)
+    backdrop_.draw_plane(camera, middle, wall.point, wall.normal, cell, 3 * size_);
+}
+
+void Painter::draw_bodies(ViewModel& model, const Camera& camera, const PaintOptions& options, int height) {
   bytes_uploaded_ = 0;
+  const float shade = options.fragments ? 0.5F : 1.0F;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     BodyPicture& body = model.bodies()[i];
+    TissueDrawing& drawing = bodies_[i];
     if (body.empty()) continue;
-    bytes_uploaded_ += bodies_[i].upload(body);
-    if (options.wire) {
-      glEnable(GL_POLYGON_OFFSET_FILL);
-      glPolygonOffset(1, 1);
-    }
-    const LitProgram& lit = bodies_[i].closed() && bodies_[i].dense() ? at_vertices_ : at_pixels_;
+    bytes_uploaded_ += drawing.upload(body);
+    const LitProgram& lit = drawing.closed() && drawing.dense() ? at_vertices_ : at_pixels_;
     lit.begin(camera);
-    bodies_[i].draw(lit);
+    lit.shade(options.wire ? 0.0F : shade);
+    lit.pale(options.wire ? 0.75F : 0.0F);
+    glEnable(GL_POLYGON_OFFSET_FILL);  // lines lie before the surface
+    glPolygonOffset(1, 1);
+    drawing.draw(lit);
     glDisable(GL_POLYGON_OFFSET_FILL);
-    if (options.wire) bodies_[i].draw_wire(lit, body);
+    if (options.wire || drawing.has_lines()) {
+      as_lines_.begin(camera);
+      as_lines_.shade(shade);
+      drawing.draw_lines(as_lines_, body, options.wire);
+    }
+    if (drawing.has_beads()) {
+      as_beads_.begin(camera);
+      as_beads_.shade(shade);
+      as_beads_.size_beads(camera, bead_radius * body.edge_length(), height);
+      drawing.draw_beads(as_beads_);
+    }
   }
 }
 
 void Painter::draw_tool(Tool& tool, const ToolView& view, const PaintOptions& options) {
   if (!view.tip || size_ <= 0) return;
-  if (options.tool) {
+  if (options.tool && !tool.is_body) {
+    if (options.wire) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
     at_pixels_.finish(0.30F, 1.0F);
     tool.stick.draw(at_pixels_, pose_along(*view.tip, tool.axis), steel);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   }
   if (options.force) draw_arrow(tool, *view.tip, view.force);
 }

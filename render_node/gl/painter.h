@@ -1,5 +1,5 @@
 #pragma once
-// Draws the whole picture but for the panels, in this order: gradient, bodies, tools, arrows, floor.
+// Draws the whole picture but for the panels, in this order: gradient, bodies, tools, arrows, floor, walls.
 // Needs a current OpenGL 3.3 context from construction to destruction.
 
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace palpate::render {
 
 /// What of the scene's [render] table a hand may switch while it runs.
 struct PaintOptions {
-  bool tool = true, force = true, wire = false;
+  bool tool = true, force = true, wire = false, fragments = false;
 };
 
 class Painter {
@@ -36,16 +36,20 @@ class Painter {
     double radius = 0;       // of the tip [m]
     Eigen::Vector3d axis;    // from the tip up the stick, unit
     double force_limit = 0;  // of its device [N]
+    bool is_body = false;    // drawn as such, without a stick
     SolidDrawing stick, arrow;
   };
   void adapt_sizes(const Eigen::AlignedBox3d& box);
-  void draw_bodies(ViewModel& model, const Camera& camera, const PaintOptions& options);
+  void draw_bodies(ViewModel& model, const Camera& camera, const PaintOptions& options, int height);
+  void draw_planes(const ViewModel& model, const Camera& camera);
   void draw_tool(Tool& tool, const ToolView& view, const PaintOptions& options);
   void draw_arrow(Tool& tool, const Eigen::Vector3d& from, const Eigen::Vector3d& force);
 
   const Scene& scene_;
   LitProgram at_pixels_{Lighting::at_pixels};
   LitProgram at_vertices_{Lighting::at_vertices};
+  LitProgram as_beads_{Lighting::as_beads};
+  LitProgram as_lines_{Lighting::as_lines};
   BackdropDrawing backdrop_;
   std::vector<TissueDrawing> bodies_;
   std::vector<Tool> tools_;

@@ -2,7 +2,9 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "render_node/model/closedness.h"
@@ -11,6 +13,25 @@ namespace palpate::render {
 namespace {
 
 const void* offset_of(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
+
+using Indices = std::vector<std::uint32_t>;
+
+/// Both ends of every edge of the facets, each edge once.
+Indices edges_of(const std::vector<Corners>& facets) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+  edges.reserve(4 * facets.size());
+  for (const auto& c : facets) {
+    if (is_loose(c)) continue;
+    for (std::size_t i = 0; i < 4; ++i)
+      if (c[i] != c[(i + 1) % 4]) edges.emplace_back(std::minmax(c[i], c[(i + 1) % 4]));
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  Indices indices;
+  indices.reserve(2 * edges.size());
+  for (const auto& [a, b] : edges) indices.insert(indices.end(), {a, b});
+  return indices;
+}
 
 }  // namespace
 
@@ -45,21 +66,31 @@ std::size_t TissueDrawing::upload(BodyPicture& body) {
 }
 
 std::size_t TissueDrawing::upload_all(const BodyPicture& body) {
-  std::vector<std::uint32_t> indices;
-  indices.reserve(6 * body.surface().corners.size());
+  Indices triangles, lines, beads;
+  triangles.reserve(6 * body.surface().corners.size());
   for (const auto& c : body.surface().corners) {
-    indices.insert(indices.end(), {c[0], c[1], c[2]});
-    if (c[2] != c[3]) indices.insert(indices.end(), {c[0], c[2], c[3]});
+    if (is_mass(c)) {
+      beads.push_back(c[0]);
+    } else if (is_loose(c)) {
+      lines.insert(lines.end(), {c[0], c[1]});
+    } else {
+      triangles.insert(triangles.end(), {c[0], c[1], c[2]});
+      if (c[2] != c[3]) triangles.insert(triangles.end(), {c[0], c[2], c[3]});
+    }
   }
   array_.bind();
   position_.upload(std::span<const Array3f>(body.surface().position));
   packed_.upload(std::span<const PackedVertex>(body.packed()));
   colour_.upload(std::span<const std::uint32_t>(body.vertex_rgba()));
-  triangles_.upload(std::span<const std::uint32_t>(indices));
-  n_triangle_indices_ = indices.size();
+  triangles_.upload(std::span<const std::uint32_t>(triangles));
+  lines_.upload(std::span<const std::uint32_t>(lines));
+  beads_.upload(std::span<const std::uint32_t>(beads));
+  n_triangle_indices_ = triangles.size();
+  n_line_indices_ = lines.size();
+  n_bead_indices_ = beads.size();
   n_edge_indices_ = 0;
   closed_ = is_closed(body.surface());
-  return indices.size() * sizeof(std::uint32_t) +
+  return (triangles.size() + lines.size() + beads.size()) * sizeof(std::uint32_t) +
          body.packed().size() * (sizeof(Array3f) + sizeof(PackedVertex) + sizeof(std::uint32_t));
 }
 
@@ -73,23 +104,31 @@ void TissueDrawing::draw(const LitProgram& program) const {
   glDisable(GL_CULL_FACE);
 }
 
-void TissueDrawing::draw_wire(const LitProgram& program, const BodyPicture& body) {
-  array_.bind();
-  if (n_edge_indices_ == 0) {
-    std::vector<std::uint32_t> indices;
-    indices.reserve(8 * body.surface().corners.size());
-    for (const auto& c : body.surface().corners) {
-      indices.insert(indices.end(), {c[0], c[1], c[1], c[2], c[2], c[3], c[3], c[0]});
-    }
-    edges_.upload(std::span<const std::uint32_t>(indices));
-    n_edge_indices_ = indices.size();
-  }
+void TissueDrawing::draw_lines(const LitProgram& program, const BodyPicture& body, bool with_edges) {
   program.place(Eigen::Matrix4f::Identity());
-  program.finish(0.0F, 1.0F);
-  program.darken(0.8F);
+  array_.bind();
+  if (n_line_indices_ > 0) {
+    lines_.bind();
+    glDrawElements(GL_LINES, static_cast<GLsizei>(n_line_indices_), GL_UNSIGNED_INT, nullptr);
+  }
+  if (!with_edges) return;
+  if (n_edge_indices_ == 0) {
+    const Indices edges = edges_of(body.surface().corners);
+    edges_.upload(std::span<const std::uint32_t>(edges));
+    n_edge_indices_ = edges.size();
+  }
   edges_.bind();
   glDrawElements(GL_LINES, static_cast<GLsizei>(n_edge_indices_), GL_UNSIGNED_INT, nullptr);
-  program.darken(0.0F);
+}
+
+void TissueDrawing::draw_beads(const LitProgram& program) const {
+  program.place(Eigen::Matrix4f::Identity());
+  program.finish(0.10F, 1.0F);
+  array_.bind();
+  beads_.bind();
+  glEnable(GL_PROGRAM_POINT_SIZE);
+  glDrawElements(GL_POINTS, static_cast<GLsizei>(n_bead_indices_), GL_UNSIGNED_INT, nullptr);
+  glDisable(GL_PROGRAM_POINT_SIZE);
 }
 
 }  // namespace palpate::render

@@ -22,8 +22,12 @@ class TissueDrawing {
   bool dense() const noexcept { return n_triangle_indices_ > 120000; }
 
   void draw(const LitProgram& program) const;
-  /// The edges of the facets, over the surface. Their index buffer is made when first asked for.
-  void draw_wire(const LitProgram& program, const BodyPicture& body);
+  /// Elements that no facet shows, and the edges of the facets if asked for: their index buffer is made the first time.
+  void draw_lines(const LitProgram& program, const BodyPicture& body, bool with_edges);
+  /// Masses that no facet and no element shows, as points.
+  void draw_beads(const LitProgram& program) const;
+  bool has_beads() const noexcept { return n_bead_indices_ > 0; }
+  bool has_lines() const noexcept { return n_line_indices_ > 0; }
 
  private:
   std::size_t upload_all(const BodyPicture& body);
@@ -33,9 +37,13 @@ class TissueDrawing {
   Buffer colour_{Buffer::Kind::vertices};
   Buffer triangles_{Buffer::Kind::indices};
   Buffer edges_{Buffer::Kind::indices};
+  Buffer lines_{Buffer::Kind::indices};
+  Buffer beads_{Buffer::Kind::indices};
   bool closed_ = false;
   std::size_t n_triangle_indices_ = 0;
   std::size_t n_edge_indices_ = 0;  // 0: not made yet for this revision
+  std::size_t n_line_indices_ = 0;
+  std::size_t n_bead_indices_ = 0;
 };
 
 }  // namespace palpate::render

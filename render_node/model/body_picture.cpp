@@ -38,6 +38,20 @@ std::vector<std::uint32_t> mean_colours(const Surface& surface) {
   return rgba;
 }
 
+float mean_edge_length(const Surface& surface) {
+  double sum = 0;
+  std::size_t n = 0;
+  for (const auto& c : surface.corners) {
+    if (is_loose(c)) continue;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Eigen::Vector3f a(surface.position[c[i]].data()), b(surface.position[c[(i + 1) % 4]].data());
+      sum += static_cast<double>((a - b).norm());
+      n += c[i] == c[(i + 1) % 4] ? 0 : 1;
+    }
+  }
+  return n > 0 ? static_cast<float>(sum / static_cast<double>(n)) : 0;
+}
+
 }  // namespace
 
 ChunkFate BodyPicture::take(const BodySurface& chunk) {
@@ -56,26 +70,30 @@ void BodyPicture::show(Surface surface) {
   moved_.clear();
   vertex_rgba_ = mean_colours(surface_);
   rebuild_ = all_dirty_ = true;
+  n_facets_ = static_cast<std::size_t>(std::count_if(surface_.corners.begin(), surface_.corners.end(),
+                                                     [](const Corners& c) { return !is_loose(c); }));
   if (first_box_.isEmpty()) {
     for (const auto& p : surface_.position) first_box_.extend(Eigen::Vector3f(p[0], p[1], p[2]));
+    edge_length_ = mean_edge_length(surface_);
   }
   if (held_revision_ == surface_.revision) {
     for (const auto& [number, block] : held_) {
       if (well_formed(block, n)) apply(block);
     }
   }
-  held_.clear();
+  if (held_revision_ <= surface_.revision) held_.clear();
 }
 
 bool BodyPicture::take(const VertexBlock& block) {
-  const auto pending = assembly_.pending_revision();
-  if (pending != 0 && block.revision == pending) {
-    if (held_revision_ != pending) held_.clear();
-    held_revision_ = pending;
+  if (block.revision < surface_.revision) return false;
+  if (block.revision > surface_.revision) {
+    if (block.revision < held_revision_) return false;
+    if (block.revision > held_revision_) held_.clear();
+    held_revision_ = block.revision;
     held_[block.block] = block;
     return true;
   }
-  if (empty() || block.revision != surface_.revision) return false;
+  if (empty()) return false;
   if (!well_formed(block, surface_.position.size())) return false;
   apply(block);
   return true;

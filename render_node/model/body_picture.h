@@ -29,8 +29,8 @@ class BodyPicture {
   /// Takes a chunk; when it completes a newer revision, that becomes the picture.
   ChunkFate take(const BodySurface& chunk);
 
-  /// Moves vertices of the revision shown. A block of the revision being assembled is held until that is whole
-  /// (only changed blocks are sent, so it may not come again).
+  /// Moves vertices of the revision shown. A block of a newer revision is held until that is whole (only changed blocks
+  /// are sent, so it may not come again); blocks may overtake surfaces.
   /// @return false: of another revision or not finite, ignored
   bool take(const VertexBlock& block);
 
@@ -42,12 +42,15 @@ class BodyPicture {
   std::vector<PackedVertex> const& packed() const noexcept { return packed_; }
   std::vector<std::uint32_t> const& vertex_rgba() const noexcept {
     return vertex_rgba_;
-  }  // mean of its facets
-  std::size_t facets_visible() const noexcept { return surface_.corners.size(); }
+  }                                                                  // mean of its facets
+  std::size_t facets_visible() const noexcept { return n_facets_; }  // without elements and masses
   std::size_t facets_total() const noexcept { return facets_visible() + surface_.facets_hidden; }
 
   /// Box round the first revision, so that the view does not jump when something is cut away.
   const Eigen::AlignedBox3f& first_box() const noexcept { return first_box_; }
+
+  /// Mean length of the edges of the first revision; 0 before it came [m].
+  float edge_length() const noexcept { return edge_length_; }
 
   // What changed since clear_dirty(). All: facets, colours and vertices; else ranges of vertices.
   bool all_dirty() const noexcept { return all_dirty_; }
@@ -62,7 +65,7 @@ class BodyPicture {
   void pack(std::size_t vertex);
 
   SurfaceAssembly assembly_;
-  std::map<std::uint32_t, VertexBlock> held_;  // newest of each block of the revision being assembled
+  std::map<std::uint32_t, VertexBlock> held_;  // newest of each block of held_revision_
   std::uint32_t held_revision_ = 0;
 
   Surface surface_;
@@ -71,6 +74,8 @@ class BodyPicture {
   std::vector<std::uint8_t> flags_;         // (n_vertices)
   std::vector<PackedVertex> packed_;        // (n_vertices)
   Eigen::AlignedBox3f first_box_;
+  float edge_length_ = 0;
+  std::size_t n_facets_ = 0;
 
   bool rebuild_ = false;
   std::vector<std::uint32_t> moved_;    // since the last refresh(), each once

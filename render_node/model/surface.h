@@ -12,6 +12,10 @@ namespace palpate::render {
 using Corners =
     std::array<std::uint32_t, 4>;  // counter-clockwise seen from outside; a triangle repeats its last
 
+/// Without an area: an element (a, b, b, b) or a mass (a, a, a, a) that no other facet shows.
+inline bool is_loose(const Corners& c) { return c[1] == c[3]; }
+inline bool is_mass(const Corners& c) { return c[0] == c[1] && is_loose(c); }
+
 struct Surface {
   std::uint32_t body = 0;
   std::uint32_t revision = 0;  // 0: none yet

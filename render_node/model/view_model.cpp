@@ -34,6 +34,7 @@ void ViewModel::take(const ToolWrench& wrench) {
   tool.moment = vec(wrench.moment);
   tool.n_contacts = wrench.n_contacts;
   tool.on_tool.add(wrench.t, tool.force.norm());
+  for (std::size_t axis = 0; axis < 3; ++axis) tool.moment_history[axis].add(wrench.t, wrench.moment[axis]);
   t_ = wrench.t;
 }
 

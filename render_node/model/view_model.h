@@ -10,7 +10,7 @@
 #include "common/message/messages.h"
 #include "common/scene/scene.h"
 #include "render_node/model/body_picture.h"
-#include "render_node/model/force_history.h"
+#include "render_node/model/history.h"
 
 namespace palpate::render {
 
@@ -21,9 +21,10 @@ struct ToolView {
   Vec3 force = Vec3::Zero();   // of the tissue on the tool [N]
   Vec3 moment = Vec3::Zero();  // about the set point [N m]
   std::uint32_t n_contacts = 0;
-  double energy = 0;     // given to the hand so far [J]
-  ForceHistory on_tool;  // magnitude of the tissue's force, against simulated time
-  ForceHistory on_hand;  // magnitude of the device's force, against device time
+  double energy = 0;                      // given to the hand so far [J]
+  History on_tool;                        // magnitude of the tissue's force, against simulated time [N]
+  History on_hand;                        // magnitude of the device's force, against device time [N]
+  std::array<History, 3> moment_history;  // about x, y, z through the set point, against simulated time [N m]
 };
 
 class ViewModel {

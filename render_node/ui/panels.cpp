@@ -4,14 +4,17 @@
 #include <imgui.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string>
 
 #include "common/math/units.h"
-#include "render_node/ui/force_plot.h"
+#include "render_node/ui/history_plot.h"
 
 namespace palpate::render {
 namespace {
+
+constexpr double per_milli = 1e3;
 
 // 1234567 as 1,234,567.
 std::string grouped(std::uint64_t n) {
@@ -29,6 +32,14 @@ void row(const char* what, const std::string& how_much) {
   const float width = ImGui::CalcTextSize(how_much.c_str()).x;
   ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - width);
   ImGui::TextUnformatted(how_much.c_str());
+}
+
+std::string moment_words(const Vec3& moment) {
+  const auto tenths = [](double value) {
+    return std::round(10 * per_milli * value) / 10 + 0.0;
+  };  // no "-0.0"
+  return fmt::format("{:.1f}  {:.1f}  {:.1f} mN m", tenths(moment.x()), tenths(moment.y()),
+                     tenths(moment.z()));
 }
 
 const char* word_for(NodePhase phase) {
@@ -96,9 +107,12 @@ void tool_rows(const Scene& scene, const ViewModel& model, const PanelFacts& fac
     if (!tool.on_hand.empty()) row("force on the hand", fmt::format("{:.2f} N", tool.on_hand.now()));
     if (!tool.on_tool.empty()) {
       row("force by the tissue", fmt::format("{:.2f} N", tool.on_tool.now()));
+      row("moment x, y, z", moment_words(tool.moment));
       row("colliding masses", grouped(tool.n_contacts));
     }
-    if (i == 0) force_plot(tool, 190 * scale);
+    if (i > 0) continue;
+    force_plot(tool, 150 * scale);
+    moment_plot(tool, 130 * scale);
   }
   if (!model.tools().empty() && facts.arrow_metres_per_newton > 0) {
     row("arrow: 1 N is", fmt::format("{:g} mm", mm_from_m(facts.arrow_metres_per_newton)));

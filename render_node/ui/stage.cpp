@@ -2,6 +2,7 @@
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace palpate::render {
@@ -10,7 +11,8 @@ Stage::Stage(const Scene& scene, ViewModel& model, int height)
     : scene_(scene),
       model_(model),
       camera_(scene.render.camera),
-      options_{scene.render.show_tool, scene.render.show_force, scene.render.show_wire},
+      options_{scene.render.show_tool, scene.render.show_force, scene.render.show_wire,
+               scene.render.show_fragments},
       threshold_(scene),
       painter_(scene, model),
       imgui_(height) {}
@@ -19,7 +21,7 @@ PanelWishes Stage::draw(const PanelFacts& facts, int width, int height, float se
   const bool panels = scene_.render.show_panels;
   camera_.set_picture(width, height,
                       panels ? static_cast<int>(std::lround(panel_width * imgui_.scale())) : 0);
-  camera_.fit(model_.box());
+  camera_.fit(box_with_floor());
   painter_.draw(model_, camera_, options_, width, height);
   if (!panels) return {};
   ImGuiIO& io = ImGui::GetIO();
@@ -32,6 +34,13 @@ PanelWishes Stage::draw(const PanelFacts& facts, int width, int height, float se
   ImGui::Render();
   panels_.draw();
   return wishes;
+}
+
+Eigen::AlignedBox3d Stage::box_with_floor() const {
+  Eigen::AlignedBox3d box = model_.box();
+  if (scene_.floor && !box.isEmpty())
+    box.extend(Vec3(box.center().x(), box.center().y(), std::min(box.min().z(), scene_.floor->height)));
+  return box;
 }
 
 }  // namespace palpate::render

@@ -27,6 +27,9 @@ class Stage {
   const Painter& painter() const noexcept { return painter_; }
 
  private:
+  /// Of all bodies as they were first seen, down to the floor: what falls stays in sight.
+  Eigen::AlignedBox3d box_with_floor() const;
+
   const Scene& scene_;
   ViewModel& model_;
   Camera camera_;

@@ -80,12 +80,116 @@ TEST(Picture, IsDarkerWhereTissueHasYielded) {
   const auto elastic = pixel(picture, at), far = pixel(picture, other);
   auto block = block_of(cube, 0, 1, 0);
   for (std::uint32_t v = 0; v < block.n_vertices; ++v) {
-    if (block.position[v][0] > 0) block.flags[v] = vertex_yielded;
+    if (block.position[v][0] > 0) block.flags[v] = vertex_yielded | 63 * vertex_share_one;
   }
   picture.take(block);
   picture.draw(0);
   EXPECT_LT(pixel(picture, at).sum() * 2, elastic.sum());
   EXPECT_LE(difference(pixel(picture, other), far), 2);
+}
+
+TEST(Picture, IsHalfDarkWhereHalfOfTheElementsHaveYielded) {
+  const Scene scene = small_scene();
+  const auto brightness = [&](std::uint8_t flags) {
+    Picture picture(scene);
+    show(picture, cube);
+    auto block = block_of(cube, 0, 1, 0);
+    block.flags.fill(flags);
+    picture.take(block);
+    picture.draw(0);
+    return pixel(picture, *camera_of(scene).project({0.02, -side / 2, 0.01})).sum();
+  };
+  const int light = brightness(vertex_broken), dark = brightness(vertex_yielded | 63 * vertex_share_one);
+  const int half = brightness(vertex_yielded | 32 * vertex_share_one);
+  EXPECT_LT(dark + 100, half);
+  EXPECT_LT(half + 100, light);
+  EXPECT_EQ(light, brightness(0)) << "a mass that lost an element is not darker for that";
+}
+
+// A mass and an element that no facet shows, before the cube.
+test::VoxelSurface cube_and_loose_parts() {
+  auto surface = cube;
+  const auto n = static_cast<std::uint32_t>(surface.position.size());
+  surface.position.insert(surface.position.end(),
+                          {{-0.02F, -0.08F, 0}, {0.01F, -0.08F, -0.01F}, {0.03F, -0.08F, 0.02F}});
+  surface.corners.push_back({n, n, n, n});
+  surface.corners.push_back({n + 1, n + 2, n + 2, n + 2});
+  surface.rgba.insert(surface.rgba.end(), {0xff20c020U, 0xff20c020U});
+  return surface;
+}
+
+TEST(Picture, ShowsMassesAndElementsThatNoFacetShows) {
+  const Scene scene = small_scene();
+  Picture without(scene), with(scene);
+  show(without, cube);
+  show(with, cube);
+  show(with, cube_and_loose_parts(), 2);
+  without.draw(0);
+  with.draw(0);
+  const Camera camera = camera_of(scene);
+  const auto is_green = [](const Eigen::Vector3i& c) { return c.y() > c.x() + 10 && c.y() > c.z() + 10; };
+  EXPECT_TRUE(is_green(pixel(with, *camera.project({-0.02, -0.08, 0})))) << "the mass";
+  EXPECT_GT(pixels_that_differ(without.image(), with.image()), 20);
+  int on_line = 0;
+  for (int i = 1; i < 20; ++i) {
+    const Vec3 p = Vec3(0.01, -0.08, -0.01) + i / 20.0 * Vec3(0.02, 0, 0.03);
+    const auto at = *camera.project(p);
+    bool any = false;
+    for (const double dx : {-1.0, 0.0, 1.0}) any = any || is_green(pixel(with, at + Eigen::Vector2d(dx, 0)));
+    on_line += any ? 1 : 0;
+  }
+  EXPECT_GT(on_line, 15) << "the element";
+  EXPECT_EQ(with.facets_visible(), without.facets_visible());
+}
+
+TEST(Picture, ShowsYieldedElementsAsDarkWires) {
+  Scene scene = small_scene();
+  scene.render.show_wire = true;
+  const auto dark_pixels = [&](std::uint8_t flags) {
+    Picture picture(scene);
+    show(picture, cube);
+    auto block = block_of(cube, 0, 1, 0);
+    block.flags.fill(flags);
+    picture.take(block);
+    picture.draw(0);
+    int dark = 0;
+    for (int y = 0; y < 240; ++y)
+      for (int x = 0; x < 320; ++x) dark += pixel(picture, Eigen::Vector2d(x, y)).maxCoeff() < 110 ? 1 : 0;
+    return dark;
+  };
+  EXPECT_GT(dark_pixels(vertex_yielded | 63 * vertex_share_one), 10 * dark_pixels(0) + 500);
+}
+
+TEST(Picture, ShowsFloorAndWalls) {
+  Scene scene = small_scene();
+  Picture open(scene);
+  scene.walls.push_back({Vec3(0.1, 0, 0), -Vec3::UnitX()});
+  scene.render.camera.yaw = 0.5;
+  Picture walled(scene);
+  scene.walls.clear();
+  Picture turned(scene);
+  scene.floor = FloorSpec{-0.06};
+  Picture floored(scene);
+  for (Picture* picture : {&open, &walled, &turned, &floored}) {
+    show(*picture, cube);
+    picture->draw(0);
+  }
+  EXPECT_GT(pixels_that_differ(turned.image(), walled.image()), 3000);
+  EXPECT_GT(pixels_that_differ(turned.image(), floored.image()), 3000);
+}
+
+TEST(Picture, KeepsTheFloorUnderAFallInSight) {
+  Scene scene = small_scene();
+  scene.floor = FloorSpec{-0.5};
+  Picture picture(scene);
+  show(picture, cube);
+  picture.draw(0);
+  Camera camera(scene.render.camera);
+  camera.set_picture(320, 240, 0);
+  camera.fit({Vec3(-side / 2, -side / 2, -0.5), Vec3::Constant(side / 2)});
+  const auto top = *camera.project({0, -side / 2, 0.03}), bottom = *camera.project({0, -side / 2, -0.5});
+  EXPECT_GT(pixel(picture, top).x(), pixel(picture, top).z() + 15) << "the cube, near the upper edge";
+  EXPECT_LT(bottom.y(), 240);
 }
 
 TEST(Picture, FollowsVerticesThatMove) {

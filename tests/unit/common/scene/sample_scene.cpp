@@ -113,7 +113,7 @@ quiet = true
 size_px = [640, 480]
 camera = { yaw_deg = 90, pitch_deg = 30, distance_mm = 400, target_mm = [0, 0, 10], field_of_view_deg = 45 }
 threshold = 226
-show = ["force", "wire"]
+show = ["force", "wire", "fragments"]
 rate_Hz = 25
 
 [record]

@@ -138,6 +138,7 @@ TEST(SceneReader, ReadsWhatIsSeenAndKept) {
   EXPECT_TRUE(scene.render.show_force);
   EXPECT_FALSE(scene.render.show_panels);
   EXPECT_TRUE(scene.render.show_wire);
+  EXPECT_TRUE(scene.render.show_fragments);
   EXPECT_EQ(scene.render.rate_Hz, 25);
   EXPECT_TRUE(scene.record.positions);
   EXPECT_FALSE(scene.record.forces);

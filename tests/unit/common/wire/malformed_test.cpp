@@ -151,7 +151,7 @@ TEST(MalformedVertexBlock, IsRejectedForItsReason) {
       {"revision zero", R::out_of_range, [](auto& w) { w.revision = 0; }},
       {"NaN time", R::not_finite, [](auto& w) { w.t = nan; }},
       {"NaN position", R::not_finite, [](auto& w) { w.position[w.n_vertices - 1][0] = nan_f; }},
-      {"unknown flag", R::out_of_range, [](auto& w) { w.flags[w.n_vertices - 1] = 4; }},
+      {"a share of nothing that yielded", R::out_of_range, [](auto& w) { w.flags[w.n_vertices - 1] = 4; }},
   });
 }
 

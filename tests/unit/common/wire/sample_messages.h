@@ -97,7 +97,8 @@ inline void randomise(Dice& dice, VertexBlock& m) {
   m.n_vertices = dice.below(max_block_vertices + 1);
   for (std::uint32_t i = 0; i < m.n_vertices; ++i) {
     dice.fill(m.position[i]);
-    m.flags[i] = static_cast<std::uint8_t>(dice.below(4));
+    m.flags[i] = static_cast<std::uint8_t>(dice.below(256));
+    if ((m.flags[i] & vertex_yielded) == 0) m.flags[i] &= vertex_broken;
   }
 }
 inline void randomise(Dice& dice, HapticTrace& m) {

@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string>
 
 #include "tests/unit/deploy/palpate/temporary_folder.h"
 
@@ -36,6 +39,26 @@ TEST(Plotter, DrawsForceAndEnergy) {
   EXPECT_TRUE(draw_plots(folder.path()));
   EXPECT_TRUE(is_png(folder / "force.png"));
   EXPECT_TRUE(is_png(folder / "energy.png"));
+}
+
+TEST(Plotter, DrawsRawCurvesWhereTheTraceHasThem) {
+  const auto drawn = [](const std::string& more_headings, const std::string& more) {
+    const test::TemporaryFolder folder;
+    std::string rows = std::string(heading).substr(0, std::string(heading).size() - 1) + more_headings + "\n";
+    for (int i = 0; i < 50; ++i)
+      rows +=
+          std::to_string(i * 0.1) + ",0,0,0.01,0,0," + std::to_string(0.1 * i) + ",0,0.1,0,3" + more + "\n";
+    folder.write("knife.csv", rows);
+    folder.write("summary.json", R"({"tools": {"knife": {"trace": "knife.csv"}}})");
+    EXPECT_TRUE(draw_plots(folder.path()));
+    std::ifstream file(folder / "force.png", std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  const std::string plain = drawn("", "");
+  const std::string raw =
+      drawn(",raw_fx_N,raw_fy_N,raw_fz_N,raw_mx_Nm,raw_my_Nm,raw_mz_Nm", ",0,0,4,0,0.2,0");
+  EXPECT_EQ(plain, drawn("", ""));
+  EXPECT_NE(plain, raw);
 }
 
 TEST(Plotter, DrawsNothingWhereThereIsNothing) {

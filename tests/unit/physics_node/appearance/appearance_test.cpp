@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
+#include <cstdlib>
 #include <set>
 #include <thread>
 
+#include "physics_node/appearance/colours.h"
 #include "tests/support/image/scratch_folder.h"
 #include "tests/support/physics/made_volume.h"
 #include "tests/support/physics/pressed_world.h"
@@ -87,13 +90,22 @@ TEST(Appearance, LeavesABodyAtRestAlone) {
             1);
 }
 
-TEST(Appearance, ShowsWhatHasYieldedAndBroken) {
+/// A cube that breaks on a floor.
+Recipe falling(const std::string& lattice) {
   Recipe recipe;
+  recipe.lattice = lattice;
   recipe.body = "velocity_m_per_s = [0, 0, -1]";
   recipe.material += "\nyield_ratio = 1.01\nbreak_ratio = 1.15";
   recipe.world = floor_at(-21);
   recipe.physics = "safety = 0.3";
-  World world(scene_of(recipe));
+  return recipe;
+}
+
+class BrokenAppearance : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Lattices, BrokenAppearance, testing::Values("fcc", "voxel"));
+
+TEST_P(BrokenAppearance, ShowsWhatHasYieldedAndBroken) {
+  World world(scene_of(falling(GetParam())));
   Appearance appearance(world, std::nullopt);
   appearance.write_surfaces([](const BodySurface&) {});
   const auto facets_before = appearance.facets_visible();
@@ -103,16 +115,117 @@ TEST(Appearance, ShowsWhatHasYieldedAndBroken) {
   appearance.write_surfaces([&](const BodySurface& chunk) { revision = chunk.revision; });
   EXPECT_EQ(revision, 2u);
   EXPECT_NE(appearance.facets_visible(), facets_before);
-  int yielded = 0, broken = 0;
+  int yielded = 0, broken = 0, dark = 0;
   appearance.write_blocks([&](const VertexBlock& block) {
     EXPECT_EQ(block.revision, 2u);
     for (std::uint32_t n = 0; n < block.n_vertices; ++n) {
       yielded += (block.flags[n] & vertex_yielded) != 0 ? 1 : 0;
+      dark += block.flags[n] >= 63 * vertex_share_one ? 1 : 0;
+      EXPECT_TRUE((block.flags[n] & vertex_yielded) != 0 || block.flags[n] < vertex_share_one);
       broken += (block.flags[n] & vertex_broken) != 0 ? 1 : 0;
     }
   });
-  EXPECT_GT(yielded, 0);
+  EXPECT_GE(yielded, dark);
+  EXPECT_GT(dark, 0);
   EXPECT_GT(broken, 0);
+}
+
+TEST(YieldedShare, CountsLiveElements) {
+  // A mass pushed along x by 0.3 L: of its twelve elements the four behind it are stretched by more than a tenth.
+  Recipe recipe;
+  recipe.shape = Recipe::box(90, 90, 90);
+  recipe.material += "\nyield_ratio = 1.1\nbreak_ratio = 1.5";
+  const auto moving = make_moving_body(body_of(recipe), Precision::double_);
+  const Lattice& lattice = moving->body().lattice;
+  const Index pushed = lattice.mass_at({4, 4, 4}), behind = lattice.mass_at({3, 4, 3});
+  const auto strain = [&](double share) {
+    moving->place(pushed, Vec3(share * lattice.rest_length[0], 0, 0), Vec3::Zero());
+    moving->element_forces_and_integrate({1e-9, Vec3::Zero(), 1, false, true});
+  };
+  EXPECT_EQ(moving->yielded_share(pushed), 0);
+  strain(0.3);
+  EXPECT_DOUBLE_EQ(moving->yielded_share(pushed), 4.0 / 12);
+  EXPECT_DOUBLE_EQ(moving->yielded_share(behind), 1.0 / 12);
+  EXPECT_EQ(moving->yielded_share(lattice.mass_at({5, 4, 5})), 0) << "compressed";
+  strain(0.8);  // those four break, four across are stretched by 1.28
+  EXPECT_DOUBLE_EQ(moving->yielded_share(pushed), 4.0 / 8);
+  EXPECT_EQ(moving->yielded_share(behind), 0);
+}
+
+TEST_P(BrokenAppearance, IsWholeAgainAfterAReset) {
+  World world(scene_of(falling(GetParam())));
+  Appearance appearance(world, std::nullopt);
+  appearance.write_surfaces([](const BodySurface&) {});
+  const auto facets = appearance.facets_visible();
+  for (int n = 0; n < 120; ++n) world.frame({});
+  EXPECT_TRUE(appearance.poll());
+  appearance.write_surfaces([](const BodySurface&) {});
+  EXPECT_NE(appearance.facets_visible(), facets);
+  world.reset();
+  EXPECT_TRUE(appearance.poll());
+  EXPECT_EQ(appearance.facets_visible(), facets);
+  appearance.write_surfaces([](const BodySurface&) {});
+  EXPECT_FALSE(appearance.poll()) << "nothing has broken since";
+}
+
+/// Facets as they are sent, whoever made them.
+std::vector<std::array<std::uint32_t, 4>> sent_facets(Appearance& appearance) {
+  std::vector<std::array<std::uint32_t, 4>> facets;
+  appearance.write_surfaces([&](const BodySurface& chunk) {
+    facets.insert(facets.end(), chunk.corners.begin(), chunk.corners.begin() + chunk.n_facets);
+  });
+  return facets;
+}
+
+TEST_P(BrokenAppearance, IsTheSameFromAThreadOfItsOwn) {
+  World world(scene_of(falling(GetParam())));
+  Appearance at_once(world, std::nullopt), beside(world, std::nullopt, Remake::beside);
+  sent_facets(at_once), sent_facets(beside);
+  for (int n = 0; n < 120; ++n) world.frame({});
+  EXPECT_TRUE(at_once.poll());
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (!beside.poll() && std::chrono::steady_clock::now() < give_up)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_EQ(sent_facets(at_once), sent_facets(beside));
+}
+
+TEST(Appearance, ColoursFragmentsOnRequest) {
+  Scene scene = scene_of(falling("fcc"));
+  scene.render.show_fragments = true;
+  World world(scene);
+  Appearance appearance(world, std::nullopt);
+  const Lattice& lattice = world.body(0).body().lattice;
+  const auto high = [&](Index cell) { return lattice.grid_of(cell).z() > 3; };
+  appearance.colour_by([&](std::size_t, Index cell) { return high(cell) ? 1 : 0; });
+  for (int n = 0; n < 120; ++n) world.frame({});
+  EXPECT_TRUE(appearance.poll());
+  std::set<std::uint32_t> colours;
+  appearance.write_surfaces([&](const BodySurface& chunk) {
+    colours.insert(chunk.rgba.begin(), chunk.rgba.begin() + chunk.n_facets);
+  });
+  EXPECT_EQ(colours, (std::set{body_colour(scene, 0), fragment_colour(1)}));
+}
+
+TEST(Colours, OfFragmentsAreApart) {
+  const auto apart = [](std::uint32_t a, std::uint32_t b) {
+    int sum = 0;
+    for (int shift : {0, 8, 16})
+      sum += std::abs(static_cast<int>(a >> shift & 0xff) - static_cast<int>(b >> shift & 0xff));
+    return sum;
+  };
+  for (std::int32_t a = 0; a < 60; ++a)
+    for (std::int32_t b = a + 1; b < a + 8; ++b)
+      EXPECT_GT(apart(fragment_colour(a), fragment_colour(b)), 60) << a << " and " << b;
+}
+
+TEST(Colours, OfAToolAreThoseOfSteel) {
+  Scene scene = scene_of(Recipe());
+  const std::uint32_t tissue = body_colour(scene, 0);
+  ToolSpec tool;
+  tool.shape = ToolShape::body;
+  tool.body = scene.bodies[0].name;
+  scene.tools.push_back(tool);
+  EXPECT_NE(body_colour(scene, 0), tissue);
 }
 
 TEST(Appearance, FollowsTheThreshold) {

@@ -79,15 +79,17 @@ TEST(VoxelSurface, ShowsOnlyWhatReachesTheThreshold) {
   const std::string path = folder / "made.h5";
   write_volume(made_volume({3, 1, 1}, [](int i, int, int) { return 100.F * static_cast<float>(i + 1); }),
                path);
-  const Body body = build_body(volume_body(path, 50, 400), soft_material());
-  EXPECT_EQ(voxel_surface(body, std::nullopt).facets.size(), 14u);
-  EXPECT_EQ(voxel_surface(body, std::nullopt).hidden, 2u);
-  EXPECT_EQ(voxel_surface(body, 200).facets.size(), 10u);
-  const Surface last = voxel_surface(body, 250);
+  const auto moving =
+      make_moving_body(build_body(volume_body(path, 50, 400), soft_material()), Precision::double_);
+  const auto from = [&](std::optional<double> threshold) { return make_surface(*moving, threshold, 0); };
+  EXPECT_EQ(from(std::nullopt).facets.size(), 14u);
+  EXPECT_EQ(from(std::nullopt).hidden, 2u);
+  EXPECT_EQ(from(200).facets.size(), 10u);
+  const Surface last = from(250);
   EXPECT_EQ(last.facets.size(), 6u);
   EXPECT_EQ(last.hidden, 0u);
   EXPECT_EQ(last.rgba[0], rgba_of(grey_transfer(0, 400), 300));
-  EXPECT_TRUE(voxel_surface(body, 301).facets.empty());
+  EXPECT_TRUE(from(301).facets.empty());
 }
 
 TEST(VoxelSurface, PutsSceneryBehindMovingVertices) {
@@ -96,8 +98,8 @@ TEST(VoxelSurface, PutsSceneryBehindMovingVertices) {
   write_volume(made_volume({6, 3, 3}, [](int, int, int) { return 100.F; }), path);
   BodySpec spec = volume_body(path, 50, 200);
   std::get<VolumeShape>(spec.shape).deformable = {false, {0, 1, 1}, 1};
-  const Body body = build_body(spec, soft_material());
-  const Surface surface = voxel_surface(body, std::nullopt);
+  const auto moving = make_moving_body(build_body(spec, soft_material()), Precision::double_);
+  const Surface surface = make_surface(*moving, std::nullopt, 0);
   expect_closed(surface);
   EXPECT_EQ(surface.facets.size(), 2u * (18 + 18 + 9));
   EXPECT_EQ(surface.n_vertices(), 7u * 16 - 5 * 4);

@@ -46,10 +46,10 @@ TEST(BodyPicture, MovesVerticesOfTheRevisionShownOnly) {
   EXPECT_EQ(picture.packed()[v + 1].flags, vertex_yielded);
 
   block.position[5][2] += 0.01F;
-  for (const std::uint32_t other : {1U, 3U}) {
-    block.revision = other;
-    EXPECT_FALSE(picture.take(block));
-  }
+  block.revision = 1;
+  EXPECT_FALSE(picture.take(block));
+  block.revision = 3;
+  EXPECT_TRUE(picture.take(block)) << "held";
   EXPECT_NE(picture.surface().position[v], block.position[5]);
 }
 
@@ -63,6 +63,32 @@ TEST(BodyPicture, KeepsABlockThatOvertakesItsSurface) {
   EXPECT_EQ(picture.surface().position[3], cube.position[3]);
   picture.take(chunks[1]);
   EXPECT_EQ(picture.surface().position[3], block.position[3]);
+}
+
+TEST(BodyPicture, KeepsABlockThatComesBeforeAnyOfItsSurface) {
+  BodyPicture picture = picture_of(1);
+  auto block = block_of(cube, 0, 3, 0);
+  block.flags[3] = vertex_yielded;
+  EXPECT_TRUE(picture.take(block));
+  block.revision = 2;
+  EXPECT_FALSE(picture.take(block)) << "older than one that is held";
+  for (const std::uint32_t revision : {2U, 3U}) {
+    for (const auto& chunk : chunks_of(cube, 0, revision)) picture.take(chunk);
+    picture.refresh();
+    EXPECT_EQ(picture.packed()[3].flags, revision == 3 ? vertex_yielded : 0);
+  }
+}
+
+TEST(BodyPicture, DoesNotCountElementsAndMassesAsFacets) {
+  auto with_loose = cube_surface(2, 0.1, 0xff0000ffU);
+  const std::size_t facets = with_loose.corners.size();
+  with_loose.corners.push_back({0, 1, 1, 1});
+  with_loose.corners.push_back({5, 5, 5, 5});
+  with_loose.rgba.insert(with_loose.rgba.end(), 2, 0xff0000ffU);
+  BodyPicture picture;
+  for (const auto& chunk : chunks_of(with_loose, 0, 1)) picture.take(chunk);
+  EXPECT_EQ(picture.facets_visible(), facets);
+  EXPECT_NEAR(picture.edge_length(), 0.05, 1e-7);
 }
 
 TEST(BodyPicture, RefusesABlockBeyondItsVertices) {

@@ -19,7 +19,7 @@ TEST(ViewModel, CountsWhatIsAboutNothingKnown) {
   ToolWrench wrench;
   wrench.tool = 9;
   model.take(wrench);
-  model.take(test::block_of(cube, 0, 1, 0));  // before any surface
+  model.take(test::block_of(cube, 1, 1, 0));
   EXPECT_EQ(model.samples_ignored(), 4U);
   EXPECT_FALSE(model.anything_to_see());
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The last ten seconds of a force, thinned to what a plot can show: the largest magnitude of every 10 ms.
+// The last ten seconds of a quantity, thinned to what a plot can show: of every 10 ms the value of largest magnitude.
 
 #include <cstdint>
 #include <deque>
@@ -7,28 +7,28 @@
 
 namespace palpate::render {
 
-class ForceHistory {
+class History {
  public:
   static constexpr double span_s = 10.0;
   static constexpr double bucket_s = 0.01;
 
-  /// Takes a magnitude [N] at time t [s]. A time before the newest one starts the history anew (a reset).
-  void add(double t, double newton);
+  /// Takes a value at time t [s]. A time before the newest one starts the history anew (a reset).
+  void add(double t, double value);
 
   struct Point {
-    double age = 0, newton = 0;
+    double age = 0, value = 0;
   };  // age before the newest bucket [s]
   /// Oldest first.
   std::vector<Point> points() const;
 
   bool empty() const noexcept { return buckets_.empty(); }
-  double now() const noexcept { return now_; }  // newest magnitude [N]
-  double peak() const noexcept;                 // over the span [N]
+  double now() const noexcept { return now_; }  // newest value
+  double peak() const noexcept;                 // largest magnitude over the span
 
  private:
   struct Bucket {
     std::int64_t number = 0;
-    double newton = 0;
+    double value = 0;
   };
   std::deque<Bucket> buckets_;
   double newest_t_ = 0;

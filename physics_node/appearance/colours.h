@@ -1,0 +1,23 @@
+#pragma once
+// The colours of bodies and fragments that have none of their own (0xAABBGGRR).
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+
+#include "common/scene/scene.h"
+#include "physics_node/surface/surface.h"
+
+namespace palpate::physics {
+
+/// Steel for a body that is a tool, otherwise one tint of tissue after the other.
+std::uint32_t body_colour(const Scene& scene, std::size_t body);
+
+/// Well apart from the colours of nearby labels, and always the same for a label. @param label  >= 0
+std::uint32_t fragment_colour(std::int32_t label);
+
+/// Gives every fragment its colour but the one with most masses, which keeps the body's.
+/// @param fragment  label of the fragment that a mass belongs to, by storage cell
+void colour_fragments(const Body& body, const std::function<std::int32_t(Index)>& fragment, Surface& surface);
+
+}  // namespace palpate::physics

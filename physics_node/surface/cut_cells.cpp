@@ -1,0 +1,88 @@
+#include "physics_node/surface/cut_cells.h"
+
+#include "physics_node/body/build_lattice.h"
+
+namespace palpate::physics {
+namespace {
+
+Vec3i corner_of(unsigned bits) {
+  return {static_cast<int>(bits & 1), static_cast<int>(bits >> 1 & 1), static_cast<int>(bits >> 2 & 1)};
+}
+
+unsigned bits_of(const Vec3i& corner) {
+  return static_cast<unsigned>(corner.x() + 2 * corner.y() + 4 * corner.z());
+}
+
+constexpr unsigned whole_cell = 0xFFFF;  // every element lives
+
+}  // namespace
+
+CutCells::CutCells(const Body& body, const LiveElements& live)
+    : cells_(*body.cells), net_(body.lattice, live), shift_(lattice_corner(*body.cells, body.lattice)) {
+  const Lattice& lattice = body.lattice;
+  for (const Index mass : lattice.masses) {
+    if (live.mask(mass) == lattice.mask[static_cast<std::size_t>(mass)]) continue;
+    if (seen_.empty()) {
+      seen_.resize(cells_.filled.size());
+      is_cut_.resize(cells_.filled.size());
+    }
+    const Vec3i at = lattice.grid_of(mass) + shift_;
+    for (unsigned n = 0; n < 8; ++n) {
+      const Vec3i cell = at - corner_of(n);
+      if (!cells_.is_deformable(cell.x(), cell.y(), cell.z())) continue;
+      const std::size_t i = cells_.index(cell.x(), cell.y(), cell.z());
+      if (seen_[i]) continue;
+      seen_[i] = true;
+      const unsigned left = left_of(cell);
+      if (left == whole_cell) continue;
+      is_cut_[i] = true;
+      left_.emplace(i, left);
+      list_.push_back(cell);
+    }
+  }
+}
+
+/// Bits of the tetrahedra that are left, or whole_cell.
+unsigned CutCells::left_of(const Vec3i& cell) const {
+  unsigned left = 0;
+  bool whole = true;
+  for (unsigned n = 0; n < 8; ++n) {
+    const Vec3i corner = cell + corner_of(n);
+    if (!is_odd(corner)) continue;
+    std::array<Vec3i, 3> even;
+    for (unsigned a = 0; a < 3; ++a) even[a] = cell + corner_of(n ^ (1U << a));
+    bool filled = is_triangle(even[0], even[1], even[2]);
+    for (const Vec3i& other : even) filled = net_.joined(corner - shift_, other - shift_) && filled;
+    if (filled) left |= 1U << n;
+    whole = whole && filled;
+  }
+  if (whole) return whole_cell;
+  // The middle tetrahedron: its four faces are those towards the corner tetrahedra.
+  bool filled = true;
+  for (unsigned n = 0; n < 8; ++n) {
+    if (!is_odd(cell + corner_of(n))) continue;
+    filled =
+        filled && is_triangle(cell + corner_of(n ^ 1U), cell + corner_of(n ^ 2U), cell + corner_of(n ^ 4U));
+  }
+  return filled ? left | 1U << middle : left;
+}
+
+bool CutCells::is_cut(const Vec3i& cell) const {
+  return any() && cells_.inside(cell.x(), cell.y(), cell.z()) &&
+         is_cut_[cells_.index(cell.x(), cell.y(), cell.z())];
+}
+
+bool CutCells::corner_filled(const Vec3i& cell, const Vec3i& corner) const {
+  return (left_.at(cells_.index(cell.x(), cell.y(), cell.z())) >> bits_of(corner - cell) & 1) != 0;
+}
+
+bool CutCells::middle_filled(const Vec3i& cell) const {
+  return (left_.at(cells_.index(cell.x(), cell.y(), cell.z())) >> middle & 1) != 0;
+}
+
+bool CutCells::is_triangle(const Vec3i& a, const Vec3i& b, const Vec3i& c) const {
+  return net_.joined(a - shift_, b - shift_) && net_.joined(b - shift_, c - shift_) &&
+         net_.joined(a - shift_, c - shift_);
+}
+
+}  // namespace palpate::physics

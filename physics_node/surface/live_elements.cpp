@@ -1,0 +1,41 @@
+#include "physics_node/surface/live_elements.h"
+
+namespace palpate::physics {
+namespace {
+
+std::size_t key(const Vec3i& delta) {
+  return static_cast<std::size_t>((delta.x() + 1) + 3 * (delta.y() + 1) + 9 * (delta.z() + 1));
+}
+
+}  // namespace
+
+LiveElements::LiveElements(const MovingBody& moving)
+    : mask_(static_cast<std::size_t>(moving.body().lattice.n_cells())) {
+  copy(moving);
+}
+
+void LiveElements::copy(const MovingBody& moving) {
+  for (const Index cell : moving.body().lattice.masses)
+    mask_[static_cast<std::size_t>(cell)] = moving.mask(cell);
+}
+
+LiveNet::LiveNet(const Lattice& lattice, const LiveElements& live) : lattice_(lattice), live_(live) {
+  direction_.fill(-1);
+  const auto directions = all_directions(lattice.kind);
+  for (std::size_t d = 0; d < directions.size(); ++d) direction_[key(directions[d])] = static_cast<int>(d);
+}
+
+bool LiveNet::joined(const Vec3i& a, const Vec3i& b) const {
+  const int d = direction_[key(b - a)];
+  const Index cell = mass(a);
+  return d >= 0 && cell >= 0 && (live_.mask(cell) >> d & 1) != 0;
+}
+
+std::vector<Vec3i> all_directions(LatticeKind kind) {
+  std::vector<Vec3i> directions = half_directions(kind);
+  const std::size_t n_half = directions.size();
+  for (std::size_t d = 0; d < n_half; ++d) directions.emplace_back(-directions[d]);
+  return directions;
+}
+
+}  // namespace palpate::physics

@@ -1,0 +1,47 @@
+#pragma once
+// The live elements of a body at one moment, apart from the body: a thread of its own may make a surface from them while
+// the body moves on.
+
+#include <array>
+#include <vector>
+
+#include "physics_node/body/body.h"
+#include "physics_node/step/moving_body.h"
+#include "physics_node/step/zeroed_array.h"
+
+namespace palpate::physics {
+
+class LiveElements {
+ public:
+  /// Copies the masks of all masses. Cost: one virtual call per mass.
+  explicit LiveElements(const MovingBody& moving);
+  void copy(const MovingBody& moving);
+
+  /// Bit d: the element in direction d lives.
+  Mask mask(Index cell) const { return mask_[static_cast<std::size_t>(cell)]; }
+
+ private:
+  ZeroedArray<Mask> mask_;  // (n_cells)
+};
+
+/// Answers about masses and elements by grid coordinate.
+class LiveNet {
+ public:
+  LiveNet(const Lattice& lattice, const LiveElements& live);
+
+  /// Storage cell of the mass there, -1 where there is none.
+  Index mass(const Vec3i& grid) const { return lattice_.mass_at(grid); }
+  Mask mask(Index cell) const { return live_.mask(cell); }
+  /// Does a live element join two grid points, each of whose coordinates differ by at most one?
+  bool joined(const Vec3i& a, const Vec3i& b) const;
+
+ private:
+  const Lattice& lattice_;
+  const LiveElements& live_;
+  std::array<int, 27> direction_;  // by difference of the coordinates; -1: no direction of this lattice
+};
+
+/// Differences of grid coordinates to the neighbours, by direction.  (2 n_half)
+std::vector<Vec3i> all_directions(LatticeKind kind);
+
+}  // namespace palpate::physics
