@@ -12,9 +12,9 @@ namespace palpate::physics {
 namespace {
 
 constexpr double skin_over_L = 0.4;  // at least; more where one step moves masses by as much
-// A mass that has not left its place by more than this, drift apart, cannot meet another such mass of its body: at rest
-// those that are not joined are at least 1.4 L apart, and L where an element broke.
-constexpr double still_over_L = 0.2;
+// Two masses that have not left their places by more than this, drift apart, do not meet: at rest those that are not joined
+// are 1.4 L apart, L where an element broke, and 0.82 L from a facet that broke off.
+constexpr double still_over_L = 0.1;
 constexpr std::size_t pairs_per_candidate = 24;  // room; a compressed heap of loose masses has fewer
 
 std::size_t count_all(const std::vector<ContactBody>& bodies) {
