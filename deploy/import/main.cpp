@@ -1,4 +1,4 @@
-// palpate-import: an image becomes a volume file. See docs/volume_file.md.
+// palpate-import: an image becomes a volume file, a made brain a folder of slices. See docs/volume_file.md.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -10,6 +10,7 @@
 #include "common/error/error.h"
 #include "common/math/units.h"
 #include "common/record/part_file.h"
+#include "deploy/import/brain_phantom.h"
 #include "deploy/import/import_image.h"
 #include "deploy/import/in_child.h"
 
@@ -20,6 +21,7 @@ using namespace palpate;
 struct Command {
   ImportOptions options;
   std::string out;
+  bool brain = false;  // a folder of slices, no volume
   bool quiet = false;
 };
 
@@ -34,10 +36,12 @@ Command parse(CLI::App& app, int argc, char** argv) {
   auto* image = app.add_option("image", command.options.input,
                                ".inv3, .nii[.gz], .nrrd, .mha, .raw, .inr, or a DICOM file or folder");
   auto* phantom_option =
-      app.add_option("--phantom", phantom, "instead of an image: a made angiogram (size 336,336,140)")
-          ->check(CLI::IsMember({"aneurysm"}))
+      app.add_option(
+             "--phantom", phantom,
+             "instead of an image: a made angiogram (size 336,336,140), or a brain as PNG slices in a folder")
+          ->check(CLI::IsMember({"aneurysm", "brain"}))
           ->excludes(image);
-  app.add_option("--out", command.out, "the volume to write")->required();
+  app.add_option("--out", command.out, "the volume to write; of a brain, the folder")->required();
   app.add_option("--size", size, "raw, phantom: cells nx,ny,nz")->delimiter(',')->expected(3);
   app.add_option("--spacing-mm", spacing_mm, "raw: spacing x,y,z")
       ->delimiter(',')
@@ -51,8 +55,12 @@ Command parse(CLI::App& app, int argc, char** argv) {
   app.add_option("--transfer", command.options.transfer, "colours")->check(CLI::IsMember({"ct", "grey"}));
   app.add_flag("--quiet", command.quiet, "say nothing when all is well");
   app.parse(argc, argv);
-  if (image->empty() && phantom.empty()) throw CLI::RequiredError("image, or --phantom aneurysm");
+  if (image->empty() && phantom.empty()) throw CLI::RequiredError("image, or --phantom aneurysm or brain");
   command.options.phantom = !phantom.empty();
+  command.brain = phantom == "brain";
+  if (command.brain && (!size.empty() || !partition.empty() || !command.options.transfer.empty()))
+    throw CLI::ValidationError("--phantom brain",
+                               "is slices of one size; leave out --size, --partition and --transfer");
   if (command.options.phantom) command.options.input = "phantom " + phantom;
   if (!size.empty()) command.options.raw.size = {size[0], size[1], size[2]};
   if (!spacing_mm.empty()) command.options.raw.spacing = Eigen::Vector3d(spacing_mm.data()) * m_from_mm(1);
@@ -76,9 +84,22 @@ void report(const Command& command, const Volume& volume) {
              mm_from_m(volume.spacing[1]), mm_from_m(volume.spacing[2]), *lo, *hi, command.out);
 }
 
+void make_brain(const Command& command) {
+  write_brain_phantom(command.out);
+  if (command.quiet) return;
+  fmt::print(
+      "phantom brain: {} slices of {} x {} pixels, pixel_mm = [{}, {}], plane_mm = {}, written to "
+      "{}/slice_*.png\n",
+      brain_planes, brain_width, brain_height, brain_pixel_mm, brain_pixel_mm, brain_plane_mm, command.out);
+}
+
 /// All but the command line. Prints what is wrong, one line a mistake, and gives the exit code.
 int import(const Command& command) {
   try {
+    if (command.brain) {
+      make_brain(command);
+      return exit_ok;
+    }
     check_output(command);
     const Volume volume = import_image(command.options);
     write_volume(volume, command.out);

@@ -7,6 +7,7 @@
 #include "common/math/hash.h"
 #include "common/math/units.h"
 #include "common/record/volume_check.h"
+#include "deploy/import/phantom_noise.h"
 
 namespace palpate {
 namespace {
@@ -21,7 +22,6 @@ constexpr double margin = 1.5;      // how far outside a wall distances are kept
 constexpr double neck_blend = 1.0;  // over this length the sac grows out of its vessel
 
 constexpr double tissue = 60, tissue_swing = 10, lumen = 400, lumen_fade = 30, noise = 8;  // intensities
-constexpr std::uint64_t seed = 0x5eed5eed;
 
 struct Disc {
   Vector3d centre;
@@ -114,20 +114,6 @@ class Walls {
   std::array<int, 3> size_;
   std::vector<float> distance_;  // to the nearest wall, negative inside
 };
-
-/// Nearly normal, of unit variance, from the cell's place alone: the sum of four uniform numbers.
-double noise_at(int i, int j, int k) {
-  std::uint64_t x = seed;
-  for (const int n : {i, j, k}) {  // splitmix64
-    x += 0x9e3779b97f4a7c15ULL + static_cast<std::uint64_t>(static_cast<std::int64_t>(n));
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
-    x ^= x >> 31;
-  }
-  double sum = 0;
-  for (int n = 0; n < 4; ++n) sum += static_cast<double>(x >> (16 * n) & 0xffffU) / 65536.0 - 0.5;
-  return sum * std::numbers::sqrt3;
-}
 
 double intensity_at(const Vector3d& p, double distance) {
   // Tissue is uneven over centimetres; blood that has been in the slab for long, far from the middle, is darker.

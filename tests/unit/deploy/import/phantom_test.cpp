@@ -88,7 +88,7 @@ TEST(AneurysmPhantom, IsNotMixedUpWithAnImage) {
     return outcome.err;
   };
   EXPECT_THAT(complaint({}), HasSubstr("image, or --phantom aneurysm"));
-  EXPECT_THAT(complaint({"--phantom", "brain"}), HasSubstr("aneurysm"));
+  EXPECT_THAT(complaint({"--phantom", "heart"}), HasSubstr("aneurysm"));
   EXPECT_THAT(complaint({"scan.nii", "--phantom", "aneurysm"}), HasSubstr("excludes"));
   EXPECT_THAT(complaint({"--phantom", "aneurysm", "--spacing-mm", "1,1,1"}), HasSubstr("excludes"));
   EXPECT_THAT(complaint({"--phantom", "aneurysm", "--size", "0,3,3"}), HasSubstr("--size"));
