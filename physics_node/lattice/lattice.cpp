@@ -65,6 +65,12 @@ int Lattice::row_kind(Index cell) const {
   return 2 * static_cast<int>(cell % pitch >= pitch / 2) + parity;
 }
 
+Index Lattice::row_of(Index cell) const {
+  const auto after = std::upper_bound(rows.begin(), rows.end(), cell,
+                                      [](Index c, const RowSegment& row) { return c < row.first; });
+  return static_cast<Index>(after - rows.begin()) - 1;
+}
+
 bool Lattice::leads_up(int d) const {
   const auto n = static_cast<std::size_t>(d % n_half);
   return d < n_half && half_directions(kind)[n].z() > 0;

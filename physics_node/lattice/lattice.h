@@ -68,6 +68,8 @@ struct Lattice {
   /// From the rest position of a storage cell to that of the next one in its row [m].
   Vec3 along_row() const { return axes.col(0) * (2 * step.x()); }
   int row_kind(Index cell) const;
+  /// The row that holds a mass: the last that begins at or before it.
+  Index row_of(Index cell) const;
   /// Does direction d lead to the next plane of z?
   bool leads_up(int d) const;
 };

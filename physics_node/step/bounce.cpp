@@ -1,5 +1,7 @@
 #include "physics_node/step/bounce.h"
 
+#include "physics_node/step/damper_impulse.h"
+
 namespace palpate::physics {
 namespace {
 
@@ -31,6 +33,8 @@ Bounces bounce(const Body& body, LatticeState<Real>& state, const Three<Real>& m
       const double v_n = 0.5 * plane.n.dot(v_move + vector_of(before, c));
       if (v_n >= 0) continue;
       const double dv = -(1 + e) * v_n;
+      const auto cell = static_cast<Index>(c);
+      state.ledger[r].viscous -= booked_too_much(body, state, cell, dv * plane.n, dt, verlet);
       for (std::size_t a = 0; a < 3; ++a) {
         const Real d = static_cast<Real>(dv * plane.n[static_cast<Eigen::Index>(a)]);
         state.v[a][c] += d;

@@ -5,6 +5,7 @@
 
 #include "common/math/hash.h"
 #include "physics_node/step/bounce.h"
+#include "physics_node/step/damper_impulse.h"
 #include "physics_node/step/element_step.h"
 #include "physics_node/step/measure.h"
 #include "physics_node/step/saved_state.h"
@@ -77,6 +78,7 @@ class LatticeBody final : public MovingBody {
     const bool verlet = state_.v_half[0].size() > 0;
     momentum_.push(dv / static_cast<double>(state_.inverse_mass[c]), position(cell) - dt * vector_of(moving_velocity(), cell),
                    dt);
+    if (dt > 0) state_.ledger[static_cast<std::size_t>(body_.lattice.row_of(cell))].viscous -= booked_too_much(body_, state_, cell, dv, dt, verlet);
     for (std::size_t a = 0; a < 3; ++a) {
       const double d = dv[static_cast<Eigen::Index>(a)];
       state_.v[a][c] += static_cast<Real>(d);

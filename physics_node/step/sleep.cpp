@@ -11,13 +11,6 @@ constexpr double balanced = 0.02;   // [m/s^2]
 constexpr double disturbed = 0.08;  // [m/s^2]
 constexpr float patience = 0.2F;    // [s]
 
-/// The row that holds a cell: the last that begins at or before it.
-Index row_of(const Lattice& lattice, Index cell) {
-  const auto after = std::upper_bound(lattice.rows.begin(), lattice.rows.end(), cell,
-                                      [](Index c, const RowSegment& row) { return c < row.first; });
-  return static_cast<Index>(after - lattice.rows.begin()) - 1;
-}
-
 std::vector<Index> rows_beside(const Lattice& lattice, const RowSegment& row) {
   std::vector<Index> beside;
   for (std::size_t d = 0; d < static_cast<std::size_t>(2 * lattice.n_half); ++d) {
@@ -26,7 +19,7 @@ std::vector<Index> rows_beside(const Lattice& lattice, const RowSegment& row) {
       if ((lattice.mask[static_cast<std::size_t>(i)] >> d & 1) == 0) continue;
       const Index other = i + lattice.offset[static_cast<std::size_t>(row.kind)][d];
       if (other < end) continue;
-      beside.push_back(row_of(lattice, other));
+      beside.push_back(lattice.row_of(other));
       const RowSegment& found = lattice.rows[static_cast<std::size_t>(beside.back())];
       end = found.first + found.count;
     }
@@ -123,7 +116,7 @@ void Sleep::look(const Body& body, LatticeState<Real>& state, double seconds) no
 template <class Real>
 void Sleep::wake_cell(const Body& body, LatticeState<Real>& state, Index cell) noexcept {
   if (!any_asleep()) return;
-  const auto r = static_cast<std::size_t>(row_of(body.lattice, cell));
+  const auto r = static_cast<std::size_t>(body.lattice.row_of(cell));
   if (state.row_state[r] == RowState::awake) {
     disturb(state, r);
     return;
