@@ -65,8 +65,6 @@ struct Lattice {
   Vec3 rest_position(Index cell) const {
     return origin + axes * step.cwiseProduct(grid_of(cell).cast<double>());
   }
-  /// From the rest position of a storage cell to that of the next one in its row [m].
-  Vec3 along_row() const { return axes.col(0) * (2 * step.x()); }
   int row_kind(Index cell) const;
   /// The row that holds a mass: the last that begins at or before it.
   Index row_of(Index cell) const;
