@@ -143,7 +143,7 @@ INSTANTIATE_TEST_SUITE_P(Views, SceneMistakes, testing::ValuesIn(std::vector<Mis
     {"size_px = [640, 480]", "size_px = [640, 0]", "100:17", "write a whole number from 16 to 8192"},
     {"pitch_deg = 30", "pitch_deg = 91", "101:38", "\"pitch_deg\" in camera of [render] is 91; write a number from -90 to 90"},
     {"threshold = 226", "threshold = \"bone\"", "102:13", "write a finite number"},
-    {"\"wire\"", "\"wires\"", "103:18", "write \"tool\", \"force\", \"panels\" or \"wire\""},
+    {"\"wire\"", "\"wires\"", "103:18", "write \"tool\", \"force\", \"panels\", \"wire\" or \"fragments\""},
     {"what = [\"positions\"]", "what = \"positions\"", "107:8", "write a list of \"positions\", \"forces\" and \"energy\""},
 }));
 
