@@ -78,7 +78,8 @@ TEST(Appearance, WritesOnlyBlocksThatMoved) {
 TEST(Appearance, LeavesABodyAtRestAlone) {
   Recipe recipe;
   recipe.world =
-      "[[body]]\nname = \"flying\"\nspacing_mm = 10\nmaterial = \"m\"\nvelocity_m_per_s = [0, 0, 1]\n" +
+      "[[body]]\nname = \"flying\"\nspacing_mm = 10\nmaterial = \"m\"\n"
+      "at_mm = [500, 0, 0]\nvelocity_m_per_s = [0, 0, 1]\n" +
       Recipe::sphere(30);
   World world(scene_of(recipe));
   Appearance appearance(world, std::nullopt);
