@@ -54,10 +54,9 @@ Surface Appearance::make(std::size_t body) const {
 void Appearance::show(std::size_t body, Surface surface) {
   View& view = views_[body];
   view.surface = std::move(surface);
-  if (fragment_ && world_.scene().render.show_fragments) {
-    const auto label = [&](Index cell) { return fragment_(body, cell); };
-    colour_fragments(world_.body(body).body(), label, view.surface);
-  }
+  const Fragments* fragments = world_.fragments(body);
+  if (fragments != nullptr && world_.scene().render.show_fragments)
+    colour_fragments(*fragments, view.surface);
   ++view.revision;
   view.published = false;
   view.sent.assign(view.surface.n_moving(), Array3f{NAN, NAN, NAN});

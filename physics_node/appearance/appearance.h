@@ -26,10 +26,6 @@ class Appearance {
   /// Shows tissue from another intensity on; poll() takes the new surfaces.
   void set_threshold(double threshold);
 
-  /// Which fragment of a body a mass belongs to; what is shown from now on is coloured by it where the scene asks for that.
-  using FragmentOf = std::function<std::int32_t(std::size_t body, Index cell)>;
-  void colour_by(FragmentOf fragment) { fragment_ = std::move(fragment); }
-
   /// Takes finished surfaces, and follows elements that broke or came back: of each body that has such, a copy of its live
   /// elements goes into a new surface. Costs next to nothing where none has. Allocates: not for inside a frame.
   /// @return true if write_surfaces has something new
@@ -71,7 +67,6 @@ class Appearance {
   std::optional<double> threshold_;  // of the surfaces shown or being made
   std::optional<double> wanted_;     // threshold asked for since
   Remake how_;
-  FragmentOf fragment_;
   std::int64_t restored_ = 0;  // how often the guard had gone back when surfaces were last looked at
   std::unique_ptr<BodySurface> chunk_ = std::make_unique<BodySurface>();
   std::unique_ptr<VertexBlock> block_ = std::make_unique<VertexBlock>();

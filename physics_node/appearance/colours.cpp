@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 
 namespace palpate::physics {
 namespace {
@@ -37,17 +36,14 @@ std::uint32_t fragment_colour(std::int32_t label) {
   return packed(channel(0), channel(2.0 / 3), channel(1.0 / 3));
 }
 
-void colour_fragments(const Body& body, const std::function<std::int32_t(Index)>& fragment,
-                      Surface& surface) {
-  std::map<std::int32_t, Index> masses_of;
-  for (const Index mass : body.lattice.masses) ++masses_of[fragment(mass)];
-  const auto largest = std::max_element(masses_of.begin(), masses_of.end(),
-                                        [](const auto& a, const auto& b) { return a.second < b.second; });
+void colour_fragments(const Fragments& fragments, Surface& surface) {
+  const auto& masses = fragments.masses();
+  const auto largest = std::max_element(masses.begin(), masses.end()) - masses.begin();
   for (std::size_t f = 0; f < surface.facets.size(); ++f) {
     const std::uint32_t corner = surface.facets[f][0];
     if (corner >= surface.n_moving()) continue;  // scenery
-    const std::int32_t label = fragment(surface.cell[corner]);
-    if (label != largest->first) surface.rgba[f] = fragment_colour(label);
+    const Index label = fragments.label(surface.cell[corner]);
+    if (label != largest) surface.rgba[f] = fragment_colour(label);
   }
 }
 

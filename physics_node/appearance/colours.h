@@ -3,9 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 
 #include "common/scene/scene.h"
+#include "physics_node/fragments/fragments.h"
 #include "physics_node/surface/surface.h"
 
 namespace palpate::physics {
@@ -17,7 +17,6 @@ std::uint32_t body_colour(const Scene& scene, std::size_t body);
 std::uint32_t fragment_colour(std::int32_t label);
 
 /// Gives every fragment its colour but the one with most masses, which keeps the body's.
-/// @param fragment  label of the fragment that a mass belongs to, by storage cell
-void colour_fragments(const Body& body, const std::function<std::int32_t(Index)>& fragment, Surface& surface);
+void colour_fragments(const Fragments& fragments, Surface& surface);
 
 }  // namespace palpate::physics

@@ -11,30 +11,39 @@ Vec3i axis(int a, int sign) {
   return e;
 }
 
+constexpr Mask every_element = 0xFFF;
+
+Vec3i corner_of(int n) { return axis(n / 2, n % 2 == 0 ? -1 : 1); }
+
 /// One octahedral site and the eight tetrahedra on its faces.
 struct Site {
   Vec3i centre;
   std::array<bool, 6> present{};  // masses at -x +x -y +y -z +z
+  std::array<Mask, 6> mask{};     // their live elements
   int n_present = 0;
   bool filled = false;  // at least five masses, every element between them alive
+  bool deep = false;    // all six masses with every element: nothing to see
+
+  Mask mask_at(int a, int sign) const { return mask[static_cast<std::size_t>(2 * a + (sign > 0 ? 1 : 0))]; }
 };
 
 Site look_at(const LiveNet& net, const Vec3i& centre) {
-  Site site{centre, {}, 0, false};
+  Site site{centre, {}, {}, 0, false, true};
   for (int n = 0; n < 6; ++n) {
-    site.present[static_cast<std::size_t>(n)] = net.mass(centre + axis(n / 2, n % 2 == 0 ? -1 : 1)) >= 0;
-    site.n_present += site.present[static_cast<std::size_t>(n)] ? 1 : 0;
+    const auto i = static_cast<std::size_t>(n);
+    const Index cell = net.mass(centre + corner_of(n));
+    site.present[i] = cell >= 0;
+    site.n_present += cell >= 0 ? 1 : 0;
+    site.mask[i] = cell >= 0 ? net.mask(cell) : 0;
+    site.deep = site.deep && site.mask[i] == every_element;
   }
-  if (site.n_present < 5) return site;
+  if (site.n_present < 5 || site.deep) return site;
   site.filled = true;
   for (int n = 0; n < 6; ++n)
     for (int o = n + 1; o < 6; ++o) {
-      if (n / 2 == o / 2 || !site.present[static_cast<std::size_t>(n)] ||
-          !site.present[static_cast<std::size_t>(o)])
-        continue;
-      const Vec3i a = centre + axis(n / 2, n % 2 == 0 ? -1 : 1);
-      const Vec3i b = centre + axis(o / 2, o % 2 == 0 ? -1 : 1);
-      site.filled = site.filled && net.joined(a, b);
+      const auto i = static_cast<std::size_t>(n);
+      if (n / 2 == o / 2 || !site.present[i] || !site.present[static_cast<std::size_t>(o)]) continue;
+      site.filled = site.filled && net.alive(site.mask[i], corner_of(o) - corner_of(n));
     }
   return site;
 }
@@ -45,11 +54,14 @@ class Builder {
 
   /// The triangle in the octant `s` of a site, between its octahedron and the tetrahedron beyond.
   void triangle(const Site& site, const Vec3i& s) {
-    const std::array<Vec3i, 3> p{site.centre + axis(0, s.x()), site.centre + axis(1, s.y()),
-                                 site.centre + axis(2, s.z())};
-    if (!net_.joined(p[0], p[1]) || !net_.joined(p[1], p[2]) || !net_.joined(p[0], p[2])) return;
-    const Vec3i apex = site.centre + s;
-    const bool tetrahedron = net_.joined(p[0], apex) && net_.joined(p[1], apex) && net_.joined(p[2], apex);
+    const std::array<Vec3i, 3> e{axis(0, s.x()), axis(1, s.y()), axis(2, s.z())};
+    const std::array<Mask, 3> mask{site.mask_at(0, s.x()), site.mask_at(1, s.y()), site.mask_at(2, s.z())};
+    const std::array<Vec3i, 3> p{site.centre + e[0], site.centre + e[1], site.centre + e[2]};
+    if (!net_.alive(mask[0], e[1] - e[0]) || !net_.alive(mask[1], e[2] - e[1]) ||
+        !net_.alive(mask[0], e[2] - e[0]))
+      return;
+    bool tetrahedron = true;
+    for (std::size_t n = 0; n < 3; ++n) tetrahedron = tetrahedron && net_.alive(mask[n], s - e[n]);
     if (tetrahedron && site.filled) {
       ++surface.hidden;
       return;
@@ -109,6 +121,10 @@ Surface fcc_surface(const Body& body, const LiveElements& live, std::uint32_t rg
         if (((x + y + z) & 1) == 0) continue;  // octahedral sites are the points between the masses
         const Site site = look_at(net, {x, y, z});
         if (site.n_present < 3) continue;
+        if (site.deep) {
+          builder.surface.hidden += 8;
+          continue;
+        }
         for (int octant = 0; octant < 8; ++octant)
           builder.triangle(site, {octant & 1 ? 1 : -1, octant & 2 ? 1 : -1, octant & 4 ? 1 : -1});
         builder.square(site);

@@ -1,14 +1,6 @@
 #include "physics_node/surface/live_elements.h"
 
 namespace palpate::physics {
-namespace {
-
-std::size_t key(const Vec3i& delta) {
-  return static_cast<std::size_t>((delta.x() + 1) + 3 * (delta.y() + 1) + 9 * (delta.z() + 1));
-}
-
-}  // namespace
-
 LiveElements::LiveElements(const MovingBody& moving)
     : mask_(static_cast<std::size_t>(moving.body().lattice.n_cells())) {
   copy(moving);
@@ -26,9 +18,8 @@ LiveNet::LiveNet(const Lattice& lattice, const LiveElements& live) : lattice_(la
 }
 
 bool LiveNet::joined(const Vec3i& a, const Vec3i& b) const {
-  const int d = direction_[key(b - a)];
   const Index cell = mass(a);
-  return d >= 0 && cell >= 0 && (live_.mask(cell) >> d & 1) != 0;
+  return cell >= 0 && alive(live_.mask(cell), b - a);
 }
 
 std::vector<Vec3i> all_directions(LatticeKind kind) {

@@ -32,10 +32,18 @@ class LiveNet {
   /// Storage cell of the mass there, -1 where there is none.
   Index mass(const Vec3i& grid) const { return lattice_.mass_at(grid); }
   Mask mask(Index cell) const { return live_.mask(cell); }
+  /// Is the element from a mass with this mask to the place that differs by `delta` alive?
+  bool alive(Mask mask, const Vec3i& delta) const {
+    const int d = direction_[key(delta)];
+    return d >= 0 && (mask >> d & 1) != 0;
+  }
   /// Does a live element join two grid points, each of whose coordinates differ by at most one?
   bool joined(const Vec3i& a, const Vec3i& b) const;
 
  private:
+  static std::size_t key(const Vec3i& delta) {
+    return static_cast<std::size_t>((delta.x() + 1) + 3 * (delta.y() + 1) + 9 * (delta.z() + 1));
+  }
   const Lattice& lattice_;
   const LiveElements& live_;
   std::array<int, 27> direction_;  // by difference of the coordinates; -1: no direction of this lattice

@@ -60,7 +60,7 @@ void expect_all_rejected(const std::vector<Case<M>>& cases) {
 
 TEST(MalformedToolState, IsRejectedForItsReason) {
   expect_all_rejected<ToolState>({
-      {"other version", R::version, [](auto& w) { w.version = 2; }},
+      {"other version", R::version, [](auto& w) { w.version = wire_version + 1; }},
       {"tool beyond the last", R::unknown_id, [](auto& w) { w.tool = max_tools; }},
       {"NaN position", R::not_finite, [](auto& w) { w.p_WT[2] = nan; }},
       {"infinite velocity", R::not_finite, [](auto& w) { w.v_WT[0] = inf; }},

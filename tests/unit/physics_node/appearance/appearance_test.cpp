@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdlib>
@@ -77,7 +78,8 @@ TEST(Appearance, WritesOnlyBlocksThatMoved) {
 TEST(Appearance, LeavesABodyAtRestAlone) {
   Recipe recipe;
   recipe.world =
-      "[[body]]\nname = \"flying\"\nspacing_mm = 10\nmaterial = \"m\"\nvelocity_m_per_s = [0, 0, 1]\n" +
+      "[[body]]\nname = \"flying\"\nspacing_mm = 10\nmaterial = \"m\"\n"
+      "at_mm = [500, 0, 0]\nvelocity_m_per_s = [0, 0, 1]\n" +
       Recipe::sphere(30);
   World world(scene_of(recipe));
   Appearance appearance(world, std::nullopt);
@@ -189,21 +191,32 @@ TEST_P(BrokenAppearance, IsTheSameFromAThreadOfItsOwn) {
   EXPECT_EQ(sent_facets(at_once), sent_facets(beside));
 }
 
-TEST(Appearance, ColoursFragmentsOnRequest) {
-  Scene scene = scene_of(falling("fcc"));
-  scene.render.show_fragments = true;
-  World world(scene);
-  Appearance appearance(world, std::nullopt);
-  const Lattice& lattice = world.body(0).body().lattice;
-  const auto high = [&](Index cell) { return lattice.grid_of(cell).z() > 3; };
-  appearance.colour_by([&](std::size_t, Index cell) { return high(cell) ? 1 : 0; });
-  for (int n = 0; n < 120; ++n) world.frame({});
-  EXPECT_TRUE(appearance.poll());
-  std::set<std::uint32_t> colours;
-  appearance.write_surfaces([&](const BodySurface& chunk) {
-    colours.insert(chunk.rgba.begin(), chunk.rgba.begin() + chunk.n_facets);
-  });
-  EXPECT_EQ(colours, (std::set{body_colour(scene, 0), fragment_colour(1)}));
+TEST_P(BrokenAppearance, ColoursFragmentsOnRequest) {
+  const auto colours_of = [&](bool asked) {
+    Recipe recipe = falling(GetParam());
+    recipe.body = "velocity_m_per_s = [0, 0, -3]";
+    Scene scene = scene_of(recipe);
+    scene.render.show_fragments = asked;
+    World world(scene);
+    Appearance appearance(world, std::nullopt);
+    for (int n = 0; n < 120; ++n) world.frame({});
+    EXPECT_GT(world.fragments(0)->count(), 2);
+    appearance.poll();
+    std::set<std::uint32_t> colours;
+    appearance.write_surfaces([&](const BodySurface& chunk) {
+      colours.insert(chunk.rgba.begin(), chunk.rgba.begin() + chunk.n_facets);
+    });
+    // Every fragment is in sight, the smallest as particles; the largest keeps the colour of the body.
+    const auto& masses = world.fragments(0)->masses();
+    const auto largest = std::max_element(masses.begin(), masses.end()) - masses.begin();
+    std::set<std::uint32_t> expected{body_colour(scene, 0)};
+    for (Index label = 0; asked && label < world.fragments(0)->count(); ++label)
+      if (label != largest) expected.insert(fragment_colour(label));
+    EXPECT_EQ(colours, expected);
+    return colours;
+  };
+  EXPECT_EQ(colours_of(false).size(), 1u);
+  EXPECT_GT(colours_of(true).size(), 2u);
 }
 
 TEST(Colours, OfFragmentsAreApart) {
