@@ -1,16 +1,18 @@
 #include "physics_node/report/physics_summary.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/math/hash.h"
 #include "common/report/commit.h"
+#include "physics_node/fragments/outcome.h"
 
 namespace palpate::physics {
 namespace {
 
 nlohmann::json triple(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
 
-nlohmann::json body_part(const MovingBody& moving) {
+nlohmann::json body_part(const MovingBody& moving, const Fragments* fragments) {
   const BodyCounts counts = moving.counts();
   const auto n_masses = static_cast<double>(moving.body().lattice.n_masses());
   const auto elements = static_cast<double>(std::max<std::int64_t>(counts.elements, 1));
@@ -24,6 +26,13 @@ nlohmann::json body_part(const MovingBody& moving) {
                          {"sleeping_fraction", moving.sleeping_fraction()}};
   if (any_yields(moving.body()))
     part["yielded_fraction"] = static_cast<double>(counts.yielded_masses) / n_masses;
+  const OutcomeMeasures measures = measure_outcome(moving, fragments);
+  part["outcome"] = name_of(classify(measures));
+  if (fragments != nullptr) {
+    part["fragments"] = measures.fragments;
+    part["largest_fragment"] = measures.largest;
+    if (measures.fragments > 1) part["second_fragment"] = measures.second;
+  }
   if (moving.body().cells) {
     part["voxels"] = moving.body().cells->n_filled();
     part["deformable_voxels"] = moving.body().cells->n_deformable();
@@ -31,14 +40,42 @@ nlohmann::json body_part(const MovingBody& moving) {
   return part;
 }
 
+/// Can its momentum be known from what is booked?
+bool keeps_momentum(const Body& body) {
+  return body.n_held == 0 && body.handle.empty() &&
+         std::all_of(body.laws.begin(), body.laws.end(), [](const ElementLaw& law) {
+           return law.drag == 0 && (!law.damped || law.damper == Damper::axial);
+         });
+}
+
+/// By how much the momenta differ from what was put in; only where all bodies are free.
+void add_momentum_errors(const World& world, nlohmann::json& part) {
+  MomentumBalance sum;
+  for (std::size_t b = 0; b < world.n_bodies(); ++b) {
+    if (!keeps_momentum(world.body(b).body())) return;
+    const MomentumBalance one = world.body(b).momentum_balance();
+    sum.missing.linear += one.missing.linear;
+    sum.missing.angular += one.missing.angular;
+    sum.linear += one.linear;
+    sum.angular += one.angular;
+  }
+  part["linear_error"] = sum.linear > 0 ? sum.missing.linear.norm() / sum.linear : 0.0;
+  part["angular_error"] = sum.angular > 0 ? sum.missing.angular.norm() / sum.angular : 0.0;
+}
+
 nlohmann::json energy_part(const EnergyLedger& ledger) {
-  return {{"kinetic", ledger.kinetic},     {"elastic", ledger.elastic},
-          {"dissipated", ledger.dissipated}, {"gravitational", ledger.gravitational},
-          {"plastic", ledger.plastic},     {"broken", ledger.broken},
-          {"tool_work", ledger.tool_work}, {"guard", ledger.guard},
+  return {{"kinetic", ledger.kinetic},
+          {"elastic", ledger.elastic},
+          {"dissipated", ledger.dissipated},
+          {"gravitational", ledger.gravitational},
+          {"plastic", ledger.plastic},
+          {"broken", ledger.broken},
+          {"tool_work", ledger.tool_work},
+          {"guard", ledger.guard},
           {"contact", ledger.contact},
           {"numerical", ledger.numerical},
-          {"exchanged", ledger.exchanged}, {"balance_error", ledger.balance_error()}};
+          {"exchanged", ledger.exchanged},
+          {"balance_error", ledger.balance_error()}};
 }
 
 nlohmann::json stages_part(const StepReport& report) {
@@ -84,13 +121,14 @@ nlohmann::json physics_summary(const World& world, const Recorder* recorder, dou
   Momenta momenta;
   for (std::size_t b = 0; b < world.n_bodies(); ++b) {
     const MovingBody& moving = world.body(b);
-    part["bodies"][moving.body().name] = body_part(moving);
+    part["bodies"][moving.body().name] = body_part(moving, world.fragments(b));
     const Momenta p = moving.momenta();
     momenta.linear += p.linear;
     momenta.angular += p.angular;
   }
   part["energy"] = energy_part(world.ledger());
   part["momentum"] = {{"linear", triple(momenta.linear)}, {"angular", triple(momenta.angular)}};
+  add_momentum_errors(world, part["momentum"]);
   part["guard"] = {{"nonfinite", world.report().nonfinite},
                    {"grown", world.report().grown},
                    {"restored", world.report().restored},

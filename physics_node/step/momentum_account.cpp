@@ -26,6 +26,7 @@ void MomentumAccount::hit(const Vec3& impulse, const Vec3& x) noexcept {
   booked_.angular += moment;
   linear_ += impulse.norm();
   angular_ += moment.norm();
+  ++hits_;
 }
 
 void MomentumAccount::push(const Vec3& impulse, const Vec3& x, double dt) noexcept {

@@ -1,6 +1,8 @@
 #pragma once
 // Keeps the books of momentum: what gravity, floor and tools put into a body. What it really has must be that.
 
+#include <cstdint>
+
 #include "physics_node/lattice/lattice.h"
 
 namespace palpate::physics {
@@ -39,6 +41,9 @@ class MomentumAccount {
   /// An impulse as if within the step of dt that brought the mass from x: it has moved on with it.
   void push(const Vec3& impulse, const Vec3& x, double dt) noexcept;
 
+  /// Impulses from floor, tools and others, in all; a restart does not forget them.
+  std::int64_t hits() const noexcept { return hits_; }
+
   MomentumBalance balance(const Momenta& now) const noexcept;
 
  private:
@@ -46,6 +51,7 @@ class MomentumAccount {
   Vec3 mass_moment_ = Vec3::Zero();
   double mass_ = 0;
   double linear_ = 0, angular_ = 0;
+  std::int64_t hits_ = 0;
 };
 
 }  // namespace palpate::physics

@@ -149,6 +149,8 @@ class LatticeBody final : public MovingBody {
   void reset() noexcept override {
     sleep_.wake_all(body_, state_);
     state_.reset(body_);
+    momentum_ = {};
+    restart_momentum();
     for (const Index cell : body_.lattice.masses)
       for (std::size_t a = 0; a < 3; ++a)
         if (state_.v_half[a].size() > 0)
@@ -204,6 +206,7 @@ class LatticeBody final : public MovingBody {
   Energies energies(const Vec3& gravity) const override { return measure_energies(body_, state_, gravity); }
   Losses losses() const override { return measure_losses(state_); }
   Momenta momenta() const override { return measure_momenta(body_, state_.u, state_.v).momenta; }
+  bool touched() const noexcept override { return momentum_.hits() > 0; }
   void restart_momentum() noexcept override {
     momentum_.restart(measure_momenta(body_, state_.u, moving_velocity()));
   }

@@ -132,6 +132,8 @@ class MovingBody {
   virtual Energies energies(const Vec3& gravity) const = 0;
   virtual Losses losses() const = 0;
   virtual Momenta momenta() const = 0;
+  /// Has anything pushed or hit it since it was loaded or reset?
+  virtual bool touched() const noexcept = 0;
   /// Begins the books of momentum with what there is now.
   virtual void restart_momentum() noexcept = 0;
   /// Where impulses from outside that no member here gives are booked.

@@ -10,3 +10,7 @@ palpate_test(NAME physics_laws_test KIND property
 # The reference problems of palpate bench, held to the figures that the docs promise.
 palpate_test(NAME physics_closed_forms_test KIND property SOURCES physics_closed_forms_test.cpp
   LIBS palpate_bench_problems TIMEOUT 300)
+# What becomes of a sphere that falls.
+palpate_test(NAME physics_falls_test KIND property SOURCES physics_falls_test.cpp
+  LIBS palpate_physics_worlds palpate_bench_falls TIMEOUT 300)
+target_compile_definitions(physics_falls_test PRIVATE SCENES="${PROJECT_SOURCE_DIR}/scenes")

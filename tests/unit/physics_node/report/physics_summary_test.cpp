@@ -46,12 +46,16 @@ TEST(PhysicsSummary, HasTheKeysPromised) {
                "sleeping_fraction"},
               "body");
   EXPECT_FALSE(summary.at("bodies").at("body").contains("yielded_fraction")) << "it cannot yield";
+  EXPECT_FALSE(summary.at("bodies").at("body").contains("fragments")) << "it cannot break";
+  EXPECT_EQ(summary.at("bodies").at("body").at("outcome"), "restitution");
+  EXPECT_FALSE(summary.at("momentum").contains("linear_error")) << "it is held";
   expect_keys(summary.at("energy"),
               {"kinetic", "elastic", "gravitational", "dissipated", "plastic", "numerical", "broken", "guard",
                "tool_work", "exchanged", "balance_error"},
               "energy");
   expect_keys(summary.at("momentum"), {"linear", "angular"}, "momentum");
-  expect_keys(summary.at("guard"), {"nonfinite", "grown", "restored", "halved", "unsolved", "warnings"}, "guard");
+  expect_keys(summary.at("guard"), {"nonfinite", "grown", "restored", "halved", "unsolved", "warnings"},
+              "guard");
   EXPECT_FALSE(summary.at("guard").contains("stopped"));
   expect_keys(summary.at("tools").at("tip"),
               {"contacts_max", "force_peak", "force_rms", "moment_peak", "trace"}, "tool");
@@ -83,6 +87,29 @@ TEST(PhysicsSummary, TellsOfYieldAndBreak) {
   EXPECT_GT(broken, 0);
   EXPECT_NEAR(body.at("broken_fraction").get<double>(), broken, 1e-12);
   EXPECT_FALSE(summary.contains("tools"));
+  EXPECT_EQ(body.at("fragments").get<int>(), world.fragments(0)->count());
+  EXPECT_GT(body.at("fragments").get<int>(), 1);
+  EXPECT_GT(body.at("second_fragment").get<double>(), 0);
+  EXPECT_GE(body.at("largest_fragment").get<double>(), body.at("second_fragment").get<double>());
+  EXPECT_LT(summary.at("momentum").at("linear_error").get<double>(), 1e-11);
+  EXPECT_LT(summary.at("momentum").at("angular_error").get<double>(), 1e-11);
+}
+
+TEST(PhysicsSummary, CallsABodyThatNothingHasTouchedOriginal) {
+  Recipe recipe;
+  recipe.material += "\nyield_ratio = 1.01\nbreak_ratio = 1.05";
+  recipe.body = "velocity_m_per_s = [0, 0, -1]";
+  recipe.world = floor_at(-41);
+  World world(scene_of(recipe));
+  const auto body = [&] { return physics_summary(world, nullptr, 1.0).at("bodies").at("body"); };
+  for (int n = 0; n < 10; ++n) world.frame({});
+  EXPECT_EQ(body().at("outcome"), "original");
+  EXPECT_EQ(body().at("fragments"), 1);
+  EXPECT_FALSE(body().contains("second_fragment")) << "there is one only";
+  for (int n = 0; n < 40; ++n) world.frame({});
+  EXPECT_NE(body().at("outcome"), "original");
+  world.reset();
+  EXPECT_EQ(body().at("outcome"), "original");
 }
 
 }  // namespace

@@ -1,0 +1,41 @@
+#include "physics_node/fragments/measure_fragments.h"
+
+#include <algorithm>
+
+#include "physics_node/step/measure.h"
+
+namespace palpate::physics {
+
+std::vector<FragmentMeasure> measure_fragments(const MovingBody& moving, const Fragments& fragments) {
+  std::vector<FragmentMeasure> all(static_cast<std::size_t>(fragments.count()));
+  for (std::size_t n = 0; n < all.size(); ++n) all[n].label = static_cast<Index>(n);
+  for (const Index cell : moving.body().lattice.masses) {
+    FragmentMeasure& one = all[static_cast<std::size_t>(fragments.label(cell))];
+    const double m = law_at(moving.body(), cell).mass;
+    const Vec3 x = moving.position(cell);
+    const Vec3 mv = m * moving.velocity(cell);
+    ++one.masses;
+    one.mass += m;
+    one.center += m * x;
+    one.momenta.linear += mv;
+    one.momenta.angular += x.cross(mv);
+  }
+  for (FragmentMeasure& one : all) one.center /= one.mass;
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.mass > b.mass; });
+  return all;
+}
+
+double fragment_shape_rms(const MovingBody& moving, const Fragments& fragments, Index label) {
+  const Index n = fragments.masses()[static_cast<std::size_t>(label)];
+  if (n < 3) return 0;
+  Eigen::Matrix3Xd rest(3, n), now(3, n);
+  Eigen::Index column = 0;
+  for (const Index cell : moving.body().lattice.masses) {
+    if (fragments.label(cell) != label) continue;
+    rest.col(column) = moving.body().lattice.rest_position(cell);
+    now.col(column++) = moving.position(cell);
+  }
+  return rigid_fit_rms(rest, now);
+}
+
+}  // namespace palpate::physics

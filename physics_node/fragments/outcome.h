@@ -1,0 +1,40 @@
+#pragma once
+// What has become of a body, in the words of the paper.
+//
+// Source: Wakamatsu & Honma 2011, section on the fall of a sphere: the state before, and five states after an impact.
+// The paper shows pictures and no measure; measures and thresholds are ours (docs/architecture.md, EQUATIONS C-17, C-18).
+
+#include "physics_node/fragments/fragments.h"
+
+namespace palpate::physics {
+
+enum class Outcome { original, restitution, crack, disunion, crush, smash };
+inline constexpr const char* outcome_names[] = {"original", "restitution", "crack",
+                                                "disunion", "crush",       "smash"};
+inline const char* name_of(Outcome outcome) { return outcome_names[static_cast<int>(outcome)]; }
+
+struct OutcomeMeasures {
+  bool touched = false;  // by floor, tool or another body, since the start
+  double broken = 0;     // share of the elements
+  double yielded = 0;    // share of the masses
+  int fragments = 1;
+  double largest = 1;  // share of mass of the heaviest fragment
+  double second = 0;   // of the next; 0 where there is one only
+  double shape =
+      0;  // rms distance of the heaviest fragment to its shape at rest, over the body's radius of gyration
+};
+
+/// Thresholds, in the order in which they are asked. docs/images/outcomes.png shows the regions that they separate.
+inline constexpr double smash_largest = 0.25;     // no piece holds a quarter of the mass: there is no body any more
+inline constexpr double disunion_largest = 0.75;  // a quarter of the mass has left the largest piece, ...
+inline constexpr double disunion_second = 0.1;    // ... or one other piece holds a tenth: a part, not a splinter
+inline constexpr double crack_broken = 0.02;      // of the elements; a cut through the middle of the sphere breaks 0.08
+inline constexpr double crush_yielded = 0.5;      // most of the body has yielded, ...
+inline constexpr double crush_shape = 0.1;        // ... or it is out of shape by a tenth of its size, and stays so
+
+Outcome classify(const OutcomeMeasures& measures);
+
+/// @param fragments  null for a body that cannot break
+OutcomeMeasures measure_outcome(const MovingBody& moving, const Fragments* fragments);
+
+}  // namespace palpate::physics

@@ -1,0 +1,95 @@
+// The five falls of the paper: each scene's outcome is its name, also with its numbers moved a little, for both explicit
+// integrators, both precisions and any number of threads; its energy and momentum are accounted for.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <random>
+#include <thread>
+
+#include "bench/outcomes/sweep_falls.h"
+#include "common/scene/load_scene.h"
+#include "physics_node/world.h"
+#include "tests/support/physics/small_worlds.h"
+
+namespace palpate::physics::test {
+namespace {
+
+constexpr double seconds = 0.3;  // the impact is over
+
+std::string path_of(const std::string& name) { return std::string(SCENES) + "/fall_" + name + ".toml"; }
+
+World fallen(const Scene& scene) {
+  World world(scene);
+  while (world.t() < seconds - 1e-9) world.frame({});
+  return world;
+}
+
+Outcome outcome_of(const World& world) {
+  return classify(measure_outcome(world.body(0), world.fragments(0)));
+}
+
+/// y_p, b_p and speed anywhere within 3 %, an integrator, a precision and a number of threads.
+std::vector<std::string> draw(const Scene& scene, Dice& dice) {
+  const auto near = [&](double x) { return x * dice.between(0.97, 1.03); };
+  const MaterialSpec& clay = scene.materials[0];
+  const double y_p = near(*clay.yield_ratio), b_p = near(*clay.break_ratio),
+               v = near(scene.bodies[0].velocity.z());
+  const auto coin = [&] { return dice.between(0, 1) < 0.5; };
+  return {fmt::format("material.clay.yield_ratio={}", y_p),
+          fmt::format("material.clay.break_ratio={}", b_p),
+          fmt::format("body.ball.velocity_m_per_s=[0.0,0.0,{}]", v),
+          fmt::format("physics.integrator={}", coin() ? "velocity_verlet" : "symplectic_euler"),
+          fmt::format("physics.precision={}", coin() ? "single" : "double"),
+          fmt::format("physics.threads={}", coin() ? 1 : 2)};
+}
+
+class Falls : public testing::TestWithParam<const char*> {};
+
+TEST_P(Falls, EndAsTheyAreCalledAndAccountForTheirEnergyAndMomentum) {
+  const World world = fallen(load_scene(path_of(GetParam())));
+  EXPECT_STREQ(name_of(outcome_of(world)), GetParam());
+  EXPECT_EQ(world.body(0).body().lattice.n_masses(), 1289);
+  EXPECT_LT(world.ledger().balance_error(), 0.01);
+  const MomentumBalance balance = world.body(0).momentum_balance();
+  EXPECT_GT(balance.linear, 0.5) << "nothing has happened";
+  EXPECT_LT(balance.missing.linear.norm(), 1e-11 * balance.linear);
+  EXPECT_LT(balance.missing.angular.norm(), 1e-11 * balance.angular);
+  EXPECT_EQ(world.report().restored, 0);
+  double mass = 0;
+  for (const Index n : world.fragments(0)->masses()) mass += 1e-3 * n;
+  EXPECT_NEAR(mass, 1.289, 1e-12) << "a break takes no mass away";
+}
+
+TEST_P(Falls, EndAlikeWithTheirNumbersMovedByThreePercent) {
+  const std::uint64_t seed = std::random_device{}();
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  Dice dice(seed);
+  const Scene scene = load_scene(path_of(GetParam()));
+  std::array<std::vector<std::string>, 10> draws;
+  std::array<Outcome, 10> outcomes{};
+  for (auto& one : draws) one = draw(scene, dice);
+  std::atomic<std::size_t> next{0};
+  {
+    const auto work = [&] {
+      for (std::size_t n = next++; n < draws.size(); n = next++)
+        outcomes[n] = outcome_of(fallen(load_scene(path_of(GetParam()), draws[n])));
+    };
+    const std::jthread one(work), two(work);
+  }
+  int alike = 0;
+  for (std::size_t n = 0; n < draws.size(); ++n) {
+    const bool same = std::string(name_of(outcomes[n])) == GetParam();
+    alike += same;
+    if (!same)
+      fmt::print("{}: {} instead of {} with {} {} {} {} {}\n", seed, name_of(outcomes[n]), GetParam(),
+                 draws[n][0], draws[n][1], draws[n][2], draws[n][3], draws[n][4]);
+  }
+  EXPECT_GE(alike, 9);
+}
+INSTANTIATE_TEST_SUITE_P(OfThePaper, Falls,
+                         testing::Values("restitution", "crack", "disunion", "crush", "smash"));
+
+}  // namespace
+}  // namespace palpate::physics::test

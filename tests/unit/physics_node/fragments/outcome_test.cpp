@@ -1,0 +1,66 @@
+// Which measures make which outcome, and what is measured of the pieces.
+#include "physics_node/fragments/outcome.h"
+
+#include <gtest/gtest.h>
+
+#include "physics_node/fragments/measure_fragments.h"
+#include "tests/support/physics/small_worlds.h"
+
+namespace palpate::physics::test {
+namespace {
+
+OutcomeMeasures touched(double broken, double yielded, double largest, double second, double shape) {
+  return {.touched = true,
+          .broken = broken,
+          .yielded = yielded,
+          .largest = largest,
+          .second = second,
+          .shape = shape};
+}
+
+TEST(Outcome, FollowsFromTheMeasures) {
+  EXPECT_EQ(classify({}), Outcome::original);
+  EXPECT_EQ(classify(touched(0, 0, 1, 0, 0.02)), Outcome::restitution);
+  EXPECT_EQ(classify(touched(0.01, 0.3, 1, 0.001, 0.05)), Outcome::restitution);
+  // The five spheres that the table of thresholds begins with.
+  EXPECT_EQ(classify(touched(0.29, 0.9, 0.82, 0.01, 1)), Outcome::crack);
+  EXPECT_EQ(classify(touched(0.5, 1, 0.45, 0.40, 1)), Outcome::disunion);
+  EXPECT_EQ(classify(touched(0.01, 0.98, 1, 0, 1)), Outcome::crush);
+  EXPECT_EQ(classify(touched(0.998, 1, 0.002, 0.002, 0)), Outcome::smash);
+  // Edges.
+  EXPECT_EQ(classify(touched(0.5, 1, 0.88, 0.11, 1)), Outcome::disunion) << "a second part";
+  EXPECT_EQ(classify(touched(0.5, 1, 0.7, 0.01, 1)), Outcome::disunion) << "a third has gone, in splinters";
+  EXPECT_EQ(classify(touched(0, 0, 1, 0, 0.3)), Outcome::crush) << "turned over, though nothing has yielded";
+  EXPECT_NE(classify({.broken = 0.1}), Outcome::original) << "broken by its own weight";
+}
+
+TEST(FragmentMeasures, AddUpToTheBody) {
+  Recipe recipe;
+  recipe.material = "mass_g = 1\nk1_N_per_m = 200\nyield_ratio = 1.0005\nbreak_ratio = 1.001";
+  recipe.shape = Recipe::box(60, 40, 40);
+  const auto moving = make_moving_body(body_of(recipe), Precision::double_);
+  Fragments fragments(*moving);
+  moving->element_forces_and_integrate({.dt = 0});
+  for (const Index cell : moving->body().lattice.masses) {
+    const Vec3 p = moving->body().lattice.rest_position(cell);
+    const bool right = p.x() > 0.01;
+    moving->place(cell, right ? Vec3(0.02, 0, 0) : Vec3::Zero(), right ? Vec3(1, 2, 3) : Vec3(0, 0, -1));
+  }
+  moving->element_forces_and_integrate({.dt = 0});
+  fragments.update(*moving);
+  const auto pieces = measure_fragments(*moving, fragments);
+  ASSERT_EQ(pieces.size(), 2u);
+  EXPECT_GT(pieces[0].mass, pieces[1].mass);
+  EXPECT_GT(pieces[1].center.x(), pieces[0].center.x());
+  EXPECT_EQ(pieces[0].masses + pieces[1].masses, moving->body().lattice.n_masses());
+  EXPECT_NEAR(pieces[1].momenta.linear.z(), 3 * pieces[1].mass, 1e-12);
+  const Momenta sum = moving->momenta();
+  EXPECT_NEAR((pieces[0].momenta.linear + pieces[1].momenta.linear - sum.linear).norm(), 0, 1e-12);
+  EXPECT_NEAR((pieces[0].momenta.angular + pieces[1].momenta.angular - sum.angular).norm(), 0, 1e-12);
+  // Each piece has moved as a whole: its shape is what it was, that of the body is not.
+  EXPECT_NEAR(fragment_shape_rms(*moving, fragments, pieces[0].label), 0, 1e-12);
+  EXPECT_GT(moving->counts().shape_rms, 1e-3);
+}
+
+}  // namespace
+}  // namespace palpate::physics::test
