@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "bench/machine/result_folder.h"
+#include "bench/outcomes/fragment_cost.h"
 #include "bench/outcomes/sweep_falls.h"
 #include "bench/problems/stopwatch.h"
 #include "bench/subcommands.h"
@@ -55,11 +56,11 @@ int run_outcomes(const Options& options) {
                          {"cpu_s", watch.cpu_s()},
                          {"thresholds",
                           {{"smash_largest", physics::smash_largest},
-                          {"disunion_largest", physics::disunion_largest},
-                          {"disunion_second", physics::disunion_second},
-                          {"crack_broken", physics::crack_broken},
-                          {"crush_yielded", physics::crush_yielded},
-                          {"crush_shape", physics::crush_shape}}}};
+                           {"disunion_largest", physics::disunion_largest},
+                           {"disunion_second", physics::disunion_second},
+                           {"crack_broken", physics::crack_broken},
+                           {"crush_yielded", physics::crush_yielded},
+                           {"crush_shape", physics::crush_shape}}}};
   std::map<std::string, int> counts;
   std::vector<double> errors;
   double momentum = 0;
@@ -75,6 +76,16 @@ int run_outcomes(const Options& options) {
   json["momentum_error_largest"] = momentum;
   fmt::print("{} falls in {:.0f} s; energy balance within {:.2g} (median {:.2g}), momentum within {:.1g}\n",
              results.size(), watch.wall_s(), errors.back(), errors[errors.size() / 2], momentum);
+  for (const FragmentCost& cost : measure_fragment_cost(101)) {
+    fmt::print(
+        "{} masses, {:.0f} breaks a step: fragments followed in {:.1f} us, counted anew in {:.0f} us\n",
+        cost.masses, cost.breaks, cost.follow_us, cost.flood_us);
+    json["fragments"].push_back({{"masses", cost.masses},
+                                 {"breaks_per_step", cost.breaks},
+                                 {"follow_cpu_us", cost.follow_us},
+                                 {"flood_cpu_us", cost.flood_us},
+                                 {"fragments", cost.fragments}});
+  }
   folder.write_csv(table_of(results));
   folder.write_json(json);
   const bool drawn = folder.plot();

@@ -91,5 +91,43 @@ TEST_P(Falls, EndAlikeWithTheirNumbersMovedByThreePercent) {
 INSTANTIATE_TEST_SUITE_P(OfThePaper, Falls,
                          testing::Values("restitution", "crack", "disunion", "crush", "smash"));
 
+/// The regions of y_p and b_p that the paper's text names (EQUATIONS C-17), on points of the grid of palpate bench outcomes.
+TEST(FallRegions, LieAsThePaperSays) {
+  constexpr double slow = 0.5, fast = 1;
+  constexpr std::array yields{1.005, 1.02, 1.05, 1.1, 1.25};
+  constexpr std::array gaps{0.02, 0.1, 0.5};
+  std::vector<bench::Fall> falls;
+  for (const double gap : gaps)
+    for (const double y_p : yields) falls.push_back({y_p, gap, fast});
+  for (const double gap : gaps) falls.push_back({1.5, gap, slow});
+  const auto results = bench::run_falls(falls, seconds, 2, [](std::size_t) {});
+  const auto at = [&](std::size_t gap, std::size_t y_p) {
+    return results[gap * yields.size() + y_p].outcome;
+  };
+  for (std::size_t g = 0; g < gaps.size(); ++g)
+    EXPECT_EQ(results[gaps.size() * yields.size() + g].outcome, Outcome::restitution) << "(a) large y_p";
+  EXPECT_EQ(at(0, 3), Outcome::crack) << "(b) medium y_p";
+  EXPECT_EQ(at(0, 2), Outcome::disunion) << "(c) small b_p - y_p, y_p above that of (e)";
+  EXPECT_EQ(at(2, 0), Outcome::crush) << "(d) small y_p, large b_p - y_p";
+  EXPECT_EQ(at(0, 0), Outcome::smash) << "(e) small y_p, small b_p - y_p";
+  // What is stronger does not come off worse.
+  const auto severity = [](Outcome outcome) {
+    return outcome == Outcome::smash      ? 3
+           : outcome == Outcome::disunion ? 2
+           : outcome == Outcome::crack    ? 1
+                                          : 0;
+  };
+  for (std::size_t g = 0; g < gaps.size(); ++g)
+    for (std::size_t y = 0; y < yields.size(); ++y) {
+      if (y > 0) {
+        EXPECT_LE(severity(at(g, y)), severity(at(g, y - 1))) << "gap " << gaps[g] << " y_p " << yields[y];
+      }
+      if (g > 0) {
+        EXPECT_LE(severity(at(g, y)), severity(at(g - 1, y))) << "gap " << gaps[g] << " y_p " << yields[y];
+      }
+    }
+  for (const auto& result : results) EXPECT_LT(result.balance_error, 0.01);
+}
+
 }  // namespace
 }  // namespace palpate::physics::test
