@@ -25,15 +25,16 @@ struct OutcomeMeasures {
 };
 
 /// Thresholds, in the order in which they are asked. docs/images/outcomes.png shows the regions that they separate.
-inline constexpr double smash_largest =
-    0.25;  // no piece holds a quarter of the mass: there is no body any more
-inline constexpr double disunion_largest = 0.75;  // a quarter of the mass has left the largest piece, ...
-inline constexpr double disunion_second =
-    0.1;  // ... or one other piece holds a tenth: a part, not a splinter
-inline constexpr double crack_broken =
-    0.02;  // of the elements; a third of what a cut through a sphere 12 masses wide takes
-inline constexpr double crush_yielded = 0.5;  // most of the body has yielded, ...
-inline constexpr double crush_shape = 0.1;  // ... or it is out of shape by a tenth of its size, and stays so
+// No piece holds a third of the mass: there is no body any more.
+inline constexpr double smash_largest = 1.0 / 3;
+// A quarter of the mass has left the largest piece, or one other piece holds a tenth: a part, not a splinter.
+inline constexpr double disunion_largest = 0.75;
+inline constexpr double disunion_second = 0.1;
+// Of the elements: a third of what a cut through a sphere 12 masses wide takes.
+inline constexpr double crack_broken = 0.02;
+// Most of the body has yielded, or it is out of shape by a tenth of its size.
+inline constexpr double crush_yielded = 0.5;
+inline constexpr double crush_shape = 0.1;
 
 Outcome classify(const OutcomeMeasures& measures);
 
