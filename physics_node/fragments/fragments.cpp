@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <tuple>
+#include <utility>
 
 namespace palpate::physics {
 
@@ -15,9 +15,9 @@ Fragments::Fragments(const MovingBody& moving) {
   const auto n_masses = static_cast<std::size_t>(lattice.n_masses());
   masses_.reserve(n_masses);
   const auto most_breaks = std::min(FreshBreaks::most, static_cast<std::size_t>(lattice.n_elements()));
-  seeds_.reserve(2 * most_breaks);
   fronts_.reserve(std::min(2 * most_breaks, n_masses));
-  open_.reserve(fronts_.capacity());
+  turns_.reserve(fronts_.capacity());
+  links_.reserve(2 * most_breaks);
   recompute(moving);
 }
 
@@ -36,6 +36,16 @@ void Fragments::join(Chain& chain, const Chain& other) noexcept {
   chain.tail = other.tail;
 }
 
+Index Fragments::front_at(Index cell) noexcept {
+  if (const Index known = front_of_[static_cast<std::size_t>(cell)]; known != 0) return known - 1;
+  const auto front = static_cast<Index>(fronts_.size());
+  fronts_.push_back({});
+  fronts_.back().parent = front;
+  reach(front, cell);
+  take_turns(front);
+  return front;
+}
+
 void Fragments::reach(Index front, Index cell) noexcept {
   Front& f = fronts_[static_cast<std::size_t>(front)];
   front_of_[static_cast<std::size_t>(cell)] = front + 1;
@@ -43,9 +53,17 @@ void Fragments::reach(Index front, Index cell) noexcept {
   ++f.masses;
 }
 
-bool Fragments::is_open(Index front) const noexcept {
-  const Front& f = fronts_[static_cast<std::size_t>(front)];
-  return f.parent == front && f.waiting.head != 0;
+void Fragments::add_half_link(Index front, Index half_link) noexcept {
+  Front& f = fronts_[static_cast<std::size_t>(front)];
+  links_[static_cast<std::size_t>(half_link)].next = f.links;
+  f.links = half_link;
+}
+
+void Fragments::take_turns(Index front) noexcept {
+  Front& f = fronts_[static_cast<std::size_t>(front)];
+  if (f.takes_turns) return;
+  f.takes_turns = true;
+  turns_.push_back(front);
 }
 
 Index Fragments::root(Index front) noexcept {
@@ -68,8 +86,20 @@ Index Fragments::merge(Index a, Index b) noexcept {
   into.masses += from.masses;
   from.waiting = from.done = {};
   from.parent = a;
-  --growing_;
+  for (Index h = from.links; h != none;) {
+    const Index next = links_[static_cast<std::size_t>(h)].next;
+    if (root(links_[static_cast<std::size_t>(h)].target) != a) add_half_link(a, h);
+    h = next;
+  }
+  from.links = none;
   return a;
+}
+
+bool Fragments::is_settled(Index front) noexcept {
+  Index& first = fronts_[static_cast<std::size_t>(front)].links;
+  while (first != none && root(links_[static_cast<std::size_t>(first)].target) == front)
+    first = links_[static_cast<std::size_t>(first)].next;
+  return first == none;
 }
 
 Index Fragments::grow(Index front, const MovingBody& moving) noexcept {
@@ -92,13 +122,30 @@ Index Fragments::grow(Index front, const MovingBody& moving) noexcept {
 }
 
 void Fragments::close(Index front) noexcept {
-  const Front& f = fronts_[static_cast<std::size_t>(front)];
+  Front& f = fronts_[static_cast<std::size_t>(front)];
   const Index old = label(f.done.head);
   masses_.push_back(f.masses);
   masses_[static_cast<std::size_t>(old)] -= f.masses;
   for (Index cell = f.done.head; cell != 0; cell = next_[static_cast<std::size_t>(cell)])
     label_[static_cast<std::size_t>(cell)] = count();
-  --growing_;
+  // Links to neighbours t_1, t_2 ... t_k become links t_1 to t_2, t_2 to t_3 ..., and the last leads nowhere.
+  Index last = none;
+  for (Index h = std::exchange(f.links, none); h != none;) {
+    const HalfLink here = links_[static_cast<std::size_t>(h)];
+    const Index neighbour = root(here.target);
+    if (neighbour != front) {
+      if (last != none) {
+        links_[static_cast<std::size_t>(last ^ 1)].target = neighbour;
+        add_half_link(neighbour, last);
+        take_turns(neighbour);
+        take_turns(root(links_[static_cast<std::size_t>(last)].target));
+      }
+      last = h;
+    }
+    h = here.next;
+  }
+  if (last != none)
+    links_[static_cast<std::size_t>(last ^ 1)].target = links_[static_cast<std::size_t>(last)].target;
 }
 
 void Fragments::forget(const Chain& chain) noexcept {
@@ -106,47 +153,35 @@ void Fragments::forget(const Chain& chain) noexcept {
     front_of_[static_cast<std::size_t>(cell)] = 0;
 }
 
-void Fragments::split(std::size_t first_seed, std::size_t last_seed, const MovingBody& moving) noexcept {
+void Fragments::update(const MovingBody& moving) noexcept {
+  if (moving.fresh_overflow()) return recompute(moving);
+  if (moving.fresh_breaks().empty()) return;
   fronts_.clear();
-  open_.clear();
-  for (std::size_t s = first_seed; s < last_seed; ++s) {
-    const Index cell = seeds_[s].cell;
-    if (front_of_[static_cast<std::size_t>(cell)] != 0) continue;  // an end of two elements that broke
-    const auto front = static_cast<Index>(fronts_.size());
-    fronts_.push_back({});
-    fronts_.back().parent = front;
-    open_.push_back(front);
-    reach(front, cell);
+  links_.clear();
+  turns_.clear();
+  for (const Break& broken : moving.fresh_breaks()) {
+    const Index a = front_at(broken.first), b = front_at(broken.other);
+    const auto half_link = static_cast<Index>(links_.size());
+    links_.push_back({b, none});
+    links_.push_back({a, none});
+    add_half_link(a, half_link);
+    add_half_link(b, half_link + 1);
   }
-  growing_ = open_.size();
-  for (std::size_t n = 0; growing_ > 1; n = n + 1 < open_.size() ? n + 1 : 0) {
-    if (is_open(open_[n])) {
-      const Index front = grow(open_[n], moving);
-      // The last one is what remains, whether it has been followed to its end or not.
-      if (growing_ > 1 && !is_open(front)) close(front);
+  for (std::size_t n = 0; !turns_.empty(); n = n + 1 < turns_.size() ? n + 1 : 0) {
+    const Index mine = turns_[n];
+    if (root(mine) == mine && !is_settled(mine)) {
+      const Index front = grow(mine, moving);
+      take_turns(front);
+      if (fronts_[static_cast<std::size_t>(front)].waiting.head == 0 && !is_settled(front)) close(front);
+      if (front == mine && !is_settled(mine)) continue;
     }
-    if (is_open(open_[n])) continue;
-    open_[n] = open_.back();
-    open_.pop_back();
+    fronts_[static_cast<std::size_t>(mine)].takes_turns = false;
+    turns_[n] = turns_.back();
+    turns_.pop_back();
   }
   for (const Front& front : fronts_) {
     forget(front.waiting);
     forget(front.done);
-  }
-}
-
-void Fragments::update(const MovingBody& moving) noexcept {
-  if (moving.fresh_overflow()) return recompute(moving);
-  if (moving.fresh_breaks().empty()) return;
-  seeds_.clear();
-  for (const Break& broken : moving.fresh_breaks())
-    for (const Index cell : {broken.first, broken.other}) seeds_.push_back({label(cell), cell});
-  std::sort(seeds_.begin(), seeds_.end(), [](const Seed& a, const Seed& b) {
-    return std::tie(a.label, a.cell) < std::tie(b.label, b.cell);
-  });
-  for (std::size_t first = 0, last = 0; first < seeds_.size(); first = last) {
-    while (last < seeds_.size() && seeds_[last].label == seeds_[first].label) ++last;
-    split(first, last, moving);
   }
 }
 

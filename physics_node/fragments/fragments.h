@@ -11,14 +11,13 @@ namespace palpate::physics {
 
 /// Connected components of the live elements; a mass without any is a fragment of its own (EQUATIONS C-8).
 ///
-/// After a step only the neighbourhood of what broke is looked at. The ends of the elements that broke are seeds. From all
-/// seeds of a fragment fronts grow breadth-first, one mass each in turn; fronts that meet are one from then on
-/// (union-find); a front that has nowhere left to grow is a complete fragment and takes a new label. When one front is left it
-/// is what remains, keeps the label, and is not followed to its end. All seeds of a fragment grow together, not those of one
-/// element at a time: when the middle of A-B-C comes off at both ends in one step, B closes and A and C would be left
-/// with one label.
+/// After a step only the neighbourhood of what broke is looked at. The ends of the elements that broke begin fronts, which grow
+/// breadth-first, one mass each in turn; fronts that meet are one from then on (union-find). A front need not grow while each
+/// broken element at it joins it to itself: what was one fragment is one as long as all ends find each other. A front that has
+/// nowhere left to grow is a complete fragment and takes a new label; through it its neighbours hung together, so those must now
+/// find each other. Without that, when the middle of A-B-C comes off at both ends in one step, A and C would be left with one label.
 /// Source: Even & Shiloach 1981, on-line edge deletion, for searches that alternate and end with the smaller side.
-/// Cost: each mass is visited at most once a step; about all but the largest piece of each fragment that lost elements.
+/// Cost: follows the size of what comes off and the way round each break; a mass is visited at most once a step.
 /// Memory: 12 bytes a storage cell, touched where there are masses. Contract: after construction nothing allocates or throws.
 class Fragments {
  public:
@@ -41,25 +40,33 @@ class Fragments {
     Index head = 0, tail = 0;
   };
   struct Front {
-    Chain waiting;     // masses reached
-    Chain done;        // masses whose neighbours have been looked at
-    Index masses = 0;  // of both
-    Index parent = 0;  // itself, or a front that it has become part of
+    Chain waiting;       // masses reached
+    Chain done;          // masses whose neighbours have been looked at
+    Index masses = 0;    // of both
+    Index parent = 0;    // itself, or a front that it has become part of
+    Index links = none;  // first of its half links
+    bool takes_turns = false;
   };
-  struct Seed {
-    Index label, cell;
+  /// One end of a link: fronts that a broken element joined and that must find each other. Half links 2 n and 2 n + 1 are one link;
+  /// each is in the list of its own front.
+  struct HalfLink {
+    Index target;  // front at the other end
+    Index next;    // in the list, none at its end
   };
+  static constexpr Index none = -1;
 
   void append(Chain& chain, Index cell) noexcept;
   void join(Chain& chain, const Chain& other) noexcept;
+  Index front_at(Index cell) noexcept;  // begins one where there is none
   void reach(Index front, Index cell) noexcept;
-  /// Has it masses to look at, and is not part of another?
-  bool is_open(Index front) const noexcept;
+  void add_half_link(Index front, Index half_link) noexcept;
+  void take_turns(Index front) noexcept;
   Index root(Index front) noexcept;
   Index merge(Index a, Index b) noexcept;
+  /// Do all its links lead to itself? Forgets those that do.
+  bool is_settled(Index front) noexcept;
   /// Looks at the neighbours of the next mass that a front has reached. @return the front that it is part of now
   Index grow(Index front, const MovingBody& moving) noexcept;
-  void split(std::size_t first_seed, std::size_t last_seed, const MovingBody& moving) noexcept;
   void close(Index front) noexcept;
   void forget(const Chain& chain) noexcept;
 
@@ -67,11 +74,9 @@ class Fragments {
   ZeroedArray<Index> next_;      // in a chain                   (n_cells)
   ZeroedArray<Index> front_of_;  // 1 + front; 0: not reached    (n_cells)
   std::vector<Index> masses_;    // by label
-  std::vector<Seed> seeds_;
   std::vector<Front> fronts_;
-  std::vector<Index>
-      open_;  // fronts that take turns; some have closed or become part of another since their last
-  std::size_t growing_ = 0;  // those that have not
+  std::vector<HalfLink> links_;
+  std::vector<Index> turns_;  // fronts that grow in turn
 };
 
 }  // namespace palpate::physics
