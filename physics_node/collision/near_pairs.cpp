@@ -12,6 +12,7 @@ namespace palpate::physics {
 namespace {
 
 constexpr double skin_over_L = 0.4;  // at least; more where one step moves masses by as much
+constexpr double cell_over_L = 2;    // of a grid: few cells to look at, few masses in each
 // Two masses that have not left their places by more than this, drift apart, do not meet: at rest those that are not joined
 // are 1.4 L apart, L where an element broke, and 0.82 L from a facet that broke off.
 constexpr double still_over_L = 0.1;
@@ -38,8 +39,9 @@ NearPairs::NearPairs(const std::vector<ContactBody>& bodies, PairKind kind)
       kind_(kind),
       allowed_(bodies.size() * bodies.size(), 0),
       seeks_other_(count_all(bodies), 0),
-      seeks_own_(count_all(bodies), 0),
-      grid_(count_all(bodies)) {
+      seeks_own_(count_all(bodies), 0) {
+  for (const auto& body : bodies) grids_.emplace_back(body.candidates().most());
+  movers_.resize(bodies.size());
   first_.push_back(0);
   smallest_L_ = std::numeric_limits<double>::infinity();
   for (const auto& body : bodies) {
@@ -63,10 +65,8 @@ bool NearPairs::any_allowed() const noexcept {
   return std::any_of(allowed_.begin(), allowed_.end(), [](auto a) { return a != 0; });
 }
 
-PairEnd NearPairs::place_of(std::uint32_t id) const noexcept {
-  const auto after = std::upper_bound(first_.begin(), first_.end(), id);
-  const auto body = static_cast<std::uint32_t>(after - first_.begin()) - 1;
-  return {body, id - first_[body]};
+double NearPairs::skin(const Candidates& a, const Candidates& b) const noexcept {
+  return std::max(0.5 * skin_over_L * (a.length() + b.length()), least_skin_);
 }
 
 bool NearPairs::is_valid(const std::vector<ContactBody>& bodies) const noexcept {
@@ -75,7 +75,8 @@ bool NearPairs::is_valid(const std::vector<ContactBody>& bodies) const noexcept 
     for (std::uint32_t b = a; b < n_bodies_; ++b) {
       if (!is_allowed(a, b)) continue;
       const double apart = (bodies[a].drift() - bodies[b].drift()).norm();
-      if (!(apart + bodies[a].stray() + bodies[b].stray() < skin_)) return false;
+      if (!(apart + bodies[a].stray() + bodies[b].stray() < skin(bodies[a].candidates(), bodies[b].candidates())))
+        return false;
     }
   return true;
 }
@@ -88,9 +89,9 @@ void NearPairs::update(std::vector<ContactBody>& bodies, bool changed, double dt
   }
   // What two masses may have done to each other within this step must be in the list.
   const double needed = 2.4 * dt * speed;
-  if (!changed && needed <= skin_ && is_valid(bodies)) return;
-  skin_ = std::max(skin_over_L * smallest_L_, needed);
-  reach_ = largest_L_ / std::numbers::sqrt3 + skin_;
+  if (!changed && needed <= std::max(least_skin_, skin_over_L * smallest_L_) && is_valid(bodies)) return;
+  least_skin_ = needed;
+  reach_ = largest_L_ / std::numbers::sqrt3 + std::max(skin_over_L * largest_L_, needed);
   for (auto& body : bodies) body.mark();
   rebuild(bodies);
   fresh_ = true;
@@ -100,7 +101,7 @@ void NearPairs::update(std::vector<ContactBody>& bodies, bool changed, double dt
 void NearPairs::rebuild(const std::vector<ContactBody>& bodies) noexcept {
   masses_.clear();
   facets_.clear();
-  grid_.clear(reach_);
+  for (std::uint32_t b = 0; b < n_bodies_; ++b) grids_[b].clear(cell_over_L * bodies[b].candidates().length());
   choose_seekers(bodies);
   if (kind_ != PairKind::facets) seek_masses(bodies);
   if (kind_ != PairKind::masses) seek_facets(bodies);
@@ -122,9 +123,11 @@ void NearPairs::choose_seekers(const std::vector<ContactBody>& bodies) noexcept 
       drift /= static_cast<double>(c.size());
     }
     const double still = still_over_L * c.length();
+    movers_[b].setEmpty();
     for (std::size_t n = 0; n < c.size(); ++n) {
       seeks_own_[first + n] = own && (c.x()[n] - c.rest()[n] - drift).squaredNorm() > still * still ? 1 : 0;
       seeks_other_[first + n] = 0;
+      if (seeks_own_[first + n] != 0) movers_[b].extend(c.x()[n]);
     }
     for (std::uint32_t other = 0; other < n_bodies_; ++other) {
       if (other == b || !is_allowed(b, other)) continue;
@@ -136,7 +139,7 @@ void NearPairs::choose_seekers(const std::vector<ContactBody>& bodies) noexcept 
           seeks_other_[first + n] = 1;
     }
     for (std::size_t n = 0; n < c.size(); ++n)
-      if (own || seeks_other_[first + n] != 0) grid_.insert(first + static_cast<std::uint32_t>(n), c.x()[n]);
+      if (own || seeks_other_[first + n] != 0) grids_[b].insert(static_cast<std::uint32_t>(n), c.x()[n]);
   }
 }
 
@@ -149,65 +152,72 @@ void NearPairs::add(std::vector<NearPair>& list, PairEnd mass, PairEnd other) no
 }
 
 void NearPairs::seek_masses(const std::vector<ContactBody>& bodies) noexcept {
-  const Vec3 reach = Vec3::Constant(reach_);
   for (std::uint32_t b = 0; b < n_bodies_; ++b) {
     const Candidates& c = bodies[b].candidates();
-    for (std::uint32_t n = 0; n < c.size(); ++n) {
-      const std::uint32_t id = first_[b] + n;
-      if ((seeks_own_[id] | seeks_other_[id]) == 0) continue;
-      const Vec3& p = c.x()[n];
-      grid_.visit_box(p - reach, p + reach, [&](std::uint32_t other_id) {
-        const PairEnd q = place_of(other_id);
-        const bool same = q.body == b;
-        const bool both = same ? seeks_own_[other_id] != 0 : seeks_other_[other_id] != 0;
-        if (other_id == id || (both && other_id < id) || !is_allowed(b, q.body)) return;
-        if (same ? seeks_own_[id] == 0 : seeks_other_[id] == 0) return;
-        const Candidates& d = bodies[q.body].candidates();
-        const double within = paper_distance(c, d) + skin_;
-        if ((d.x()[q.n] - p).squaredNorm() > within * within) return;
-        if (same && c.are_joined(n, q.n)) return;
-        if (id < other_id) {
-          add(masses_, {b, n}, q);
-        } else {
-          add(masses_, q, {b, n});
-        }
-      });
+    for (std::uint32_t other = b; other < n_bodies_; ++other) {
+      if (!is_allowed(b, other)) continue;
+      const bool same = other == b;
+      const Candidates& d = bodies[other].candidates();
+      const double within = paper_distance(c, d) + skin(c, d);
+      const auto& seeks = same ? seeks_own_ : seeks_other_;
+      for (std::uint32_t n = 0; n < c.size(); ++n) {
+        if (seeks[first_[b] + n] == 0) continue;
+        const Vec3& p = c.x()[n];
+        const Vec3 reach = Vec3::Constant(within);
+        grids_[other].visit_box(p - reach, p + reach, [&](std::uint32_t m) {
+          // Of two that seek each other the first finds the second.
+          if (same && (m == n || (m < n && seeks[first_[b] + m] != 0))) return;
+          if ((d.x()[m] - p).squaredNorm() > within * within) return;
+          if (same && c.are_joined(n, m)) return;
+          add(masses_, {b, same ? std::min(n, m) : n}, {other, same ? std::max(n, m) : m});
+        });
+      }
     }
   }
 }
 
 void NearPairs::seek_facets(const std::vector<ContactBody>& bodies) noexcept {
   for (std::uint32_t b = 0; b < n_bodies_; ++b) {
-    const Candidates& c = bodies[b].candidates();
     const Facets& facets = *bodies[b].facets();
-    const std::uint32_t first = first_[b];
-    for (std::uint32_t f = 0; f < facets.all().size(); ++f) {
-      const Facets::Corners& k = facets.all()[f];
-      const bool own = (seeks_own_[first + k[0]] | seeks_own_[first + k[1]] | seeks_own_[first + k[2]]) != 0;
-      const bool others = (seeks_other_[first + k[0]] | seeks_other_[first + k[1]] | seeks_other_[first + k[2]]) != 0;
-      const bool touches_itself = is_allowed(b, b);
-      if (!touches_itself && !others) continue;
-      const FacetNow facet = facet_now(c, k);
-      const Vec3 reach = Vec3::Constant(swept_distance(facet.edge, c) + reach_);
-      const Vec3 lo = facet.corner[0].cwiseMin(facet.corner[1]).cwiseMin(facet.corner[2]) - reach;
-      const Vec3 hi = facet.corner[0].cwiseMax(facet.corner[1]).cwiseMax(facet.corner[2]) + reach;
-      const bool loose = k[0] == k[1];
-      grid_.visit_box(lo, hi, [&](std::uint32_t id) {
-        const PairEnd p = place_of(id);
-        const bool same = p.body == b;
-        if (!is_allowed(b, p.body)) return;
-        if (same ? !own && seeks_own_[id] == 0 : !others || seeks_other_[id] == 0) return;
-        if (same && (p.n == k[0] || p.n == k[1] || p.n == k[2])) return;
-        // A loose mass that meets a facet is found by that facet; two loose ones find each other once.
-        if (loose && (!bodies[p.body].facets()->is_loose(p.n) || id > first + k[0])) return;
-        const Candidates& d = bodies[p.body].candidates();
-        const double within = swept_distance(facet.edge, d) + skin_;
-        if (closest_point(d.x()[p.n], facet.corner).distance > within) return;
-        if (same && (c.are_joined(p.n, k[0]) || c.are_joined(p.n, k[1]) || c.are_joined(p.n, k[2]))) return;
-        add(facets_, p, {b, f});
-      });
+    for (std::uint32_t other = 0; other < n_bodies_; ++other) {
+      if (!is_allowed(b, other)) continue;
+      const bool same = other == b;
+      const auto& seeks = same ? seeks_own_ : seeks_other_;
+      for (std::uint32_t f = 0; f < facets.all().size(); ++f) {
+        const Facets::Corners& k = facets.all()[f];
+        const std::uint32_t first = first_[b];
+        const bool any = (seeks[first + k[0]] | seeks[first + k[1]] | seeks[first + k[2]]) != 0;
+        if (any || same) seek_masses_near(bodies, {b, f}, other, any);
+      }
     }
   }
+}
+
+void NearPairs::seek_masses_near(const std::vector<ContactBody>& bodies, PairEnd facet, std::uint32_t other,
+                                 bool facet_seeks) noexcept {
+  const std::uint32_t b = facet.body;
+  const bool same = other == b;
+  const Candidates& c = bodies[b].candidates();
+  const Candidates& d = bodies[other].candidates();
+  const Facets::Corners& k = bodies[b].facets()->all()[facet.n];
+  const FacetNow now = facet_now(c, k);
+  const double within = swept_distance(now.edge, d) + skin(c, d);
+  const Vec3 reach = Vec3::Constant(within);
+  const Vec3 lo = now.corner[0].cwiseMin(now.corner[1]).cwiseMin(now.corner[2]) - reach;
+  const Vec3 hi = now.corner[0].cwiseMax(now.corner[1]).cwiseMax(now.corner[2]) + reach;
+  if (same && !facet_seeks && !movers_[b].intersects(Eigen::AlignedBox3d(lo, hi))) return;
+  const bool loose = k[0] == k[1];
+  grids_[other].visit_box(lo, hi, [&](std::uint32_t m) {
+    if (same ? !facet_seeks && seeks_own_[first_[b] + m] == 0 : seeks_other_[first_[other] + m] == 0) return;
+    const Vec3& p = d.x()[m];
+    if ((p.array() < lo.array()).any() || (p.array() > hi.array()).any()) return;
+    if (same && (m == k[0] || m == k[1] || m == k[2])) return;
+    // A loose mass that meets a facet is found by that facet; two loose ones find each other once.
+    if (loose && (!bodies[other].facets()->is_loose(m) || first_[other] + m > first_[b] + k[0])) return;
+    if (closest_point(p, now.corner).distance > within) return;
+    if (same && (c.are_joined(m, k[0]) || c.are_joined(m, k[1]) || c.are_joined(m, k[2]))) return;
+    add(facets_, {other, m}, facet);
+  });
 }
 
 }  // namespace palpate::physics

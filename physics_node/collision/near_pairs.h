@@ -41,13 +41,16 @@ class NearPairs {
 
  private:
   bool is_allowed(std::uint32_t a, std::uint32_t b) const { return allowed_[a * n_bodies_ + b] != 0; }
+  double skin(const Candidates& a, const Candidates& b) const noexcept;  // [m]
   bool is_valid(const std::vector<ContactBody>& bodies) const noexcept;
   void rebuild(const std::vector<ContactBody>& bodies) noexcept;
   void choose_seekers(const std::vector<ContactBody>& bodies) noexcept;
   void seek_masses(const std::vector<ContactBody>& bodies) noexcept;
   void seek_facets(const std::vector<ContactBody>& bodies) noexcept;
   void add(std::vector<NearPair>& list, PairEnd mass, PairEnd other) noexcept;
-  PairEnd place_of(std::uint32_t id) const noexcept;
+  /// Masses of a body near a facet. @param facet_seeks  whether the facet has moved enough to meet its own body
+  void seek_masses_near(const std::vector<ContactBody>& bodies, PairEnd facet, std::uint32_t other,
+                        bool facet_seeks) noexcept;
 
   std::uint32_t n_bodies_;
   PairKind kind_;
@@ -55,9 +58,11 @@ class NearPairs {
   std::vector<std::uint32_t> first_;   // id of the first candidate of each body  (n_bodies + 1)
   // Of each candidate: may it meet another body, may it meet its own?
   std::vector<std::uint8_t> seeks_other_, seeks_own_;
-  PointGrid grid_;
+  std::vector<PointGrid> grids_;               // of each body
+  std::vector<Eigen::AlignedBox3d> movers_;    // of each body, round the candidates that may meet their own
   double smallest_L_ = 0, largest_L_ = 0;
-  double skin_ = 0, reach_ = 0;  // now [m]
+  double least_skin_ = 0;        // for what one step moves masses by [m]
+  double reach_ = 0;             // farthest that any pair is listed at [m]
   std::vector<NearPair> masses_, facets_;
   std::int64_t rebuilds_ = 0, overflows_ = 0;
   bool fresh_ = false;

@@ -104,9 +104,10 @@ TEST(NearPairs, AreMadeAnewOnlyWhenSomethingHasMovedByHalfTheSkin) {
     for (auto& body : heap.bodies) body.refresh(0);
     near.update(heap.bodies, false, 0);
   };
-  shift(0.4 * 0.4 * 6e-3);
+  const double skin = 0.4 * 0.5 * (6e-3 + 10e-3);
+  shift(0.9 * skin);
   EXPECT_EQ(near.rebuilds(), 1);
-  shift(1.1 * 0.4 * 6e-3);
+  shift(1.1 * skin);
   EXPECT_EQ(near.rebuilds(), 2);
 }
 
