@@ -15,7 +15,7 @@ int complete_count(const Lattice& lattice, Index cell) {
 
 }  // namespace
 
-Candidates::Candidates(const MovingBody& moving) : moving_(&moving) {
+Candidates::Candidates(const MovingBody& moving, bool with_front) : moving_(&moving), with_front_(with_front) {
   const Lattice& lattice = moving.body().lattice;
   length_ = lattice.kind == LatticeKind::fcc ? lattice.rest_length[0] : lattice.step.maxCoeff();
   number_.assign(static_cast<std::size_t>(lattice.n_cells()), -1);
@@ -59,11 +59,26 @@ void Candidates::restart() noexcept {
   const Lattice& lattice = moving_->body().lattice;
   for (const Index cell : lattice.masses)
     if (std::popcount(moving_->mask(cell)) < complete_count(lattice, cell)) add(cell);
+  if (!with_front_ || moving_->breaks() == 0) return;
+  for (const Index cell : lattice.masses)
+    if (moving_->mask(cell) != lattice.mask[static_cast<std::size_t>(cell)]) add_front(cell);
+}
+
+std::size_t Candidates::add_front(Index cell) noexcept {
+  const Lattice& lattice = moving_->body().lattice;
+  const auto& offset = lattice.offset[static_cast<std::size_t>(lattice.row_kind(cell))];
+  std::size_t fresh = 0;
+  for (Mask mask = moving_->mask(cell); mask != 0; mask &= mask - 1)
+    fresh += add(cell + offset[static_cast<std::size_t>(std::countr_zero(mask))]) ? 1U : 0U;
+  return fresh;
 }
 
 std::size_t Candidates::follow(std::span<const Break> breaks) noexcept {
   std::size_t fresh = 0;
-  for (const Break& b : breaks) fresh += (add(b.first) ? 1U : 0U) + (add(b.other) ? 1U : 0U);
+  for (const Break& b : breaks) {
+    fresh += (add(b.first) ? 1U : 0U) + (add(b.other) ? 1U : 0U);
+    if (with_front_) fresh += add_front(b.first) + add_front(b.other);
+  }
   return fresh;
 }
 

@@ -12,7 +12,9 @@ namespace palpate::physics {
 
 class Candidates {
  public:
-  explicit Candidates(const MovingBody& moving);
+  /// @param with_front  also the neighbours of masses that lost elements: what a blade inside a cut meets next. Deviation:
+  ///   the paper lets a mass touch only once it has lost an element itself, so that a blade passes whole masses unfelt.
+  Candidates(const MovingBody& moving, bool with_front);
 
   /// Finds them anew: after a reset, or when elements came back.
   void restart() noexcept;
@@ -42,10 +44,12 @@ class Candidates {
 
  private:
   bool add(Index cell) noexcept;
+  std::size_t add_front(Index cell) noexcept;
 
   const MovingBody* moving_;
   double length_ = 0;
   std::size_t most_ = 0;
+  bool with_front_ = false;
   std::vector<Index> cell_;
   std::vector<Vec3> rest_, x_, v_, v_move_;
   std::vector<double> inverse_mass_;

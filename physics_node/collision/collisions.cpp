@@ -8,10 +8,11 @@
 namespace palpate::physics {
 namespace {
 
-std::vector<ContactBody> contact_bodies(const std::vector<std::unique_ptr<MovingBody>>& bodies, bool with_facets) {
+std::vector<ContactBody> contact_bodies(const std::vector<std::unique_ptr<MovingBody>>& bodies, bool with_facets,
+                                        bool with_front) {
   std::vector<ContactBody> made;
   made.reserve(bodies.size());  // facets refer to the candidates beside them
-  for (const auto& body : bodies) made.emplace_back(*body, with_facets);
+  for (const auto& body : bodies) made.emplace_back(*body, with_facets, with_front);
   return made;
 }
 
@@ -29,7 +30,7 @@ Collisions::Collisions(const std::vector<std::unique_ptr<MovingBody>>& bodies, c
     : spec_(spec),
       swept_(spec.distance == ContactDistance::swept),
       moving_(pointers(bodies)),
-      bodies_(contact_bodies(bodies, swept_ || spec.count_passages)),
+      bodies_(contact_bodies(bodies, swept_ || spec.count_passages, swept_)),
       near_(bodies_, swept_ ? PairKind::facets : spec.count_passages ? PairKind::both : PairKind::masses),
       impulses_(bodies_),
       apart_(bodies.size() * bodies.size(), 0.0),

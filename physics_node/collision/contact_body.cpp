@@ -5,8 +5,9 @@
 
 namespace palpate::physics {
 
-ContactBody::ContactBody(const MovingBody& moving, bool wants_facets) : candidates_(moving) {
-  if (wants_facets) facets_ = std::make_unique<Facets>(candidates_);
+ContactBody::ContactBody(const MovingBody& moving, bool with_facets, bool with_front)
+    : candidates_(moving, with_front) {
+  if (with_facets) facets_ = std::make_unique<Facets>(candidates_);
   marked_.resize(candidates_.most());
 }
 

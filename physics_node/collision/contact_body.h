@@ -10,8 +10,9 @@ namespace palpate::physics {
 
 class ContactBody {
  public:
-  /// @param wants_facets  whether facets are followed; else there are none
-  ContactBody(const MovingBody& moving, bool wants_facets);
+  /// @param with_facets  whether facets are followed; else there are none
+  /// @param with_front   as for Candidates
+  ContactBody(const MovingBody& moving, bool with_facets, bool with_front);
 
   /// Follows the elements that broke in the last step. @return true if candidates or facets are not what they were
   bool follow_breaks() noexcept;

@@ -14,3 +14,6 @@ palpate_test(NAME physics_closed_forms_test KIND property SOURCES physics_closed
 palpate_test(NAME physics_falls_test KIND property SOURCES physics_falls_test.cpp
   LIBS palpate_physics_worlds palpate_bench_falls TIMEOUT 300)
 target_compile_definitions(physics_falls_test PRIVATE SCENES="${PROJECT_SOURCE_DIR}/scenes")
+# What becomes of two bodies that meet.
+palpate_test(NAME physics_collide_test KIND property SOURCES physics_collide_test.cpp LIBS palpate_physics_worlds TIMEOUT 300)
+target_compile_definitions(physics_collide_test PRIVATE SCENES="${PROJECT_SOURCE_DIR}/scenes")

@@ -24,7 +24,7 @@ TEST_P(ClosedSurface, EveryEdgeOfAnUnbrokenBodyIsInAnEvenNumberOfFacets) {
   recipe.lattice = GetParam().lattice;
   recipe.shape = GetParam().shape;
   const auto moving = make_moving_body(test::body_of(recipe), Precision::double_);
-  const Candidates candidates(*moving);
+  const Candidates candidates(*moving, false);
   const Facets facets(candidates);
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
   std::size_t loose = 0;
@@ -54,7 +54,7 @@ INSTANTIATE_TEST_SUITE_P(Lattices, ClosedSurface,
 TEST(Facets, ALooseMassIsAFacetOfOnePoint) {
   Recipe recipe = test::pair_of_masses("mass_g = 1\nk1_N_per_m = 100");
   const auto moving = make_moving_body(test::body_of(recipe), Precision::double_);
-  const Candidates candidates(*moving);
+  const Candidates candidates(*moving, false);
   const Facets facets(candidates);
   ASSERT_EQ(facets.all().size(), 2U);
   EXPECT_TRUE(facets.is_loose(0));
@@ -63,7 +63,7 @@ TEST(Facets, ALooseMassIsAFacetOfOnePoint) {
 
 TEST(Candidates, AreTheMassesWithFewerElementsThanDeepInside) {
   const auto moving = make_moving_body(test::body_of({.shape = Recipe::sphere(50)}), Precision::single_);
-  const Candidates candidates(*moving);
+  const Candidates candidates(*moving, false);
   std::size_t expected = 0;
   for (const Index cell : moving->body().lattice.masses)
     expected += __builtin_popcount(moving->mask(cell)) < 12 ? 1U : 0U;

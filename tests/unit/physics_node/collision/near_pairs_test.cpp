@@ -29,7 +29,7 @@ struct Heap {
     for (auto& body : moving)
       for (const Index cell : body->body().lattice.masses) body->place(cell, dice.within(spread), Vec3::Zero());
     bodies.reserve(2);
-    for (auto& body : moving) bodies.emplace_back(*body, true);
+    for (auto& body : moving) bodies.emplace_back(*body, true, false);
     for (auto& body : bodies) body.refresh(0);
   }
 };
@@ -114,7 +114,7 @@ TEST(NearPairs, AreMadeAnewOnlyWhenSomethingHasMovedByHalfTheSkin) {
 TEST(NearPairs, OfABodyAtRestAreNone) {
   std::vector<ContactBody> bodies;
   const auto moving = make_moving_body(test::body_of({.shape = Recipe::sphere(50)}), Precision::double_);
-  bodies.emplace_back(*moving, true);
+  bodies.emplace_back(*moving, true, false);
   bodies[0].refresh(0);
   NearPairs near(bodies, PairKind::both);
   near.allow(0, 0, true);
