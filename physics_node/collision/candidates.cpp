@@ -13,6 +13,17 @@ int complete_count(const Lattice& lattice, Index cell) {
   return (lattice.grid_of(cell).sum() & 1) == 0 ? 18 : 6;
 }
 
+/// Does space reach this mass although it may lack no element? On fcc where a mass is missing across one of the six octahedra
+/// that it is a corner of, on voxels where one of its eight cells is.
+bool lies_open(const Lattice& lattice, Index cell) {
+  if (lattice.kind != LatticeKind::fcc) return lattice.mass_share[static_cast<std::size_t>(cell)] < 1;
+  const Vec3i grid = lattice.grid_of(cell);
+  for (int axis = 0; axis < 3; ++axis)
+    for (const int by : {-2, 2})
+      if (lattice.mass_at(grid + by * Vec3i::Unit(axis)) < 0) return true;
+  return false;
+}
+
 }  // namespace
 
 Candidates::Candidates(const MovingBody& moving, bool with_front) : moving_(&moving), with_front_(with_front) {
@@ -22,7 +33,8 @@ Candidates::Candidates(const MovingBody& moving, bool with_front) : moving_(&mov
   most_ = lattice.masses.size();
   if (!any_yields(moving.body())) {
     const auto on_surface = [&](Index cell) {
-      return std::popcount(lattice.mask[static_cast<std::size_t>(cell)]) < complete_count(lattice, cell);
+      return std::popcount(lattice.mask[static_cast<std::size_t>(cell)]) < complete_count(lattice, cell) ||
+             (with_front && lies_open(lattice, cell));
     };
     most_ = static_cast<std::size_t>(std::count_if(lattice.masses.begin(), lattice.masses.end(), on_surface));
   }
@@ -58,7 +70,8 @@ void Candidates::restart() noexcept {
   x_.clear(), v_.clear(), v_move_.clear();
   const Lattice& lattice = moving_->body().lattice;
   for (const Index cell : lattice.masses)
-    if (std::popcount(moving_->mask(cell)) < complete_count(lattice, cell)) add(cell);
+    if (std::popcount(moving_->mask(cell)) < complete_count(lattice, cell) || (with_front_ && lies_open(lattice, cell)))
+      add(cell);
   if (!with_front_ || moving_->breaks() == 0) return;
   for (const Index cell : lattice.masses)
     if (moving_->mask(cell) != lattice.mask[static_cast<std::size_t>(cell)]) add_front(cell);

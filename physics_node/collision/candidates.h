@@ -12,8 +12,9 @@ namespace palpate::physics {
 
 class Candidates {
  public:
-  /// @param with_front  also the neighbours of masses that lost elements: what a blade inside a cut meets next. Deviation:
-  ///   the paper lets a mass touch only once it has lost an element itself, so that a blade passes whole masses unfelt.
+  /// @param with_front  also masses that lack no element but lie open, as at the bottom of a pit of the fcc surface or in an
+  ///   inner corner of voxels; and the neighbours of masses that lost elements, which a blade inside a cut meets
+  ///   next. Deviation: in the paper a mass touches only where it lacks an element itself.
   Candidates(const MovingBody& moving, bool with_front);
 
   /// Finds them anew: after a reset, or when elements came back.

@@ -96,13 +96,14 @@ void Collisions::step(double dt) noexcept {
   near_.update(bodies_, changed_, dt);
   changed_ = false;
   tally_.rebuilds = near_.rebuilds();
-  tally_.overflows = near_.overflows();
+  tally_.overflows = near_.overflows() + active_overflows_;
   if (near_.masses().empty() && near_.facets().empty()) return;
   impulses_.begin_step();
   if (swept_) {
     const SweptReport report = swept_contact_->step(bodies_, near_.facets(), spec_.restitution, dt, impulses_);
     tally_.collisions += report.collisions;
     tally_.stopped += report.stopped;
+    active_overflows_ += report.overflows;
     tally_.lost += report.lost;
   } else {
     const ExchangeReport report = exchange_velocities(bodies_, near_.masses(), spec_.restitution, impulses_);

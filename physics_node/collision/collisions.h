@@ -60,6 +60,7 @@ class Collisions {
   std::unique_ptr<SweptContact> swept_contact_;  // swept only
   CollisionTally tally_;
   std::vector<double> apart_;     // of each pair of bodies: how far they may still travel until they could be near [m]
+  std::int64_t active_overflows_ = 0;
   double smallest_L_ = 0;
   double wanted_step_ = 0;
   bool changed_ = true;

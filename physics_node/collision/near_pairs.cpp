@@ -16,7 +16,7 @@ constexpr double cell_over_L = 2;    // of a grid: few cells to look at, few mas
 // Two masses that have not left their places by more than this, drift apart, do not meet: at rest those that are not joined
 // are 1.4 L apart, L where an element broke, and 0.82 L from a facet that broke off.
 constexpr double still_over_L = 0.1;
-constexpr std::size_t pairs_per_candidate = 24;  // room; a compressed heap of loose masses has fewer
+constexpr std::size_t pairs_per_candidate = 96;  // room, touched only where pairs are
 
 std::size_t count_all(const std::vector<ContactBody>& bodies) {
   std::size_t n = 0;
@@ -65,6 +65,8 @@ bool NearPairs::any_allowed() const noexcept {
   return std::any_of(allowed_.begin(), allowed_.end(), [](auto a) { return a != 0; });
 }
 
+double most_motion(double dt, double speed) noexcept { return 5 * dt * speed; }
+
 double NearPairs::skin(const Candidates& a, const Candidates& b) const noexcept {
   return std::max(0.5 * skin_over_L * (a.length() + b.length()), least_skin_);
 }
@@ -88,7 +90,7 @@ void NearPairs::update(std::vector<ContactBody>& bodies, bool changed, double dt
     speed = std::max(speed, body.speed());
   }
   // What two masses may have done to each other within this step must be in the list.
-  const double needed = 2.4 * dt * speed;
+  const double needed = most_motion(dt, speed);
   if (!changed && needed <= std::max(least_skin_, skin_over_L * smallest_L_) && is_valid(bodies)) return;
   least_skin_ = needed;
   reach_ = largest_L_ / std::numbers::sqrt3 + std::max(skin_over_L * largest_L_, needed);

@@ -68,6 +68,9 @@ class NearPairs {
   bool fresh_ = false;
 };
 
+/// What two masses may move towards each other in a step at most, where the fastest has this speed: a light one that a heavy
+/// one hits goes on at twice its speed, and a little more is allowed for [m].
+double most_motion(double dt, double speed) noexcept;
 /// Distance at which two masses of these bodies touch, at rest: the larger L / sqrt(3). (EQUATIONS C-13)
 double paper_distance(const Candidates& a, const Candidates& b) noexcept;
 /// Distance at which a mass touches a facet whose edges now have this mean length: (edge + L) / (2 sqrt(3)), which is

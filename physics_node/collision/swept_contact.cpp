@@ -9,6 +9,7 @@ namespace palpate::physics {
 namespace {
 
 constexpr int most_sweeps = 8;
+constexpr std::uint32_t active_per_candidate = 48;  // room, touched only where pairs are
 constexpr int most_rounds = 32;  // of zones; each joins at least one more mass
 
 /// The four where the step began, and what they move by with the impulses so far.
@@ -33,11 +34,14 @@ SweptContact::SweptContact(const std::vector<ContactBody>& bodies, std::size_t m
   in_zone_.assign(n, 0);
   zoned_.reserve(n);
   sums_.resize(n);
-  active_.reserve(most_pairs);
+  active_.reserve(std::min<std::size_t>(most_pairs, std::size_t{active_per_candidate} * n));
 }
 
 void SweptContact::find_active(const std::vector<ContactBody>& bodies, std::span<const NearPair> pairs, double dt) noexcept {
   active_.clear();
+  double speed = 0;
+  for (const ContactBody& body : bodies) speed = std::max(speed, body.speed());
+  const double reach = most_motion(dt, speed);
   for (const NearPair& pair : pairs) {
     const Candidates& c = bodies[pair.mass.body].candidates();
     const ContactBody& other = bodies[pair.other.body];
@@ -46,12 +50,11 @@ void SweptContact::find_active(const std::vector<ContactBody>& bodies, std::span
     const FacetNow facet = facet_now(d, k);
     const double h = swept_distance(facet.edge, c);
     const ClosestPoint nearest = closest_point(c.x()[pair.mass.n], facet.corner);
-    double farthest = 0;
-    for (const std::uint32_t corner : k)
-      farthest = std::max(farthest, (c.v_move()[pair.mass.n] - d.v_move()[corner]).squaredNorm());
-    // Impulses change velocities; a pair as far as this from touching is left out even if they double.
-    if (nearest.distance > h + 2 * dt * std::sqrt(farthest) || nearest.distance == 0) continue;
-    if (active_.size() == active_.capacity()) break;
+    if (nearest.distance > h + reach || nearest.distance == 0) continue;
+    if (active_.size() == active_.capacity()) {
+      ++overflows_;
+      continue;
+    }
     Active& a = active_.emplace_back();
     a.end = {pair.mass, PairEnd{pair.other.body, k[0]}, PairEnd{pair.other.body, k[1]}, PairEnd{pair.other.body, k[2]}};
     a.weight = nearest.weight;
@@ -149,7 +152,9 @@ void SweptContact::move_zones_together(const std::vector<ContactBody>& bodies, C
 SweptReport SweptContact::step(const std::vector<ContactBody>& bodies, std::span<const NearPair> pairs, double e, double dt,
                         ContactImpulses& impulses) noexcept {
   SweptReport report;
+  overflows_ = 0;
   find_active(bodies, pairs, dt);
+  report.overflows = overflows_;
   if (active_.empty()) return report;
   for (int n = 0; n < most_sweeps; ++n) {
     const std::int64_t collisions = push_apart(bodies, e, dt, impulses, report.lost);

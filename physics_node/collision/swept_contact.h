@@ -10,7 +10,8 @@ namespace palpate::physics {
 struct SweptReport {
   std::int64_t collisions = 0;
   std::int64_t stopped = 0;  // masses that no impulse could keep apart and that were made to move together
-  double lost = 0;           // kinetic energy [J]
+  std::int64_t overflows = 0;  // pairs that found no room
+  double lost = 0;             // kinetic energy [J]
 };
 
 /// One step of contact: impulses at its beginning, which change what the masses move by in it.
@@ -53,6 +54,7 @@ class SweptContact {
 
   std::vector<std::uint32_t> first_;
   std::vector<Active> active_;
+  std::int64_t overflows_ = 0;
   std::vector<std::uint32_t> parent_;  // of each candidate, in zones; itself where it is in none
   std::vector<PairEnd> zoned_;         // candidates in zones
   std::vector<std::uint8_t> in_zone_;

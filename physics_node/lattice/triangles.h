@@ -44,7 +44,13 @@ bool is_closed(const std::vector<Need>& side, Index cell, const MaskOf& mask) {
     if (!holds(need, cell, mask)) return false;
   return true;
 }
-/// Alive, and at most one side closed.
+/// Alive, with one side closed and the other open. These triangles together close off what is filled.
+template <class MaskOf>
+bool is_boundary(const TrianglePattern& triangle, Index cell, const MaskOf& mask) {
+  return is_alive(triangle, cell, mask) &&
+         is_closed(triangle.side[0], cell, mask) != is_closed(triangle.side[1], cell, mask);
+}
+/// Alive, and at most one side closed: a boundary, or a sheet that nothing fills.
 template <class MaskOf>
 bool is_exposed(const TrianglePattern& triangle, Index cell, const MaskOf& mask) {
   return is_alive(triangle, cell, mask) &&

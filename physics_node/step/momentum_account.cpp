@@ -34,6 +34,11 @@ void MomentumAccount::push(const Vec3& impulse, const Vec3& x, double dt) noexce
   mass_moment_ += dt * impulse;
 }
 
+void MomentumAccount::shift(const Momenta& now, const Momenta& before) noexcept {
+  booked_.linear += now.linear - before.linear;
+  booked_.angular += now.angular - before.angular;
+}
+
 MomentumBalance MomentumAccount::balance(const Momenta& now) const noexcept {
   return {{now.linear - booked_.linear, now.angular - booked_.angular}, linear_, angular_};
 }

@@ -44,6 +44,9 @@ class MomentumAccount {
   /// Impulses from floor, tools and others, in all; a restart does not forget them.
   std::int64_t hits() const noexcept { return hits_; }
 
+  /// The same masses at another moment: what they have there is `now`, where they had `before`.
+  void shift(const Momenta& now, const Momenta& before) noexcept;
+
   MomentumBalance balance(const Momenta& now) const noexcept;
 
  private:

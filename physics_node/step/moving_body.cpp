@@ -29,7 +29,7 @@ class LatticeBody final : public MovingBody {
   const Body& body() const noexcept override { return body_; }
 
   std::int64_t element_forces_and_integrate(const ExplicitStep& step) noexcept override {
-    if (step.verlet && step.dt != last_dt_) begin_leapfrog(step.gravity);
+    if (step.verlet && step.dt != last_dt_) begin_leapfrog();
     last_dt_ = step.dt;
     momentum_.step(step.gravity, step.verlet && !state_.v_half_known ? 0.5 * step.dt : step.dt, step.dt);
     return element_step(body_, state_, step);  // sleeping rows are skipped
@@ -72,6 +72,7 @@ class LatticeBody final : public MovingBody {
   }
 
   void push(Index cell, const Vec3& dv, double dt) noexcept override {
+    if (implicit_) dt = 0;
     const auto c = static_cast<std::size_t>(cell);
     if (state_.inverse_mass[c] == 0) return;
     sleep_.wake_cell(body_, state_, cell);
@@ -102,6 +103,7 @@ class LatticeBody final : public MovingBody {
   }
 
   Bounces bounce_off(const Plane& plane, double e, double dt) noexcept override {
+    if (implicit_) return bounce(body_, state_, state_.v, state_.v, plane, e, 0, momentum_);
     return bounce(body_, state_, moving_velocity(), v_before_, plane, e, dt, momentum_);
   }
 
@@ -183,7 +185,8 @@ class LatticeBody final : public MovingBody {
     for (std::size_t n = 0; n < cells.size(); ++n) {
       v_move[n] = vector_of(moving, cells[n]);
       v[n] = known ? Vec3(0.5 * (v_move[n] + vector_of(v_before_, cells[n]))) : v_move[n];
-      x[n] = rest[n] + vector_of(state_.u, cells[n]) - dt * v_move[n];
+      x[n] = rest[n] + vector_of(state_.u, cells[n]);
+      if (!implicit_) x[n] -= dt * v_move[n];
     }
   }
   Mask mask(Index cell) const noexcept override { return state_.mask[static_cast<std::size_t>(cell)]; }
@@ -235,12 +238,15 @@ class LatticeBody final : public MovingBody {
   }
 
  private:
-  /// With another step the velocity half a step ago is another one: starts from the one now.
-  void begin_leapfrog(const Vec3& gravity) noexcept {
+  /// With another step the velocity half a step ago is another one: starts from the one now. Its momentum is another too, by
+  /// what acted meanwhile.
+  void begin_leapfrog() noexcept {
+    const Momenta before = measure_momenta(body_, state_.u, state_.v_half).momenta;
     for (std::size_t a = 0; a < 3; ++a)
       for (const RowSegment& row : body_.lattice.rows)
         std::copy_n(state_.v[a].data() + row.first, row.count, state_.v_half[a].data() + row.first);
-    if (state_.v_half_known) momentum_.step(gravity, 0.5 * last_dt_, 0);
+    const Momenta after = measure_momenta(body_, state_.u, state_.v_half).momenta;
+    momentum_.shift(after, before);
     state_.v_half_known = false;
   }
 

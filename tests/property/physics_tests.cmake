@@ -17,3 +17,5 @@ target_compile_definitions(physics_falls_test PRIVATE SCENES="${PROJECT_SOURCE_D
 # What becomes of two bodies that meet.
 palpate_test(NAME physics_collide_test KIND property SOURCES physics_collide_test.cpp LIBS palpate_physics_worlds TIMEOUT 300)
 target_compile_definitions(physics_collide_test PRIVATE SCENES="${PROJECT_SOURCE_DIR}/scenes")
+# Nothing tunnels.
+palpate_test(NAME physics_tunnelling_test KIND property SOURCES physics_tunnelling_test.cpp LIBS palpate_physics_worlds TIMEOUT 300)

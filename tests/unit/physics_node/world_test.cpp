@@ -158,13 +158,17 @@ TEST(World, TakesWholeFramesOfStiffTissueByBackwardEuler) {
   EXPECT_NEAR(ledger.elastic / -ledger.gravitational, 0.5, 1e-3);
 }
 
-TEST(World, SaysThatBodiesDoNotYetTouchEachOther) {
+TEST(World, LeavesContactOutWhereNothingCouldTouch) {
   Recipe recipe;
+  EXPECT_EQ(World(scene_of(recipe)).collisions(), nullptr) << "one body that cannot break";
   recipe.world = "[[body]]\nname = \"other\"\nspacing_mm = 10\nmaterial = \"m\"\nat_mm = [200, 0, 0]\n" +
                  Recipe::sphere(30);
   const World world(scene_of(recipe));
   EXPECT_EQ(world.n_bodies(), 2u);
-  EXPECT_EQ(world.remarks().size(), 1u);
+  EXPECT_NE(world.collisions(), nullptr);
+  EXPECT_TRUE(world.remarks().empty());
+  recipe.world += "\n[contact]\nenabled = false\n";
+  EXPECT_EQ(World(scene_of(recipe)).collisions(), nullptr) << "asked to";
 }
 
 }  // namespace

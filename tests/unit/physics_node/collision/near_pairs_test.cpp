@@ -1,4 +1,5 @@
 #include "physics_node/collision/near_pairs.h"
+#include "physics_node/collision/point_triangle.h"
 
 #include <gtest/gtest.h>
 
@@ -55,7 +56,7 @@ TEST(NearPairs, HoldEveryPairOfMassesWithinReach) {
             EXPECT_TRUE(listed.count({a, i, b, j})) << "seed " << seed;
           }
       }
-    EXPECT_GT(expected, 100U) << "seed " << seed;
+    EXPECT_GT(expected, 20U) << "seed " << seed;
     EXPECT_EQ(near.overflows(), 0);
   }
 }
@@ -74,6 +75,7 @@ TEST(NearPairs, HoldEveryMassWithinReachOfAFacet) {
       const Candidates& d = heap.bodies[b].candidates();
       for (std::uint32_t f = 0; f < heap.bodies[b].facets()->all().size(); ++f) {
         const auto& k = heap.bodies[b].facets()->all()[f];
+        if (k[0] == k[1]) continue;  // a loose mass, which only loose ones seek
         const Triangle t{d.x()[k[0]], d.x()[k[1]], d.x()[k[2]]};
         const double edge = ((t[0] - t[1]).norm() + (t[1] - t[2]).norm() + (t[2] - t[0]).norm()) / 3;
         for (std::uint32_t a = 0; a < 2; ++a) {
@@ -84,7 +86,9 @@ TEST(NearPairs, HoldEveryMassWithinReachOfAFacet) {
                                         c.are_joined(i, k[1]) || c.are_joined(i, k[2]));
             if (own) continue;
             ++expected;
-            EXPECT_TRUE(listed.count({a, i, b, f})) << "seed " << seed;
+            EXPECT_TRUE(listed.count({a, i, b, f})) << "seed " << seed << " body " << a << " mass " << i << " at "
+                                                    << c.x()[i].transpose() << " of facet " << f << " of body " << b << " "
+                                                    << k[0] << " " << k[1] << " " << k[2] << " edge " << edge;
           }
         }
       }

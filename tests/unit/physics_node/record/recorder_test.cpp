@@ -53,7 +53,8 @@ std::vector<std::string> lines_of(const std::string& path) {
 TEST_F(Recording, LeavesOneRowPerFrame) {
   const auto lines = lines_of(folder_ / Recorder::trace_name("tip"));
   ASSERT_EQ(lines.size(), 1u + n_frames);
-  EXPECT_EQ(lines[0], "t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm,contacts");
+  EXPECT_EQ(lines[0], "t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm,contacts,"
+                      "raw_fx_N,raw_fy_N,raw_fz_N,raw_mx_Nm,raw_my_Nm,raw_mz_Nm");
   EXPECT_EQ(lines[1].substr(0, 9), "0.001000,");
   double t = 0, x = 0, y = 0, z = 0, fx = 0, fy = 0, fz = 0;
   ASSERT_EQ(std::sscanf(lines.back().c_str(), "%lf,%lf,%lf,%lf,%lf,%lf,%lf", &t, &x, &y, &z, &fx, &fy, &fz),
@@ -68,7 +69,7 @@ TEST_F(Recording, TellsWhereTheEnergyIsAtTheSameRate) {
   ASSERT_EQ(lines.size(), 1u + 6u);
   EXPECT_EQ(lines[0],
             "t_s,kinetic_J,elastic_J,gravitational_J,dissipated_J,plastic_J,numerical_J,broken_J,guard_J,"
-            "tool_work_J");
+            "tool_work_J,contact_J");
   double t = 0, kinetic = 0, elastic = 0, gravitational = 0, dissipated = 0;
   ASSERT_EQ(std::sscanf(lines.back().c_str(), "%lf,%lf,%lf,%lf,%lf", &t, &kinetic, &elastic, &gravitational,
                         &dissipated),
