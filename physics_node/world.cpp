@@ -45,7 +45,7 @@ World::World(const Scene& scene) : scene_(scene) {
     any_yields_ = any_yields_ || any_yields(body);
     const Lattice& lattice = body.lattice;
     const double bucket =
-        4 * (lattice.kind == LatticeKind::fcc ? lattice.rest_length[0] : lattice.step.maxCoeff());
+        4 * lattice.spacing();
     bodies_.push_back(make_moving_body(std::move(body), scene.physics.precision, integrator));
     fragments_.push_back(any_yields(bodies_.back()->body()) ? std::make_unique<Fragments>(*bodies_.back()) : nullptr);
     touchable_.push_back({bodies_.back().get(), std::make_unique<ContactSurface>(*bodies_.back(), bucket)});
@@ -183,11 +183,8 @@ void World::touch(double dt, double done) noexcept {
 }
 
 void World::step(double dt, double done, bool watch) noexcept {
-  if (near_) {
-    collisions_->before_step();
-  } else if (!planes_.empty()) {
+  if (near_ || !planes_.empty())
     for (auto& body : bodies_) body->remember_velocities();
-  }
   if (scene_.physics.integrator == Integrator::backward_euler) {
     move_bodies_implicitly(dt, watch);
   } else {

@@ -26,22 +26,26 @@ bool lies_open(const Lattice& lattice, Index cell) {
 
 }  // namespace
 
-Candidates::Candidates(const MovingBody& moving, bool with_front) : moving_(&moving), with_front_(with_front) {
+bool Candidates::is_candidate(Index cell, Mask live) const {
+  const Lattice& lattice = moving_->body().lattice;
+  return std::popcount(live) < complete_count(lattice, cell) || (with_front_ && lies_open(lattice, cell));
+}
+
+Candidates::Candidates(const MovingBody& moving, bool with_front)
+    : moving_(&moving), with_front_(with_front) {
   const Lattice& lattice = moving.body().lattice;
-  length_ = lattice.kind == LatticeKind::fcc ? lattice.rest_length[0] : lattice.step.maxCoeff();
+  length_ = lattice.spacing();
   number_.assign(static_cast<std::size_t>(lattice.n_cells()), -1);
   most_ = lattice.masses.size();
   if (!any_yields(moving.body())) {
-    const auto on_surface = [&](Index cell) {
-      return std::popcount(lattice.mask[static_cast<std::size_t>(cell)]) < complete_count(lattice, cell) ||
-             (with_front && lies_open(lattice, cell));
+    const auto at_start = [&](Index cell) {
+      return is_candidate(cell, lattice.mask[static_cast<std::size_t>(cell)]);
     };
-    most_ = static_cast<std::size_t>(std::count_if(lattice.masses.begin(), lattice.masses.end(), on_surface));
+    most_ = static_cast<std::size_t>(std::count_if(lattice.masses.begin(), lattice.masses.end(), at_start));
   }
   cell_.reserve(most_);
   rest_.reserve(most_);
   inverse_mass_.reserve(most_);
-  driven_.reserve(most_);
   x_.reserve(most_);
   v_.reserve(most_);
   v_move_.reserve(most_);
@@ -56,7 +60,6 @@ bool Candidates::add(Index cell) noexcept {
   cell_.push_back(cell);
   rest_.push_back(body.lattice.rest_position(cell));
   const bool driven = std::binary_search(body.handle.begin(), body.handle.end(), cell);
-  driven_.push_back(driven ? 1 : 0);
   inverse_mass_.push_back(driven ? 0.0 : body.inverse_mass[static_cast<std::size_t>(cell)]);
   x_.emplace_back(Vec3::Zero());
   v_.emplace_back(Vec3::Zero());
@@ -66,12 +69,11 @@ bool Candidates::add(Index cell) noexcept {
 
 void Candidates::restart() noexcept {
   for (const Index cell : cell_) number_[static_cast<std::size_t>(cell)] = -1;
-  cell_.clear(), rest_.clear(), inverse_mass_.clear(), driven_.clear();
+  cell_.clear(), rest_.clear(), inverse_mass_.clear();
   x_.clear(), v_.clear(), v_move_.clear();
   const Lattice& lattice = moving_->body().lattice;
   for (const Index cell : lattice.masses)
-    if (std::popcount(moving_->mask(cell)) < complete_count(lattice, cell) || (with_front_ && lies_open(lattice, cell)))
-      add(cell);
+    if (is_candidate(cell, moving_->mask(cell))) add(cell);
   if (!with_front_ || moving_->breaks() == 0) return;
   for (const Index cell : lattice.masses)
     if (moving_->mask(cell) != lattice.mask[static_cast<std::size_t>(cell)]) add_front(cell);

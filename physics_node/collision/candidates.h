@@ -28,12 +28,13 @@ class Candidates {
 
   std::size_t size() const { return cell_.size(); }
   const std::vector<Index>& cell() const { return cell_; }
-  const std::vector<Vec3>& rest() const { return rest_; }  // position at rest [m]
-  const std::vector<Vec3>& x() const { return x_; }        // position [m]
-  const std::vector<Vec3>& v() const { return v_; }        // velocity [m/s]
+  const std::vector<Vec3>& rest() const { return rest_; }      // position at rest [m]
+  const std::vector<Vec3>& x() const { return x_; }            // position [m]
+  const std::vector<Vec3>& v() const { return v_; }            // velocity [m/s]
   const std::vector<Vec3>& v_move() const { return v_move_; }  // that moves it in the step [m/s]
-  double inverse_mass(std::size_t n) const { return inverse_mass_[n]; }  // 0: held, or driven by a hand [1/kg]
-  bool is_driven(std::size_t n) const { return driven_[n] != 0; }
+  double inverse_mass(std::size_t n) const {
+    return inverse_mass_[n];
+  }  // 0: held, or driven by a hand [1/kg]
   /// Number of the candidate in a storage cell, -1: it is none.
   std::int32_t at_cell(Index cell) const { return number_[static_cast<std::size_t>(cell)]; }
   /// Does a live element join these two?
@@ -44,6 +45,8 @@ class Candidates {
   std::size_t most() const { return most_; }
 
  private:
+  /// @param live  its elements
+  bool is_candidate(Index cell, Mask live) const;
   bool add(Index cell) noexcept;
   std::size_t add_front(Index cell) noexcept;
 
@@ -54,7 +57,6 @@ class Candidates {
   std::vector<Index> cell_;
   std::vector<Vec3> rest_, x_, v_, v_move_;
   std::vector<double> inverse_mass_;
-  std::vector<std::uint8_t> driven_;
   std::vector<std::int32_t> number_;  // by storage cell
 };
 

@@ -8,10 +8,10 @@
 namespace palpate::physics {
 namespace {
 
-std::vector<ContactBody> contact_bodies(const std::vector<std::unique_ptr<MovingBody>>& bodies, bool with_facets,
-                                        bool with_front) {
+std::vector<ContactBody> contact_bodies(const std::vector<std::unique_ptr<MovingBody>>& bodies,
+                                        bool with_facets, bool with_front) {
   std::vector<ContactBody> made;
-  made.reserve(bodies.size());  // facets refer to the candidates beside them
+  made.reserve(bodies.size());
   for (const auto& body : bodies) made.emplace_back(*body, with_facets, with_front);
   return made;
 }
@@ -31,7 +31,9 @@ Collisions::Collisions(const std::vector<std::unique_ptr<MovingBody>>& bodies, c
       swept_(spec.distance == ContactDistance::swept),
       moving_(pointers(bodies)),
       bodies_(contact_bodies(bodies, swept_ || spec.count_passages, swept_)),
-      near_(bodies_, swept_ ? PairKind::facets : spec.count_passages ? PairKind::both : PairKind::masses),
+      near_(bodies_, swept_                ? PairKind::facets
+                     : spec.count_passages ? PairKind::both
+                                           : PairKind::masses),
       impulses_(bodies_),
       apart_(bodies.size() * bodies.size(), 0.0),
       smallest_L_(std::numeric_limits<double>::infinity()) {
@@ -62,13 +64,8 @@ bool Collisions::are_near(std::uint32_t a, std::uint32_t b, double frame_seconds
   return apart <= 0;
 }
 
-void Collisions::before_step() noexcept {
-  if (!any_near_) return;
-  for (MovingBody* body : moving_) body->remember_velocities();
-}
-
 bool Collisions::begin_frame(double frame_seconds) noexcept {
-  any_near_ = false;
+  bool any_near = false;
   double fastest = 0;
   const auto n = static_cast<std::uint32_t>(bodies_.size());
   for (std::uint32_t a = 0; a < n; ++a)
@@ -76,13 +73,13 @@ bool Collisions::begin_frame(double frame_seconds) noexcept {
       const bool near = a == b ? bodies_[a].touches_itself() : are_near(a, b, frame_seconds);
       near_.allow(a, b, near);
       if (!near) continue;
-      any_near_ = true;
+      any_near = true;
       if (a == b) bodies_[a].refresh(0);
       fastest = std::max({fastest, bodies_[a].speed(), bodies_[b].speed()});
     }
   wanted_step_ = swept_ && fastest > 0 ? 0.25 * smallest_L_ / (speed_margin * fastest)
                                        : std::numeric_limits<double>::infinity();
-  return any_near_;
+  return any_near;
 }
 
 void Collisions::follow_breaks() noexcept {
@@ -90,7 +87,6 @@ void Collisions::follow_breaks() noexcept {
 }
 
 void Collisions::step(double dt) noexcept {
-  if (!any_near_) return;
   for (auto& body : bodies_)
     if (!body.refresh(dt)) return;  // not finite: the guard's
   near_.update(bodies_, changed_, dt);
@@ -100,7 +96,8 @@ void Collisions::step(double dt) noexcept {
   if (near_.masses().empty() && near_.facets().empty()) return;
   impulses_.begin_step();
   if (swept_) {
-    const SweptReport report = swept_contact_->step(bodies_, near_.facets(), spec_.restitution, dt, impulses_);
+    const SweptReport report =
+        swept_contact_->step(bodies_, near_.facets(), spec_.restitution, dt, impulses_);
     tally_.collisions += report.collisions;
     tally_.stopped += report.stopped;
     active_overflows_ += report.overflows;
@@ -125,7 +122,6 @@ void Collisions::restart() noexcept {
   for (auto& body : bodies_) body.restart();
   std::fill(apart_.begin(), apart_.end(), 0.0);
   changed_ = true;
-  any_near_ = false;
   for (std::size_t b = 0; b < bodies_.size(); ++b) impulses_.take(static_cast<std::uint32_t>(b));
 }
 

@@ -13,13 +13,13 @@
 namespace palpate::physics {
 
 struct CollisionTally {
-  std::int64_t collisions = 0;   // impulses between two masses, or a mass and a facet
-  std::int64_t passages = 0;     // masses that went through a facet; counted only on request
-  std::int64_t stopped = 0;      // masses that had to be made to move together
-  std::int64_t overflows = 0;    // pairs that found no room in the list
-  std::int64_t rebuilds = 0;     // of the list
-  double lost = 0;               // kinetic energy [J]
-  double driven_work = 0;        // done by hands through masses that they drive [J]
+  std::int64_t collisions = 0;  // impulses between two masses, or a mass and a facet
+  std::int64_t passages = 0;    // masses that went through a facet; counted only on request
+  std::int64_t stopped = 0;     // masses that had to be made to move together
+  std::int64_t overflows = 0;   // pairs that found no room in the list
+  std::int64_t rebuilds = 0;    // of the list
+  double lost = 0;              // kinetic energy [J]
+  double driven_work = 0;       // done by hands through masses that they drive [J]
 };
 
 class Collisions {
@@ -29,17 +29,19 @@ class Collisions {
   /// Which bodies may touch in the coming frame. @return false: none, so that there is nothing to do in its steps
   bool begin_frame(double frame_seconds) noexcept;
 
-  void before_step() noexcept;
   /// After every step, whether anything is near or not: follows elements that broke.
   void follow_breaks() noexcept;
-  /// One step of contact, after the masses have moved by it. Contract: allocates and throws nothing.
+  /// One step of contact in a frame in which something is near, after the masses have moved by it; the bodies have remembered
+  /// their velocities before. Contract: allocates and throws nothing.
   void step(double dt) noexcept;
 
   /// The longest step in which nothing near moves farther than a quarter of the smallest L; only swept contact asks for one.
   double wanted_step() const noexcept { return wanted_step_; }
 
   /// What a body has taken since the last call.
-  BodyImpulse take_impulse(std::size_t body) noexcept { return impulses_.take(static_cast<std::uint32_t>(body)); }
+  BodyImpulse take_impulse(std::size_t body) noexcept {
+    return impulses_.take(static_cast<std::uint32_t>(body));
+  }
   const CollisionTally& tally() const { return tally_; }
   std::size_t n_candidates() const noexcept;
   std::size_t n_pairs() const { return near_.masses().size() + near_.facets().size(); }
@@ -59,12 +61,12 @@ class Collisions {
   ContactImpulses impulses_;
   std::unique_ptr<SweptContact> swept_contact_;  // swept only
   CollisionTally tally_;
-  std::vector<double> apart_;     // of each pair of bodies: how far they may still travel until they could be near [m]
+  std::vector<double>
+      apart_;  // of each pair of bodies: how far they may still travel until they could be near [m]
   std::int64_t active_overflows_ = 0;
   double smallest_L_ = 0;
   double wanted_step_ = 0;
   bool changed_ = true;
-  bool any_near_ = false;
 };
 
 }  // namespace palpate::physics

@@ -50,20 +50,26 @@ void ContactBody::measure_motion() noexcept {
   for (std::size_t n = 0; n < n_marked_; ++n) drift_ += x[n] - marked_[n];
   if (n_marked_ > 0) drift_ /= static_cast<double>(n_marked_);
   double most = 0;
-  for (std::size_t n = 0; n < n_marked_; ++n) most = std::max(most, (x[n] - marked_[n] - drift_).squaredNorm());
+  for (std::size_t n = 0; n < n_marked_; ++n)
+    most = std::max(most, (x[n] - marked_[n] - drift_).squaredNorm());
   stray_ = std::sqrt(most);
 }
 
-ContactBody::Box ContactBody::box() const noexcept {
-  Box box;
-  const auto& x = candidates_.x();
-  if (!x.empty()) box.lo = box.hi = x.front();
-  for (const Vec3& p : x) box.lo = box.lo.cwiseMin(p), box.hi = box.hi.cwiseMax(p);
+Eigen::AlignedBox3d ContactBody::box() const noexcept {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& p : candidates_.x()) box.extend(p);
   return box;
 }
 
-double gap_between(const ContactBody::Box& a, const ContactBody::Box& b) noexcept {
-  return std::max((a.lo - b.hi).maxCoeff(), (b.lo - a.hi).maxCoeff());
+std::vector<std::uint32_t> first_candidates(const std::vector<ContactBody>& bodies) {
+  std::vector<std::uint32_t> first{0};
+  for (const auto& body : bodies)
+    first.push_back(first.back() + static_cast<std::uint32_t>(body.candidates().most()));
+  return first;
+}
+
+double gap_between(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) noexcept {
+  return std::max((a.min() - b.max()).maxCoeff(), (b.min() - a.max()).maxCoeff());
 }
 
 }  // namespace palpate::physics

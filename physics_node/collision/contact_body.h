@@ -30,11 +30,8 @@ class ContactBody {
   double stray() const { return stray_; }
   void measure_motion() noexcept;
 
-  /// Box round all candidates, where they were when last refreshed.
-  struct Box {
-    Vec3 lo = Vec3::Zero(), hi = Vec3::Zero();
-  };
-  Box box() const noexcept;
+  /// Round all candidates, where they were when last refreshed.
+  Eigen::AlignedBox3d box() const noexcept;
 
   /// Has any element broken? Then it touches itself too.
   bool touches_itself() const { return moving().breaks() > 0; }
@@ -53,7 +50,10 @@ class ContactBody {
   double speed_ = 0;
 };
 
+/// Where the candidates of each body begin when those of all are counted through, and how many there can be in all  (n + 1)
+std::vector<std::uint32_t> first_candidates(const std::vector<ContactBody>& bodies);
+
 /// Distance between two boxes along the axis on which they are farthest apart; negative where they overlap [m].
-double gap_between(const ContactBody::Box& a, const ContactBody::Box& b) noexcept;
+double gap_between(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) noexcept;
 
 }  // namespace palpate::physics

@@ -4,12 +4,9 @@
 
 namespace palpate::physics {
 
-ContactImpulses::ContactImpulses(const std::vector<ContactBody>& bodies) : taken_(bodies.size()), count_(bodies.size(), 1) {
-  std::size_t n = 0;
-  for (const auto& body : bodies) {
-    first_.push_back(static_cast<std::uint32_t>(n));
-    n += body.candidates().most();
-  }
+ContactImpulses::ContactImpulses(const std::vector<ContactBody>& bodies)
+    : first_(first_candidates(bodies)), taken_(bodies.size()), count_(bodies.size(), 1) {
+  const std::size_t n = first_.back();
   dv_.assign(n, Vec3::Zero());
   is_touched_.assign(n, 0);
   counted_in_.assign(n, 0);
@@ -49,7 +46,8 @@ void ContactImpulses::push(const std::vector<ContactBody>& bodies, PairEnd at, c
   dv_[first_[at.body] + at.n] += w * J;
 }
 
-Vec3 ContactImpulses::set_change(const std::vector<ContactBody>& bodies, PairEnd at, const Vec3& dv) noexcept {
+Vec3 ContactImpulses::set_change(const std::vector<ContactBody>& bodies, PairEnd at,
+                                 const Vec3& dv) noexcept {
   const double w = bodies[at.body].candidates().inverse_mass(at.n);
   if (w == 0) return Vec3::Zero();
   const Vec3 J = (dv - dv_[first_[at.body] + at.n]) / w;

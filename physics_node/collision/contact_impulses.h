@@ -52,7 +52,7 @@ class ContactImpulses {
   std::vector<Vec3> dv_;              // by candidate [m/s]
   std::vector<std::uint8_t> is_touched_;
   std::vector<PairEnd> touched_;
-  std::vector<BodyImpulse> taken_;        // by body
+  std::vector<BodyImpulse> taken_;         // by body
   std::vector<std::uint32_t> counted_in_;  // by candidate: the count in which it was last a colliding mass
   std::vector<std::uint32_t> count_;       // by body
   double driven_work_ = 0;

@@ -2,8 +2,8 @@
 
 namespace palpate::physics {
 
-ExchangeReport exchange_velocities(const std::vector<ContactBody>& bodies, std::span<const NearPair> pairs, double e,
-                                   ContactImpulses& impulses) noexcept {
+ExchangeReport exchange_velocities(const std::vector<ContactBody>& bodies, std::span<const NearPair> pairs,
+                                   double e, ContactImpulses& impulses) noexcept {
   ExchangeReport report;
   for (const NearPair& pair : pairs) {
     const Candidates& a = bodies[pair.mass.body].candidates();

@@ -17,7 +17,7 @@ struct ExchangeReport {
 /// at the beginning of a step. Momentum and, with e = 1, kinetic energy are kept by every pair.
 /// Source: Wakamatsu & Honma 2011, collision of masses; EQUATIONS C-14.
 /// @param e  restitution
-ExchangeReport exchange_velocities(const std::vector<ContactBody>& bodies, std::span<const NearPair> pairs, double e,
-                                   ContactImpulses& impulses) noexcept;
+ExchangeReport exchange_velocities(const std::vector<ContactBody>& bodies, std::span<const NearPair> pairs,
+                                   double e, ContactImpulses& impulses) noexcept;
 
 }  // namespace palpate::physics

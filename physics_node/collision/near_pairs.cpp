@@ -18,12 +18,6 @@ constexpr double cell_over_L = 2;    // of a grid: few cells to look at, few mas
 constexpr double still_over_L = 0.1;
 constexpr std::size_t pairs_per_candidate = 96;  // room, touched only where pairs are
 
-std::size_t count_all(const std::vector<ContactBody>& bodies) {
-  std::size_t n = 0;
-  for (const auto& body : bodies) n += body.candidates().most();
-  return n;
-}
-
 }  // namespace
 
 double paper_distance(const Candidates& a, const Candidates& b) noexcept {
@@ -38,18 +32,17 @@ NearPairs::NearPairs(const std::vector<ContactBody>& bodies, PairKind kind)
     : n_bodies_(static_cast<std::uint32_t>(bodies.size())),
       kind_(kind),
       allowed_(bodies.size() * bodies.size(), 0),
-      seeks_other_(count_all(bodies), 0),
-      seeks_own_(count_all(bodies), 0) {
+      first_(first_candidates(bodies)),
+      seeks_other_(first_.back(), 0),
+      seeks_own_(first_.back(), 0) {
   for (const auto& body : bodies) grids_.emplace_back(body.candidates().most());
   movers_.resize(bodies.size());
-  first_.push_back(0);
   smallest_L_ = std::numeric_limits<double>::infinity();
   for (const auto& body : bodies) {
-    first_.push_back(first_.back() + static_cast<std::uint32_t>(body.candidates().most()));
     smallest_L_ = std::min(smallest_L_, body.candidates().length());
     largest_L_ = std::max(largest_L_, body.candidates().length());
   }
-  const std::size_t room = pairs_per_candidate * count_all(bodies);
+  const std::size_t room = pairs_per_candidate * first_.back();
   if (kind != PairKind::facets) masses_.reserve(room);
   if (kind != PairKind::masses) facets_.reserve(room);
 }
@@ -59,10 +52,6 @@ void NearPairs::allow(std::uint32_t a, std::uint32_t b, bool near) noexcept {
   if ((now != 0) == near) return;
   now = allowed_[b * n_bodies_ + a] = near ? 1 : 0;
   fresh_ = false;
-}
-
-bool NearPairs::any_allowed() const noexcept {
-  return std::any_of(allowed_.begin(), allowed_.end(), [](auto a) { return a != 0; });
 }
 
 double most_motion(double dt, double speed) noexcept { return 5 * dt * speed; }
@@ -77,7 +66,8 @@ bool NearPairs::is_valid(const std::vector<ContactBody>& bodies) const noexcept 
     for (std::uint32_t b = a; b < n_bodies_; ++b) {
       if (!is_allowed(a, b)) continue;
       const double apart = (bodies[a].drift() - bodies[b].drift()).norm();
-      if (!(apart + bodies[a].stray() + bodies[b].stray() < skin(bodies[a].candidates(), bodies[b].candidates())))
+      if (!(apart + bodies[a].stray() + bodies[b].stray() <
+            skin(bodies[a].candidates(), bodies[b].candidates())))
         return false;
     }
   return true;
@@ -103,7 +93,8 @@ void NearPairs::update(std::vector<ContactBody>& bodies, bool changed, double dt
 void NearPairs::rebuild(const std::vector<ContactBody>& bodies) noexcept {
   masses_.clear();
   facets_.clear();
-  for (std::uint32_t b = 0; b < n_bodies_; ++b) grids_[b].clear(cell_over_L * bodies[b].candidates().length());
+  for (std::uint32_t b = 0; b < n_bodies_; ++b)
+    grids_[b].clear(cell_over_L * bodies[b].candidates().length());
   choose_seekers(bodies);
   if (kind_ != PairKind::facets) seek_masses(bodies);
   if (kind_ != PairKind::masses) seek_facets(bodies);
@@ -133,12 +124,11 @@ void NearPairs::choose_seekers(const std::vector<ContactBody>& bodies) noexcept 
     }
     for (std::uint32_t other = 0; other < n_bodies_; ++other) {
       if (other == b || !is_allowed(b, other)) continue;
-      ContactBody::Box box = bodies[other].box();
+      Eigen::AlignedBox3d box = bodies[other].box();
       const Vec3 reach = Vec3::Constant(2 * reach_);
-      box.lo -= reach, box.hi += reach;
+      box.min() -= reach, box.max() += reach;
       for (std::size_t n = 0; n < c.size(); ++n)
-        if ((c.x()[n].array() >= box.lo.array()).all() && (c.x()[n].array() <= box.hi.array()).all())
-          seeks_other_[first + n] = 1;
+        if (box.contains(c.x()[n])) seeks_other_[first + n] = 1;
     }
     for (std::size_t n = 0; n < c.size(); ++n)
       if (own || seeks_other_[first + n] != 0) grids_[b].insert(static_cast<std::uint32_t>(n), c.x()[n]);
@@ -205,14 +195,14 @@ void NearPairs::seek_masses_near(const std::vector<ContactBody>& bodies, PairEnd
   const FacetNow now = facet_now(c, k);
   const double within = swept_distance(now.edge, d) + skin(c, d);
   const Vec3 reach = Vec3::Constant(within);
-  const Vec3 lo = now.corner[0].cwiseMin(now.corner[1]).cwiseMin(now.corner[2]) - reach;
-  const Vec3 hi = now.corner[0].cwiseMax(now.corner[1]).cwiseMax(now.corner[2]) + reach;
-  if (same && !facet_seeks && !movers_[b].intersects(Eigen::AlignedBox3d(lo, hi))) return;
+  const Eigen::AlignedBox3d box(now.corner[0].cwiseMin(now.corner[1]).cwiseMin(now.corner[2]) - reach,
+                                now.corner[0].cwiseMax(now.corner[1]).cwiseMax(now.corner[2]) + reach);
+  if (same && !facet_seeks && !movers_[b].intersects(box)) return;
   const bool loose = k[0] == k[1];
-  grids_[other].visit_box(lo, hi, [&](std::uint32_t m) {
+  grids_[other].visit_box(box.min(), box.max(), [&](std::uint32_t m) {
     if (same ? !facet_seeks && seeks_own_[first_[b] + m] == 0 : seeks_other_[first_[other] + m] == 0) return;
     const Vec3& p = d.x()[m];
-    if ((p.array() < lo.array()).any() || (p.array() > hi.array()).any()) return;
+    if (!box.contains(p)) return;
     if (same && (m == k[0] || m == k[1] || m == k[2])) return;
     // A loose mass that meets a facet is found by that facet; two loose ones find each other once.
     if (loose && (!bodies[other].facets()->is_loose(m) || first_[other] + m > first_[b] + k[0])) return;

@@ -2,7 +2,8 @@
 // What could touch soon: a list of pairs within reach plus a skin, made anew only when something moved by half the skin.
 // Until then a step looks at these pairs and at nothing else. Source: Verlet 1967 (neighbour lists with a skin).
 //
-// There are lists of (mass, mass) and of (mass, facet); each pair comes once, in one fixed order. Joined masses are no pair, nor is a mass with a facet that it is joined to.
+// There are lists of (mass, mass) and of (mass, facet); each pair comes once, in one fixed order.
+// Joined masses are no pair, nor is a mass with a facet that it is joined to.
 
 #include <cstdint>
 #include <span>
@@ -28,7 +29,6 @@ class NearPairs {
 
   /// Which bodies may touch which, this frame; a body beside itself: its fragments.
   void allow(std::uint32_t a, std::uint32_t b, bool near) noexcept;
-  bool any_allowed() const noexcept;
 
   /// Brings the lists up to date with where the candidates are now, after a step of dt.
   /// @param changed  candidates or facets are not what they were when they were made
@@ -55,14 +55,14 @@ class NearPairs {
   std::uint32_t n_bodies_;
   PairKind kind_;
   std::vector<std::uint8_t> allowed_;  // (n_bodies, n_bodies)
-  std::vector<std::uint32_t> first_;   // id of the first candidate of each body  (n_bodies + 1)
+  std::vector<std::uint32_t> first_;   // id of the first candidate of each body, as first_candidates()
   // Of each candidate: may it meet another body, may it meet its own?
   std::vector<std::uint8_t> seeks_other_, seeks_own_;
-  std::vector<PointGrid> grids_;               // of each body
-  std::vector<Eigen::AlignedBox3d> movers_;    // of each body, round the candidates that may meet their own
+  std::vector<PointGrid> grids_;             // of each body
+  std::vector<Eigen::AlignedBox3d> movers_;  // of each body, round the candidates that may meet their own
   double smallest_L_ = 0, largest_L_ = 0;
-  double least_skin_ = 0;        // for what one step moves masses by [m]
-  double reach_ = 0;             // farthest that any pair is listed at [m]
+  double least_skin_ = 0;  // for what one step moves masses by [m]
+  double reach_ = 0;       // farthest that any pair is listed at [m]
   std::vector<NearPair> masses_, facets_;
   std::int64_t rebuilds_ = 0, overflows_ = 0;
   bool fresh_ = false;

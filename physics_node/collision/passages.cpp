@@ -4,8 +4,8 @@
 
 namespace palpate::physics {
 
-std::int64_t count_passages(const std::vector<ContactBody>& bodies, std::span<const NearPair> pairs, double dt,
-                            const ContactImpulses& impulses) noexcept {
+std::int64_t count_passages(const std::vector<ContactBody>& bodies, std::span<const NearPair> pairs,
+                            double dt, const ContactImpulses& impulses) noexcept {
   std::int64_t passages = 0;
   for (const NearPair& pair : pairs) {
     const ContactBody& other = bodies[pair.other.body];
@@ -14,7 +14,8 @@ std::int64_t count_passages(const std::vector<ContactBody>& bodies, std::span<co
     const auto start = [&](PairEnd at) { return bodies[at.body].candidates().x()[at.n]; };
     const auto moves = [&](PairEnd at) { return Vec3(dt * impulses.v_move(bodies, at)); };
     const PairEnd a{pair.other.body, k[0]}, b{pair.other.body, k[1]}, c{pair.other.body, k[2]};
-    if (passes_through(start(pair.mass), moves(pair.mass), {start(a), start(b), start(c)}, {moves(a), moves(b), moves(c)}))
+    if (passes_through(start(pair.mass), moves(pair.mass), {start(a), start(b), start(c)},
+                       {moves(a), moves(b), moves(c)}))
       ++passages;
   }
   return passages;

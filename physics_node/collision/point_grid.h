@@ -28,7 +28,8 @@ class PointGrid {
     for (int z = a.z(); z <= b.z(); ++z)
       for (int y = a.y(); y <= b.y(); ++y)
         for (int x = a.x(); x <= b.x(); ++x)
-          for (std::int32_t n = head_[bucket_of({x, y, z})]; n >= 0; n = entries_[static_cast<std::size_t>(n)].next) {
+          for (std::int32_t n = head_[bucket_of({x, y, z})]; n >= 0;
+               n = entries_[static_cast<std::size_t>(n)].next) {
             const Entry& e = entries_[static_cast<std::size_t>(n)];
             if (e.cell.x() == x && e.cell.y() == y && e.cell.z() == z) visit(e.id);
           }
@@ -44,7 +45,8 @@ class PointGrid {
     return (p * inverse_size_).array().floor().max(-1e9).min(1e9).cast<int>();
   }
   std::size_t bucket_of(const Eigen::Vector3i& c) const {
-    const auto mix = static_cast<std::uint32_t>(c.x()) * 73856093U ^ static_cast<std::uint32_t>(c.y()) * 19349663U ^
+    const auto mix = static_cast<std::uint32_t>(c.x()) * 73856093U ^
+                     static_cast<std::uint32_t>(c.y()) * 19349663U ^
                      static_cast<std::uint32_t>(c.z()) * 83492791U;
     return mix & bucket_mask_;
   }

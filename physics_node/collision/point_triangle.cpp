@@ -92,7 +92,8 @@ ClosestPoint closest_point(const Vec3& p, const Triangle& t) noexcept {
   return found;
 }
 
-bool comes_nearer(const Vec3& p, const Vec3& dp, const Triangle& t, const Triangle& dt, double least) noexcept {
+bool comes_nearer(const Vec3& p, const Vec3& dp, const Triangle& t, const Triangle& dt,
+                  double least) noexcept {
   const Vec3 mean = 0.25 * (dp + dt[0] + dt[1] + dt[2]);
   const double farthest =
       (dp - mean).norm() + std::sqrt(std::max({(dt[0] - mean).squaredNorm(), (dt[1] - mean).squaredNorm(),

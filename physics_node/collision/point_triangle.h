@@ -27,6 +27,7 @@ bool comes_nearer(const Eigen::Vector3d& p, const Eigen::Vector3d& dp, const Tri
                   double least) noexcept;
 
 /// Does the point go through the triangle? Exact up to rounding: finds the times at which the four are in a plane.
-bool passes_through(const Eigen::Vector3d& p, const Eigen::Vector3d& dp, const Triangle& t, const Triangle& dt) noexcept;
+bool passes_through(const Eigen::Vector3d& p, const Eigen::Vector3d& dp, const Triangle& t,
+                    const Triangle& dt) noexcept;
 
 }  // namespace palpate::physics

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int most_sweeps = 8;
 constexpr std::uint32_t active_per_candidate = 48;  // room, touched only where pairs are
-constexpr int most_rounds = 32;  // of zones; each joins at least one more mass
+constexpr int most_rounds = 32;                     // of zones; each joins at least one more mass
 
 /// The four where the step began, and what they move by with the impulses so far.
 struct Path {
@@ -19,16 +19,15 @@ struct Path {
 };
 
 /// How near a mass may come in one step: a tenth of what it was; not nearer at all where hardly anything is left.
-double least_distance(double distance, double h) { return std::max(0.1 * distance, std::min(0.99 * distance, 0.02 * h)); }
+double least_distance(double distance, double h) {
+  return std::max(0.1 * distance, std::min(0.99 * distance, 0.02 * h));
+}
 
 }  // namespace
 
-SweptContact::SweptContact(const std::vector<ContactBody>& bodies, std::size_t most_pairs) {
-  std::uint32_t n = 0;
-  for (const auto& body : bodies) {
-    first_.push_back(n);
-    n += static_cast<std::uint32_t>(body.candidates().most());
-  }
+SweptContact::SweptContact(const std::vector<ContactBody>& bodies, std::size_t most_pairs)
+    : first_(first_candidates(bodies)) {
+  const std::uint32_t n = first_.back();
   parent_.resize(n);
   for (std::uint32_t i = 0; i < n; ++i) parent_[i] = i;
   in_zone_.assign(n, 0);
@@ -37,7 +36,8 @@ SweptContact::SweptContact(const std::vector<ContactBody>& bodies, std::size_t m
   active_.reserve(std::min<std::size_t>(most_pairs, std::size_t{active_per_candidate} * n));
 }
 
-void SweptContact::find_active(const std::vector<ContactBody>& bodies, std::span<const NearPair> pairs, double dt) noexcept {
+void SweptContact::find_active(const std::vector<ContactBody>& bodies, std::span<const NearPair> pairs,
+                               double dt) noexcept {
   active_.clear();
   double speed = 0;
   for (const ContactBody& body : bodies) speed = std::max(speed, body.speed());
@@ -56,7 +56,8 @@ void SweptContact::find_active(const std::vector<ContactBody>& bodies, std::span
       continue;
     }
     Active& a = active_.emplace_back();
-    a.end = {pair.mass, PairEnd{pair.other.body, k[0]}, PairEnd{pair.other.body, k[1]}, PairEnd{pair.other.body, k[2]}};
+    a.end = {pair.mass, PairEnd{pair.other.body, k[0]}, PairEnd{pair.other.body, k[1]},
+             PairEnd{pair.other.body, k[2]}};
     a.weight = nearest.weight;
     a.distance = nearest.distance;
     a.n = nearest.away / nearest.distance;
@@ -72,8 +73,8 @@ void SweptContact::find_active(const std::vector<ContactBody>& bodies, std::span
   }
 }
 
-std::int64_t SweptContact::push_apart(const std::vector<ContactBody>& bodies, double e, double dt, ContactImpulses& impulses,
-                               double& lost) noexcept {
+std::int64_t SweptContact::push_apart(const std::vector<ContactBody>& bodies, double e, double dt,
+                                      ContactImpulses& impulses, double& lost) noexcept {
   std::int64_t collisions = 0;
   for (const Active& a : active_) {
     if (a.W == 0) continue;
@@ -88,7 +89,8 @@ std::int64_t SweptContact::push_apart(const std::vector<ContactBody>& bodies, do
     const double J = -(1 + e) * v_n / a.W;
     impulses.push(bodies, a.end[0], J * a.n);
     for (int i = 0; i < 3; ++i)
-      if (a.weight[i] > 0) impulses.push(bodies, a.end[static_cast<std::size_t>(i) + 1], -a.weight[i] * J * a.n);
+      if (a.weight[i] > 0)
+        impulses.push(bodies, a.end[static_cast<std::size_t>(i) + 1], -a.weight[i] * J * a.n);
     lost += 0.5 * (1 - e * e) * v_n * v_n / a.W;
     ++collisions;
   }
@@ -96,7 +98,7 @@ std::int64_t SweptContact::push_apart(const std::vector<ContactBody>& bodies, do
 }
 
 bool SweptContact::would_pass(const std::vector<ContactBody>& bodies, const Active& a, double dt,
-                       const ContactImpulses& impulses) const noexcept {
+                              const ContactImpulses& impulses) const noexcept {
   const auto start = [&](PairEnd at) { return bodies[at.body].candidates().x()[at.n]; };
   const auto moves = [&](PairEnd at) { return Vec3(dt * impulses.v_move(bodies, at)); };
   const Triangle t{start(a.end[1]), start(a.end[2]), start(a.end[3])};
@@ -122,7 +124,8 @@ void SweptContact::join(const Active& a) noexcept {
 }
 
 /// V = sum m v / sum m of the masses of a zone; that of a held or driven one where there is any.
-void SweptContact::move_zones_together(const std::vector<ContactBody>& bodies, ContactImpulses& impulses) noexcept {
+void SweptContact::move_zones_together(const std::vector<ContactBody>& bodies,
+                                       ContactImpulses& impulses) noexcept {
   for (const PairEnd& at : zoned_) sums_[id_of(at)] = Sum{};
   for (const PairEnd& at : zoned_) {
     Sum& sum = sums_[zone_of(id_of(at))];
@@ -149,8 +152,8 @@ void SweptContact::move_zones_together(const std::vector<ContactBody>& bodies, C
   }
 }
 
-SweptReport SweptContact::step(const std::vector<ContactBody>& bodies, std::span<const NearPair> pairs, double e, double dt,
-                        ContactImpulses& impulses) noexcept {
+SweptReport SweptContact::step(const std::vector<ContactBody>& bodies, std::span<const NearPair> pairs,
+                               double e, double dt, ContactImpulses& impulses) noexcept {
   SweptReport report;
   overflows_ = 0;
   find_active(bodies, pairs, dt);
@@ -164,8 +167,8 @@ SweptReport SweptContact::step(const std::vector<ContactBody>& bodies, std::span
   for (int round = 0; round < most_rounds; ++round) {
     bool grown = false;
     for (Active& a : active_) {
-      if (a.looked_through || !would_pass(bodies, a, dt, impulses)) continue;
-      a.looked_through = true;  // moves together from now on
+      if (a.together || !would_pass(bodies, a, dt, impulses)) continue;
+      a.together = true;  // moves together from now on
       join(a);
       grown = true;
     }

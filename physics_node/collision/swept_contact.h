@@ -9,7 +9,7 @@ namespace palpate::physics {
 
 struct SweptReport {
   std::int64_t collisions = 0;
-  std::int64_t stopped = 0;  // masses that no impulse could keep apart and that were made to move together
+  std::int64_t stopped = 0;    // masses that no impulse could keep apart and that were made to move together
   std::int64_t overflows = 0;  // pairs that found no room
   double lost = 0;             // kinetic energy [J]
 };
@@ -30,8 +30,8 @@ struct SweptReport {
 class SweptContact {
  public:
   explicit SweptContact(const std::vector<ContactBody>& bodies, std::size_t most_pairs);
-  SweptReport step(const std::vector<ContactBody>& bodies, std::span<const NearPair> pairs, double e, double dt,
-                   ContactImpulses& impulses) noexcept;
+  SweptReport step(const std::vector<ContactBody>& bodies, std::span<const NearPair> pairs, double e,
+                   double dt, ContactImpulses& impulses) noexcept;
 
  private:
   struct Active {
@@ -40,11 +40,12 @@ class SweptContact {
     Vec3 n = Vec3::UnitZ();
     double distance = 0, h = 0;
     double W = 0;
-    bool looked_through = false;
+    bool together = false;  // in a zone: keeps its distance from now on
   };
-  void find_active(const std::vector<ContactBody>& bodies, std::span<const NearPair> pairs, double dt) noexcept;
-  std::int64_t push_apart(const std::vector<ContactBody>& bodies, double e, double dt, ContactImpulses& impulses,
-                          double& lost) noexcept;
+  void find_active(const std::vector<ContactBody>& bodies, std::span<const NearPair> pairs,
+                   double dt) noexcept;
+  std::int64_t push_apart(const std::vector<ContactBody>& bodies, double e, double dt,
+                          ContactImpulses& impulses, double& lost) noexcept;
   bool would_pass(const std::vector<ContactBody>& bodies, const Active& pair, double dt,
                   const ContactImpulses& impulses) const noexcept;
   void join(const Active& pair) noexcept;
@@ -65,7 +66,7 @@ class SweptContact {
     Vec3 velocity = Vec3::Zero();
     Vec3 given = Vec3::Zero();  // impulse to all its masses [N s]
   };
-  std::vector<Sum> sums_;              // by candidate, meaningful for roots of zones
+  std::vector<Sum> sums_;  // by candidate, meaningful for roots of zones
 };
 
 }  // namespace palpate::physics

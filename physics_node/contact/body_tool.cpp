@@ -8,7 +8,7 @@
 namespace palpate::physics {
 namespace {
 
-constexpr double patch_size = 0.2;        // [m]; a hand does not leave it before the next patch
+constexpr double patch_size = 0.2;         // [m]; a hand does not leave it before the next patch
 constexpr double negligible_force = 1e-3;  // [N]
 
 Eigen::Quaterniond quaternion(const Array4& q) { return {q[0], q[1], q[2], q[3]}; }
@@ -36,8 +36,7 @@ void BodyTool::reset() noexcept {
 void BodyTool::take(const ToolState* state, double) noexcept {
   from_ = to_;
   if (state == nullptr) return;  // a silent hand holds still
-  tick_ = state->tick;
-  stamp_ns_ = state->stamp_ns;
+  note(*state);
   engaged_ = state->engaged != 0;
   const Eigen::Quaterniond q = quaternion(state->q_WT);
   if (!seen_) {
@@ -67,13 +66,7 @@ void BodyTool::feel(const BodyImpulse& taken, double frame_seconds) noexcept {
 }
 
 void BodyTool::write_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) noexcept {
-  patch.tool = index_;
-  patch.tick = frame;
-  patch.stamp_ns = now_ns;
-  patch.answers = tick_;
-  patch.answers_ns = stamp_ns_;
-  patch.n_facets = 0;
-  patch.contact_set = 0;
+  begin_patch(patch, frame, now_ns);
   const double F = twice_.force.norm();
   if (!seen_ || F < negligible_force) return;
   patch.n_facets = 1;

@@ -39,8 +39,6 @@ class BodyTool final : public Tool {
   Handle handle_;
   double low_pass_Hz_, stiffness_;
   bool seen_ = false, engaged_ = false;
-  std::uint64_t tick_ = 0;
-  std::int64_t stamp_ns_ = 0;
   Pose from_, to_;              // of the frame
   Vec3 clutch_ = Vec3::Zero();  // from the hand's tip to the tool's, when the hand first took it [m]
   Eigen::Quaterniond clutch_q_ = Eigen::Quaterniond::Identity();

@@ -9,8 +9,8 @@
 namespace palpate::physics {
 
 struct Pose {
-  Vec3 p = Vec3::Zero();                                     // of the tip [m]
-  Eigen::Quaterniond q = Eigen::Quaterniond::Identity();     // turned from how the body rests
+  Vec3 p = Vec3::Zero();                                  // of the tip [m]
+  Eigen::Quaterniond q = Eigen::Quaterniond::Identity();  // turned from how the body rests
 };
 
 /// Work that the hand did, and the impulse that it gave.

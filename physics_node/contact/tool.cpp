@@ -4,6 +4,21 @@
 
 namespace palpate::physics {
 
+void Tool::note(const ToolState& state) noexcept {
+  tick_ = state.tick;
+  stamp_ns_ = state.stamp_ns;
+}
+
+void Tool::begin_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) const noexcept {
+  patch.tool = index_;
+  patch.tick = frame;
+  patch.stamp_ns = now_ns;
+  patch.answers = tick_;
+  patch.answers_ns = stamp_ns_;
+  patch.n_facets = 0;
+  patch.contact_set = 0;
+}
+
 void Tool::write_wrench(ToolWrench& out, std::uint64_t frame, std::int64_t now_ns, double t) const noexcept {
   const Wrench now = wrench();
   out.tool = index_;

@@ -31,16 +31,25 @@ class Tool {
   virtual void write_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) noexcept = 0;
   void write_wrench(ToolWrench& wrench, std::uint64_t frame, std::int64_t now_ns, double t) const noexcept;
 
-  virtual Vec3 tip() const noexcept = 0;               // where the hand holds it [m]
-  virtual Wrench wrench() const noexcept = 0;          // low-passed
-  virtual Wrench raw_wrench() const noexcept = 0;      // of the last frame alone
-  virtual std::uint32_t contacts() const noexcept = 0; // masses that carry or collide
+  virtual Vec3 tip() const noexcept = 0;                // where the hand holds it [m]
+  virtual Wrench wrench() const noexcept = 0;           // low-passed
+  virtual Wrench raw_wrench() const noexcept = 0;       // of the last frame alone
+  virtual std::uint32_t contacts() const noexcept = 0;  // masses that carry or collide
   Vec3 force() const noexcept { return wrench().force; }
 
  protected:
   Tool(std::uint32_t index, const Vec3& set_point) : index_(index), set_point_(set_point) {}
+  /// Remembers which state of the hand the next patch answers.
+  void note(const ToolState& state) noexcept;
+  /// A patch without facets that answers that state.
+  void begin_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) const noexcept;
+
   std::uint32_t index_;
   Vec3 set_point_;
+
+ private:
+  std::uint64_t tick_ = 0;
+  std::int64_t stamp_ns_ = 0;
 };
 
 }  // namespace palpate::physics

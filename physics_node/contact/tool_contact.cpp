@@ -36,7 +36,7 @@ void merge_equal_masses(std::vector<MassShare>& shares) noexcept {
 ToolContact::ToolContact(const ContactSurface& surface, const MovingBody& moving, double radius)
     : surface_(surface), moving_(moving) {
   const Lattice& lattice = moving.body().lattice;
-  const double coarse = lattice.kind == LatticeKind::fcc ? lattice.rest_length[0] : lattice.step.maxCoeff();
+  const double coarse = lattice.spacing();
   radius_ = std::max(2 * radius, 2 * coarse);
   reach_ = radius_ + search_margin;
   near_.reserve(8 * room);

@@ -35,8 +35,7 @@ void ToolCoupling::take(const ToolState* state, double dt) noexcept {
   if (state != nullptr) {
     seen_ = true;
     engaged_ = state->engaged != 0;
-    tick_ = state->tick;
-    stamp_ns_ = state->stamp_ns;
+    note(*state);
     tip_ = vec(state->p_WT);
     proxy_ = vec(state->proxy);
     if (engaged_) target = vec(state->force_on_hand);
@@ -97,13 +96,7 @@ void ToolCoupling::follow_stiffness(double dt) noexcept {
 }
 
 void ToolCoupling::write_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) noexcept {
-  patch.tool = index_;
-  patch.tick = frame;
-  patch.stamp_ns = now_ns;
-  patch.answers = tick_;
-  patch.answers_ns = stamp_ns_;
-  patch.n_facets = 0;
-  patch.contact_set = 0;
+  begin_patch(patch, frame, now_ns);
   if (!seen_ || contacts_.empty()) return;
   ToolContact& contact = contacts_[touched_];
   patch.n_facets = contact.write_facets(proxy_, static_cast<std::uint32_t>(touched_), patch.facets.data(),

@@ -60,8 +60,6 @@ class ToolCoupling final : public Tool {
   std::vector<const MovingBody*> moving_;
   bool seen_ = false;
   bool engaged_ = false;
-  std::uint64_t tick_ = 0;
-  std::int64_t stamp_ns_ = 0;
   Vec3 tip_ = Vec3::Zero();
   Vec3 proxy_ = Vec3::Zero();
   Vec3 force_ = Vec3::Zero();  // on the tool, low-passed [N]

@@ -65,6 +65,8 @@ struct Lattice {
   Vec3 rest_position(Index cell) const {
     return origin + axes * step.cwiseProduct(grid_of(cell).cast<double>());
   }
+  /// L of fcc; of voxels the longest edge of a cell [m].
+  double spacing() const { return kind == LatticeKind::fcc ? rest_length[0] : step.maxCoeff(); }
   int row_kind(Index cell) const;
   /// The row that holds a mass: the last that begins at or before it.
   Index row_of(Index cell) const;

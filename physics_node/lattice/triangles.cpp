@@ -11,7 +11,8 @@ namespace {
 /// The neighbourhood of one grid point deep inside a lattice that fills space.
 class Surroundings {
  public:
-  Surroundings(const Lattice& lattice, const Vec3i& at) : lattice_(lattice), at_(at), half_(half_directions(lattice.kind)) {}
+  Surroundings(const Lattice& lattice, const Vec3i& at)
+      : lattice_(lattice), at_(at), half_(half_directions(lattice.kind)) {}
 
   /// The direction of the element from one point to another, both given from `at`, if there is one.
   std::optional<int> element(const Vec3i& from, const Vec3i& to) const {
@@ -58,7 +59,8 @@ class Surroundings {
 };
 
 /// The volumes that a triangle bounds, each as its corners, those of the triangle first.
-std::vector<std::vector<Vec3i>> volumes(const Surroundings& around, LatticeKind kind, const std::array<Vec3i, 3>& t) {
+std::vector<std::vector<Vec3i>> volumes(const Surroundings& around, LatticeKind kind,
+                                        const std::array<Vec3i, 3>& t) {
   std::vector<std::vector<Vec3i>> found;
   for (const Vec3i& apex : around.neighbours(t[0]))
     if (apex != t[1] && apex != t[2] && around.element(apex, t[1]) && around.element(apex, t[2]))
@@ -83,7 +85,8 @@ TrianglePatterns triangle_patterns(const Lattice& lattice) {
   const int kinds = lattice.kind == LatticeKind::fcc ? 2 : 4;
   for (int kind = 0; kind < kinds; ++kind) {
     const int parity = kind % 2;
-    const Vec3i at = lattice.kind == LatticeKind::fcc ? Vec3i(4 + parity, 4 + parity, 4) : Vec3i(4 + kind / 2, 4, 4 + parity);
+    const Vec3i at = lattice.kind == LatticeKind::fcc ? Vec3i(4 + parity, 4 + parity, 4)
+                                                      : Vec3i(4 + kind / 2, 4, 4 + parity);
     const Surroundings around(lattice, at);
     const auto near = around.neighbours(Vec3i::Zero());
     for (std::size_t a = 0; a < near.size(); ++a)

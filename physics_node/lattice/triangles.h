@@ -20,9 +20,10 @@ struct Need {
 };
 
 struct TrianglePattern {
-  std::array<Index, 2> corner{};            // the other two corners, from the one that comes first in storage; both > 0
-  std::array<Need, 2> edges{};              // the three elements of the triangle
-  std::array<std::vector<Need>, 2> side{};  // each volume; a mass is needed only after one that shows it to exist
+  std::array<Index, 2> corner{};  // the other two corners, from the one that comes first in storage; both > 0
+  std::array<Need, 2> edges{};    // the three elements of the triangle
+  std::array<std::vector<Need>, 2>
+      side{};  // each volume; a mass is needed only after one that shows it to exist
 };
 
 /// By row kind. Every triangle of the lattice is found once, from its first corner.

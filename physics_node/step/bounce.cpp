@@ -3,18 +3,10 @@
 #include "physics_node/step/damper_impulse.h"
 
 namespace palpate::physics {
-namespace {
-
 template <class Real>
-Vec3 vector_of(const Three<Real>& three, std::size_t c) {
-  return {static_cast<double>(three[0][c]), static_cast<double>(three[1][c]), static_cast<double>(three[2][c])};
-}
-
-}  // namespace
-
-template <class Real>
-Bounces bounce(const Body& body, LatticeState<Real>& state, const Three<Real>& moving, const Three<Real>& before,
-                    const Plane& plane, double e, double dt, MomentumAccount& momentum) noexcept {
+Bounces bounce(const Body& body, LatticeState<Real>& state, const Three<Real>& moving,
+               const Three<Real>& before, const Plane& plane, double e, double dt,
+               MomentumAccount& momentum) noexcept {
   Bounces sum;
   const bool verlet = state.v_half[0].size() > 0;
   for (std::size_t r = 0; r < body.lattice.rows.size(); ++r) {
@@ -26,14 +18,14 @@ Bounces bounce(const Body& body, LatticeState<Real>& state, const Three<Real>& m
     const double rest = plane.n.dot(first) - plane.height;
     const double per_mass = plane.n.dot(along);
     for (Index i = 0; i < row.count; ++i) {
-      const auto c = static_cast<std::size_t>(row.first + i);
-      const Vec3 u = vector_of(state.u, c);
-      const Vec3 v_move = vector_of(moving, c);
+      const Index cell = row.first + i;
+      const auto c = static_cast<std::size_t>(cell);
+      const Vec3 u = vector_of(state.u, cell);
+      const Vec3 v_move = vector_of(moving, cell);
       if (rest + per_mass * i + plane.n.dot(u - dt * v_move) >= 0 || state.inverse_mass[c] == 0) continue;
-      const double v_n = 0.5 * plane.n.dot(v_move + vector_of(before, c));
+      const double v_n = 0.5 * plane.n.dot(v_move + vector_of(before, cell));
       if (v_n >= 0) continue;
       const double dv = -(1 + e) * v_n;
-      const auto cell = static_cast<Index>(c);
       state.ledger[r].viscous -= booked_too_much(body, state, cell, dv * plane.n, dt, verlet);
       for (std::size_t a = 0; a < 3; ++a) {
         const Real d = static_cast<Real>(dv * plane.n[static_cast<Eigen::Index>(a)]);
@@ -51,9 +43,9 @@ Bounces bounce(const Body& body, LatticeState<Real>& state, const Three<Real>& m
   return sum;
 }
 
-template Bounces bounce(const Body&, LatticeState<float>&, const Three<float>&, const Three<float>&, const Plane&,
-                             double, double, MomentumAccount&) noexcept;
-template Bounces bounce(const Body&, LatticeState<double>&, const Three<double>&, const Three<double>&, const Plane&,
-                             double, double, MomentumAccount&) noexcept;
+template Bounces bounce(const Body&, LatticeState<float>&, const Three<float>&, const Three<float>&,
+                        const Plane&, double, double, MomentumAccount&) noexcept;
+template Bounces bounce(const Body&, LatticeState<double>&, const Three<double>&, const Three<double>&,
+                        const Plane&, double, double, MomentumAccount&) noexcept;
 
 }  // namespace palpate::physics

@@ -11,7 +11,8 @@ namespace palpate::physics {
 /// @param moving  velocity that moved the masses in the step; @param before  in the one before
 /// Source: Wakamatsu & Honma 2011 (bodies that fall on a floor).
 template <class Real>
-Bounces bounce(const Body& body, LatticeState<Real>& state, const Three<Real>& moving, const Three<Real>& before,
-                    const Plane& plane, double e, double dt, MomentumAccount& momentum) noexcept;
+Bounces bounce(const Body& body, LatticeState<Real>& state, const Three<Real>& moving,
+               const Three<Real>& before, const Plane& plane, double e, double dt,
+               MomentumAccount& momentum) noexcept;
 
 }  // namespace palpate::physics

@@ -7,17 +7,13 @@
 namespace palpate::physics {
 
 template <class Real>
-double booked_too_much(const Body& body, const LatticeState<Real>& state, Index cell, const Vec3& dv, double dt,
-                       bool verlet) noexcept {
+double booked_too_much(const Body& body, const LatticeState<Real>& state, Index cell, const Vec3& dv,
+                       double dt, bool verlet) noexcept {
   if (!any_damped(body) || body.law.damper != Damper::axial) return 0;
   const Lattice& lattice = body.lattice;
   const auto& offset = lattice.offset[static_cast<std::size_t>(lattice.row_kind(cell))];
   const auto difference = [&](const Three<Real>& of, Index other) {
-    Vec3 d;
-    for (std::size_t a = 0; a < 3; ++a)
-      d[static_cast<Eigen::Index>(a)] = static_cast<double>(of[a][static_cast<std::size_t>(other)]) -
-                                        static_cast<double>(of[a][static_cast<std::size_t>(cell)]);
-    return d;
+    return Vec3(vector_of(of, other) - vector_of(of, cell));
   };
   double sum = 0;
   for (Mask mask = state.mask[static_cast<std::size_t>(cell)]; mask != 0; mask &= mask - 1) {
@@ -33,7 +29,9 @@ double booked_too_much(const Body& body, const LatticeState<Real>& state, Index 
   return sum;
 }
 
-template double booked_too_much(const Body&, const LatticeState<float>&, Index, const Vec3&, double, bool) noexcept;
-template double booked_too_much(const Body&, const LatticeState<double>&, Index, const Vec3&, double, bool) noexcept;
+template double booked_too_much(const Body&, const LatticeState<float>&, Index, const Vec3&, double,
+                                bool) noexcept;
+template double booked_too_much(const Body&, const LatticeState<double>&, Index, const Vec3&, double,
+                                bool) noexcept;
 
 }  // namespace palpate::physics

@@ -15,7 +15,7 @@ namespace palpate::physics {
 /// An element whose other end takes an impulse in the same step is counted as if each came alone.
 /// Only for dampers along elements.
 template <class Real>
-double booked_too_much(const Body& body, const LatticeState<Real>& state, Index cell, const Vec3& dv, double dt,
-                       bool verlet) noexcept;
+double booked_too_much(const Body& body, const LatticeState<Real>& state, Index cell, const Vec3& dv,
+                       double dt, bool verlet) noexcept;
 
 }  // namespace palpate::physics

@@ -10,13 +10,6 @@
 namespace palpate::physics {
 namespace {
 
-template <class Real>
-Vec3 vector_of(const Three<Real>& three, Index cell) {
-  const auto c = static_cast<std::size_t>(cell);
-  return {static_cast<double>(three[0][c]), static_cast<double>(three[1][c]),
-          static_cast<double>(three[2][c])};
-}
-
 struct ElementNow {
   double stretch;  // l / L
   double f_s, k1;  // static force [N], spring constant [N/m]

@@ -255,11 +255,6 @@ class LatticeBody final : public MovingBody {
     return state_.v_half[0].size() > 0 ? state_.v_half : state_.v;
   }
   std::size_t n_cells() const { return static_cast<std::size_t>(body_.lattice.n_cells()); }
-  static Vec3 vector_of(const Three<Real>& three, Index cell) noexcept {
-    const auto c = static_cast<std::size_t>(cell);
-    return {static_cast<double>(three[0][c]), static_cast<double>(three[1][c]),
-            static_cast<double>(three[2][c])};
-  }
 
   Body body_;
   LatticeState<Real> state_;

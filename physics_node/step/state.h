@@ -15,6 +15,11 @@ namespace palpate::physics {
 template <class Real>
 using Three = std::array<ZeroedArray<Real>, 3>;  // x, y, z
 template <class Real>
+Vec3 vector_of(const Three<Real>& three, Index cell) noexcept {
+  const auto c = static_cast<std::size_t>(cell);
+  return {static_cast<double>(three[0][c]), static_cast<double>(three[1][c]), static_cast<double>(three[2][c])};
+}
+template <class Real>
 using ByHalf = std::array<ZeroedArray<Real>, max_half>;  // by half direction
 
 /// Constants of each element, at the end from which its direction is of the first half; only where materials meet.
