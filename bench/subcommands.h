@@ -10,6 +10,7 @@ void add_kernel(CLI::App& app, int& exit_code);
 void add_error(CLI::App& app, int& exit_code);
 void add_machine(CLI::App& app, int& exit_code);
 void add_outcomes(CLI::App& app, int& exit_code);
+void add_shots(CLI::App& app, int& exit_code);
 void add_skips(CLI::App& app, int& exit_code);
 void add_stress(CLI::App& app, int& exit_code);
 void add_peers(CLI::App& app, int& exit_code);  // only where PALPATE_BENCH_PEERS is defined

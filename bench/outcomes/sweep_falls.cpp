@@ -1,8 +1,6 @@
 #include "bench/outcomes/sweep_falls.h"
 
-#include <atomic>
-#include <mutex>
-#include <thread>
+#include "bench/problems/side_by_side.h"
 
 namespace palpate::bench {
 
@@ -18,19 +16,8 @@ std::vector<Fall> fall_grid(const std::vector<double>& speeds) {
 std::vector<FallResult> run_falls(const std::vector<Fall>& falls, double seconds, int jobs,
                                   const std::function<void(std::size_t)>& done) {
   std::vector<FallResult> results(falls.size());
-  std::atomic<std::size_t> next{0};
-  std::size_t over = 0;
-  std::mutex saying;
-  const auto work = [&] {
-    for (std::size_t n = next++; n < falls.size(); n = next++) {
-      results[n] = run_fall(falls[n], seconds);
-      const std::lock_guard lock(saying);
-      done(++over);
-    }
-  };
-  std::vector<std::jthread> team;
-  for (int n = 0; n < jobs; ++n) team.emplace_back(work);
-  team.clear();  // waits
+  side_by_side(
+      falls.size(), jobs, [&](std::size_t n) { results[n] = run_fall(falls[n], seconds); }, done);
   return results;
 }
 

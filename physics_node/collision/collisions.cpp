@@ -50,17 +50,19 @@ std::size_t Collisions::n_candidates() const noexcept {
 
 bool Collisions::are_near(std::uint32_t a, std::uint32_t b, double frame_seconds) noexcept {
   // Inner masses may be faster than the candidates, and come out where elements break.
-  const double speed = std::max(bodies_[a].speed(), moving_[a]->watch().speed) +
-                       std::max(bodies_[b].speed(), moving_[b]->watch().speed);
-  const double travel = speed_margin * frame_seconds * speed + 0.01 * smallest_L_;
+  const auto travel = [&] {
+    const double speed = std::max(bodies_[a].speed(), moving_[a]->watch().speed) +
+                         std::max(bodies_[b].speed(), moving_[b]->watch().speed);
+    return speed_margin * frame_seconds * speed + 0.01 * smallest_L_;
+  };
   double& apart = apart_[a * bodies_.size() + b];
-  apart -= travel;
+  apart -= travel();
   if (apart > 0) return false;
-  bodies_[a].refresh(0);
+  bodies_[a].refresh(0);  // how fast, before how far: at the start nobody has looked yet
   bodies_[b].refresh(0);
   // Twice the distance at which masses touch, so that the list of pairs is there before they do.
   const double reach = 2 * std::max(bodies_[a].candidates().length(), bodies_[b].candidates().length());
-  apart = gap_between(bodies_[a].box(), bodies_[b].box()) - reach - travel;
+  apart = gap_between(bodies_[a].box(), bodies_[b].box()) - reach - travel();
   return apart <= 0;
 }
 

@@ -44,6 +44,7 @@ class Collisions {
   }
   const CollisionTally& tally() const { return tally_; }
   std::size_t n_candidates() const noexcept;
+  std::size_t n_listed() const { return near_.facets().size(); }
   std::size_t n_pairs() const { return near_.masses().size() + near_.facets().size(); }
 
   /// After a reset or a restore: everything anew.

@@ -16,7 +16,9 @@ constexpr double cell_over_L = 2;    // of a grid: few cells to look at, few mas
 // Two masses that have not left their places by more than this, drift apart, do not meet: at rest those that are not joined
 // are 1.4 L apart, L where an element broke, and 0.82 L from a facet that broke off.
 constexpr double still_over_L = 0.1;
-constexpr std::size_t pairs_per_candidate = 96;  // room, touched only where pairs are
+// Room for pairs, touched only where there are any. Tissue beaten into a heap lists some hundreds for each candidate.
+constexpr std::size_t pairs_per_candidate = 96, pairs_per_candidate_of_few = 768,
+                      few_pairs = std::size_t{1} << 22;
 
 }  // namespace
 
@@ -36,13 +38,16 @@ NearPairs::NearPairs(const std::vector<ContactBody>& bodies, PairKind kind)
       seeks_other_(first_.back(), 0),
       seeks_own_(first_.back(), 0) {
   for (const auto& body : bodies) grids_.emplace_back(body.candidates().most());
+  boxes_.resize(bodies.size());
   movers_.resize(bodies.size());
   smallest_L_ = std::numeric_limits<double>::infinity();
   for (const auto& body : bodies) {
     smallest_L_ = std::min(smallest_L_, body.candidates().length());
     largest_L_ = std::max(largest_L_, body.candidates().length());
   }
-  const std::size_t room = pairs_per_candidate * first_.back();
+  const std::size_t n = first_.back();
+  const std::size_t room =
+      std::max(pairs_per_candidate * n, std::min(few_pairs, pairs_per_candidate_of_few * n));
   if (kind != PairKind::facets) masses_.reserve(room);
   if (kind != PairKind::masses) facets_.reserve(room);
 }
@@ -83,7 +88,6 @@ void NearPairs::update(std::vector<ContactBody>& bodies, bool changed, double dt
   const double needed = most_motion(dt, speed);
   if (!changed && needed <= std::max(least_skin_, skin_over_L * smallest_L_) && is_valid(bodies)) return;
   least_skin_ = needed;
-  reach_ = largest_L_ / std::numbers::sqrt3 + std::max(skin_over_L * largest_L_, needed);
   for (auto& body : bodies) body.mark();
   rebuild(bodies);
   fresh_ = true;
@@ -106,6 +110,10 @@ void NearPairs::rebuild(const std::vector<ContactBody>& bodies) noexcept {
 }
 
 void NearPairs::choose_seekers(const std::vector<ContactBody>& bodies) noexcept {
+  for (std::uint32_t b = 0; b < n_bodies_; ++b) boxes_[b] = bodies[b].box();
+  // As far as any pair is listed at: the facets that are stretched most feel farthest.
+  const Vec3 reach = Vec3::Constant((most_felt_stretch + 1) * largest_L_ / (2 * std::numbers::sqrt3) +
+                                    std::max(skin_over_L * largest_L_, least_skin_));
   for (std::uint32_t b = 0; b < n_bodies_; ++b) {
     const Candidates& c = bodies[b].candidates();
     const std::uint32_t first = first_[b];
@@ -124,8 +132,7 @@ void NearPairs::choose_seekers(const std::vector<ContactBody>& bodies) noexcept 
     }
     for (std::uint32_t other = 0; other < n_bodies_; ++other) {
       if (other == b || !is_allowed(b, other)) continue;
-      Eigen::AlignedBox3d box = bodies[other].box();
-      const Vec3 reach = Vec3::Constant(2 * reach_);
+      Eigen::AlignedBox3d box = boxes_[other];
       box.min() -= reach, box.max() += reach;
       for (std::size_t n = 0; n < c.size(); ++n)
         if (box.contains(c.x()[n])) seeks_other_[first + n] = 1;
@@ -169,24 +176,16 @@ void NearPairs::seek_masses(const std::vector<ContactBody>& bodies) noexcept {
 }
 
 void NearPairs::seek_facets(const std::vector<ContactBody>& bodies) noexcept {
-  for (std::uint32_t b = 0; b < n_bodies_; ++b) {
-    const Facets& facets = *bodies[b].facets();
+  for (std::uint32_t b = 0; b < n_bodies_; ++b)
     for (std::uint32_t other = 0; other < n_bodies_; ++other) {
       if (!is_allowed(b, other)) continue;
-      const bool same = other == b;
-      const auto& seeks = same ? seeks_own_ : seeks_other_;
-      for (std::uint32_t f = 0; f < facets.all().size(); ++f) {
-        const Facets::Corners& k = facets.all()[f];
-        const std::uint32_t first = first_[b];
-        const bool any = (seeks[first + k[0]] | seeks[first + k[1]] | seeks[first + k[2]]) != 0;
-        if (any || same) seek_masses_near(bodies, {b, f}, other, any);
-      }
+      const auto n_facets = static_cast<std::uint32_t>(bodies[b].facets()->all().size());
+      for (std::uint32_t f = 0; f < n_facets; ++f) seek_masses_near(bodies, {b, f}, other);
     }
-  }
 }
 
-void NearPairs::seek_masses_near(const std::vector<ContactBody>& bodies, PairEnd facet, std::uint32_t other,
-                                 bool facet_seeks) noexcept {
+void NearPairs::seek_masses_near(const std::vector<ContactBody>& bodies, PairEnd facet,
+                                 std::uint32_t other) noexcept {
   const std::uint32_t b = facet.body;
   const bool same = other == b;
   const Candidates& c = bodies[b].candidates();
@@ -197,10 +196,14 @@ void NearPairs::seek_masses_near(const std::vector<ContactBody>& bodies, PairEnd
   const Vec3 reach = Vec3::Constant(within);
   const Eigen::AlignedBox3d box(now.corner[0].cwiseMin(now.corner[1]).cwiseMin(now.corner[2]) - reach,
                                 now.corner[0].cwiseMax(now.corner[1]).cwiseMax(now.corner[2]) + reach);
-  if (same && !facet_seeks && !movers_[b].intersects(box)) return;
+  // A facet whose corners are all far away may still reach over what is near: stretched tissue round a small tool.
+  const bool seeks = same && std::any_of(k.begin(), k.end(), [&](std::uint32_t corner) {
+                       return seeks_own_[first_[b] + corner] != 0;
+                     });
+  if (!seeks && !(same ? movers_[b] : boxes_[other]).intersects(box)) return;
   const bool loose = k[0] == k[1];
   grids_[other].visit_box(box.min(), box.max(), [&](std::uint32_t m) {
-    if (same ? !facet_seeks && seeks_own_[first_[b] + m] == 0 : seeks_other_[first_[other] + m] == 0) return;
+    if (same && !seeks && seeks_own_[first_[b] + m] == 0) return;
     const Vec3& p = d.x()[m];
     if (!box.contains(p)) return;
     if (same && (m == k[0] || m == k[1] || m == k[2])) return;

@@ -48,9 +48,8 @@ class NearPairs {
   void seek_masses(const std::vector<ContactBody>& bodies) noexcept;
   void seek_facets(const std::vector<ContactBody>& bodies) noexcept;
   void add(std::vector<NearPair>& list, PairEnd mass, PairEnd other) noexcept;
-  /// Masses of a body near a facet. @param facet_seeks  whether the facet has moved enough to meet its own body
-  void seek_masses_near(const std::vector<ContactBody>& bodies, PairEnd facet, std::uint32_t other,
-                        bool facet_seeks) noexcept;
+  /// Masses of a body near a facet.
+  void seek_masses_near(const std::vector<ContactBody>& bodies, PairEnd facet, std::uint32_t other) noexcept;
 
   std::uint32_t n_bodies_;
   PairKind kind_;
@@ -59,10 +58,10 @@ class NearPairs {
   // Of each candidate: may it meet another body, may it meet its own?
   std::vector<std::uint8_t> seeks_other_, seeks_own_;
   std::vector<PointGrid> grids_;             // of each body
+  std::vector<Eigen::AlignedBox3d> boxes_;   // of each body
   std::vector<Eigen::AlignedBox3d> movers_;  // of each body, round the candidates that may meet their own
   double smallest_L_ = 0, largest_L_ = 0;
   double least_skin_ = 0;  // for what one step moves masses by [m]
-  double reach_ = 0;       // farthest that any pair is listed at [m]
   std::vector<NearPair> masses_, facets_;
   std::int64_t rebuilds_ = 0, overflows_ = 0;
   bool fresh_ = false;

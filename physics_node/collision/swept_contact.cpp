@@ -9,7 +9,6 @@ namespace palpate::physics {
 namespace {
 
 constexpr int most_sweeps = 8;
-constexpr std::uint32_t active_per_candidate = 48;  // room, touched only where pairs are
 constexpr int most_rounds = 32;                     // of zones; each joins at least one more mass
 
 /// The four where the step began, and what they move by with the impulses so far.
@@ -33,7 +32,7 @@ SweptContact::SweptContact(const std::vector<ContactBody>& bodies, std::size_t m
   in_zone_.assign(n, 0);
   zoned_.reserve(n);
   sums_.resize(n);
-  active_.reserve(std::min<std::size_t>(most_pairs, std::size_t{active_per_candidate} * n));
+  active_.reserve(most_pairs / 2);  // memory is touched only where pairs are
 }
 
 void SweptContact::find_active(const std::vector<ContactBody>& bodies, std::span<const NearPair> pairs,

@@ -18,4 +18,5 @@ target_compile_definitions(physics_falls_test PRIVATE SCENES="${PROJECT_SOURCE_D
 palpate_test(NAME physics_collide_test KIND property SOURCES physics_collide_test.cpp LIBS palpate_physics_worlds TIMEOUT 300)
 target_compile_definitions(physics_collide_test PRIVATE SCENES="${PROJECT_SOURCE_DIR}/scenes")
 # Nothing tunnels.
-palpate_test(NAME physics_tunnelling_test KIND property SOURCES physics_tunnelling_test.cpp LIBS palpate_physics_worlds TIMEOUT 300)
+palpate_test(NAME physics_tunnelling_test KIND property SOURCES physics_tunnelling_test.cpp
+  LIBS palpate_bench_shots TIMEOUT 300)
