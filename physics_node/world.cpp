@@ -52,7 +52,7 @@ World::World(const Scene& scene) : scene_(scene) {
   }
   make_tools();
   if (scene.contact.enabled && (bodies_.size() > 1 || any_yields_))
-    collisions_ = std::make_unique<Collisions>(bodies_, scene.contact);
+    collisions_ = std::make_unique<Collisions>(bodies_, fragments_, scene.contact);
   if (scene.floor) planes_.push_back({Vec3::UnitZ(), scene.floor->height});
   if (scene.floor || !scene.walls.empty())
     for (auto& body : bodies_) body->prepare_contact();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 
 namespace palpate::physics {
 namespace {
@@ -35,6 +36,7 @@ Candidates::Candidates(const MovingBody& moving, bool with_front)
     : moving_(&moving), with_front_(with_front) {
   const Lattice& lattice = moving.body().lattice;
   length_ = lattice.spacing();
+  longest_element_ = 1.01 * *std::max_element(lattice.rest_length.begin(), lattice.rest_length.end());
   number_.assign(static_cast<std::size_t>(lattice.n_cells()), -1);
   most_ = lattice.masses.size();
   if (!any_yields(moving.body())) {
@@ -47,6 +49,9 @@ Candidates::Candidates(const MovingBody& moving, bool with_front)
   rest_.reserve(most_);
   inverse_mass_.reserve(most_);
   x_.reserve(most_);
+  last_x_.reserve(most_);
+  all_.resize(most_);
+  std::iota(all_.begin(), all_.end(), 0U);
   v_.reserve(most_);
   v_move_.reserve(most_);
   restart();
@@ -62,6 +67,7 @@ bool Candidates::add(Index cell) noexcept {
   const bool driven = std::binary_search(body.handle.begin(), body.handle.end(), cell);
   inverse_mass_.push_back(driven ? 0.0 : body.inverse_mass[static_cast<std::size_t>(cell)]);
   x_.emplace_back(Vec3::Zero());
+  last_x_.emplace_back(Vec3::Zero());
   v_.emplace_back(Vec3::Zero());
   v_move_.emplace_back(Vec3::Zero());
   return true;
@@ -70,7 +76,7 @@ bool Candidates::add(Index cell) noexcept {
 void Candidates::restart() noexcept {
   for (const Index cell : cell_) number_[static_cast<std::size_t>(cell)] = -1;
   cell_.clear(), rest_.clear(), inverse_mass_.clear();
-  x_.clear(), v_.clear(), v_move_.clear();
+  x_.clear(), last_x_.clear(), v_.clear(), v_move_.clear();
   const Lattice& lattice = moving_->body().lattice;
   for (const Index cell : lattice.masses)
     if (is_candidate(cell, moving_->mask(cell))) add(cell);
@@ -97,14 +103,22 @@ std::size_t Candidates::follow(std::span<const Break> breaks) noexcept {
   return fresh;
 }
 
-bool Candidates::refresh(double dt) noexcept {
-  moving_->read(cell_, rest_, dt, x_, v_, v_move_);
-  double sum = 0;
-  for (std::size_t n = 0; n < cell_.size(); ++n) sum += 0.0 * (x_[n].sum() + v_[n].sum());
+bool Candidates::refresh(double dt) noexcept { return refresh(dt, {all_.data(), cell_.size()}); }
+
+bool Candidates::refresh(double dt, std::span<const std::uint32_t> which) noexcept {
+  for (const std::uint32_t n : which) last_x_[n] = x_[n];
+  moving_->read(which, cell_, rest_, dt, x_, v_, v_move_);
+  double sum = 0, farthest = 0;
+  for (const std::uint32_t n : which) {
+    sum += 0.0 * (x_[n].sum() + v_[n].sum());
+    farthest = std::max(farthest, (x_[n] - last_x_[n]).squaredNorm());
+  }
+  moved_ = std::sqrt(farthest);
   return sum == 0;
 }
 
 bool Candidates::are_joined(std::size_t a, std::size_t b) const noexcept {
+  if ((rest_[a] - rest_[b]).squaredNorm() > longest_element_ * longest_element_) return false;
   const Lattice& lattice = moving_->body().lattice;
   const Index cell = cell_[a];
   const Index away = cell_[b] - cell;

@@ -25,6 +25,10 @@ class Candidates {
   /// Reads where they were when the step of dt just integrated began, and how fast; with dt = 0 where they are now.
   /// @return false: some number is not finite
   bool refresh(double dt) noexcept;
+  /// The same for these only; the others stay as they were last read.
+  bool refresh(double dt, std::span<const std::uint32_t> which) noexcept;
+  /// How far one of them moved at most between the last two readings [m].
+  double moved() const { return moved_; }
 
   std::size_t size() const { return cell_.size(); }
   const std::vector<Index>& cell() const { return cell_; }
@@ -52,10 +56,14 @@ class Candidates {
 
   const MovingBody* moving_;
   double length_ = 0;
+  double longest_element_ = 0;  // at rest [m]
   std::size_t most_ = 0;
   bool with_front_ = false;
   std::vector<Index> cell_;
   std::vector<Vec3> rest_, x_, v_, v_move_;
+  std::vector<Vec3> last_x_;
+  std::vector<std::uint32_t> all_;  // 0, 1, 2 ...
+  double moved_ = 0;
   std::vector<double> inverse_mass_;
   std::vector<std::int32_t> number_;  // by storage cell
 };

@@ -9,10 +9,12 @@ namespace palpate::physics {
 namespace {
 
 std::vector<ContactBody> contact_bodies(const std::vector<std::unique_ptr<MovingBody>>& bodies,
+                                        const std::vector<std::unique_ptr<Fragments>>& fragments,
                                         bool with_facets, bool with_front) {
   std::vector<ContactBody> made;
   made.reserve(bodies.size());
-  for (const auto& body : bodies) made.emplace_back(*body, with_facets, with_front);
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    made.emplace_back(*bodies[b], with_facets, with_front, fragments[b].get());
   return made;
 }
 
@@ -22,23 +24,26 @@ std::vector<MovingBody*> pointers(const std::vector<std::unique_ptr<MovingBody>>
   return made;
 }
 
-constexpr double speed_margin = 1.25;  // of what a body may gain within a frame
+constexpr int frames_between_looks = 20;  // whether near bodies are still near
+constexpr double speed_margin = 1.25;     // of what a mass may gain within a frame
 
 }  // namespace
 
-Collisions::Collisions(const std::vector<std::unique_ptr<MovingBody>>& bodies, const ContactSpec& spec)
+Collisions::Collisions(const std::vector<std::unique_ptr<MovingBody>>& bodies,
+                       const std::vector<std::unique_ptr<Fragments>>& fragments, const ContactSpec& spec)
     : spec_(spec),
       swept_(spec.distance == ContactDistance::swept),
       moving_(pointers(bodies)),
-      bodies_(contact_bodies(bodies, swept_ || spec.count_passages, swept_)),
+      bodies_(contact_bodies(bodies, fragments, swept_ || spec.count_passages, swept_)),
       near_(bodies_, swept_                ? PairKind::facets
                      : spec.count_passages ? PairKind::both
                                            : PairKind::masses),
       impulses_(bodies_),
       apart_(bodies.size() * bodies.size(), 0.0),
+      stays_near_(bodies.size() * bodies.size(), 0),
       smallest_L_(std::numeric_limits<double>::infinity()) {
   for (const auto& body : bodies) body->prepare_contact();
-  if (swept_) swept_contact_ = std::make_unique<SweptContact>(bodies_, near_.facets().capacity());
+  if (swept_) swept_contact_ = std::make_unique<SweptContact>(bodies_, near_.most_facets());
   for (const auto& body : bodies_) smallest_L_ = std::min(smallest_L_, body.candidates().length());
 }
 
@@ -48,14 +53,16 @@ std::size_t Collisions::n_candidates() const noexcept {
   return n;
 }
 
+/// No mass of it moves faster in the coming frame.
+double Collisions::fastest(std::uint32_t b) const noexcept {
+  return speed_margin * std::max(bodies_[b].speed(), moving_[b]->watch().speed);
+}
+
 bool Collisions::are_near(std::uint32_t a, std::uint32_t b, double frame_seconds) noexcept {
-  // Inner masses may be faster than the candidates, and come out where elements break.
-  const auto travel = [&] {
-    const double speed = std::max(bodies_[a].speed(), moving_[a]->watch().speed) +
-                         std::max(bodies_[b].speed(), moving_[b]->watch().speed);
-    return speed_margin * frame_seconds * speed + 0.01 * smallest_L_;
-  };
+  const auto travel = [&] { return frame_seconds * (fastest(a) + fastest(b)) + 0.01 * smallest_L_; };
   double& apart = apart_[a * bodies_.size() + b];
+  int& stays_near = stays_near_[a * bodies_.size() + b];
+  if (stays_near > 0) return --stays_near, true;
   apart -= travel();
   if (apart > 0) return false;
   bodies_[a].refresh(0);  // how fast, before how far: at the start nobody has looked yet
@@ -63,12 +70,13 @@ bool Collisions::are_near(std::uint32_t a, std::uint32_t b, double frame_seconds
   // Twice the distance at which masses touch, so that the list of pairs is there before they do.
   const double reach = 2 * std::max(bodies_[a].candidates().length(), bodies_[b].candidates().length());
   apart = gap_between(bodies_[a].box(), bodies_[b].box()) - reach - travel();
+  stays_near = apart <= 0 ? frames_between_looks : 0;
   return apart <= 0;
 }
 
 bool Collisions::begin_frame(double frame_seconds) noexcept {
   bool any_near = false;
-  double fastest = 0;
+  fastest_ = 0;
   const auto n = static_cast<std::uint32_t>(bodies_.size());
   for (std::uint32_t a = 0; a < n; ++a)
     for (std::uint32_t b = a; b < n; ++b) {
@@ -76,40 +84,55 @@ bool Collisions::begin_frame(double frame_seconds) noexcept {
       near_.allow(a, b, near);
       if (!near) continue;
       any_near = true;
-      if (a == b) bodies_[a].refresh(0);
-      fastest = std::max({fastest, bodies_[a].speed(), bodies_[b].speed()});
+      fastest_ = std::max({fastest_, fastest(a), fastest(b)});
     }
-  wanted_step_ = swept_ && fastest > 0 ? 0.25 * smallest_L_ / (speed_margin * fastest)
-                                       : std::numeric_limits<double>::infinity();
+  wanted_step_ =
+      swept_ && fastest_ > 0 ? 0.25 * smallest_L_ / fastest_ : std::numeric_limits<double>::infinity();
   return any_near;
 }
 
+bool Collisions::read_where_they_are(double dt) noexcept {
+  bool finite = true;
+  // Those that were read tell when something has become faster than the frame began with.
+  for (std::uint32_t b = 0; b < bodies_.size(); ++b)
+    fastest_ = std::max(fastest_, speed_margin * bodies_[b].speed());
+  if (near_.needs_all(bodies_, fastest_, dt)) {
+    for (auto& body : bodies_) finite = body.refresh(dt) && finite;
+    if (finite) near_.update(bodies_, dt);
+  } else {
+    for (auto& body : bodies_) finite = body.refresh_listed(dt) && finite;
+    near_.follow(bodies_);
+  }
+  return finite;
+}
+
 void Collisions::follow_breaks() noexcept {
-  for (auto& body : bodies_) changed_ = body.follow_breaks() || changed_;
+  for (auto& body : bodies_) body.follow_breaks();
 }
 
 void Collisions::step(double dt) noexcept {
-  for (auto& body : bodies_)
-    if (!body.refresh(dt)) return;  // not finite: the guard's
-  near_.update(bodies_, changed_, dt);
-  changed_ = false;
+  if (!read_where_they_are(dt)) return;  // not finite: the guard's
   tally_.rebuilds = near_.rebuilds();
   tally_.overflows = near_.overflows() + active_overflows_;
-  if (near_.masses().empty() && near_.facets().empty()) return;
+  if (near_.size() == 0) return;
   impulses_.begin_step();
   if (swept_) {
-    const SweptReport report =
-        swept_contact_->step(bodies_, near_.facets(), spec_.restitution, dt, impulses_);
+    const SweptReport report = swept_contact_->step(bodies_, near_.links(), spec_.restitution, dt, impulses_);
     tally_.collisions += report.collisions;
     tally_.stopped += report.stopped;
     active_overflows_ += report.overflows;
     tally_.lost += report.lost;
   } else {
-    const ExchangeReport report = exchange_velocities(bodies_, near_.masses(), spec_.restitution, impulses_);
-    tally_.collisions += report.collisions;
-    tally_.lost += report.lost;
+    for (const Link& link : near_.links()) {
+      const ExchangeReport report =
+          exchange_velocities(bodies_, link.masses.pairs(), spec_.restitution, impulses_);
+      tally_.collisions += report.collisions;
+      tally_.lost += report.lost;
+    }
   }
-  if (spec_.count_passages) tally_.passages += count_passages(bodies_, near_.facets(), dt, impulses_);
+  if (spec_.count_passages)
+    for (const Link& link : near_.links())
+      tally_.passages += count_passages(bodies_, link.facets.pairs(), dt, impulses_);
   tally_.driven_work += impulses_.driven_work();
   give_impulses(dt);
 }
@@ -123,7 +146,7 @@ void Collisions::give_impulses(double dt) noexcept {
 void Collisions::restart() noexcept {
   for (auto& body : bodies_) body.restart();
   std::fill(apart_.begin(), apart_.end(), 0.0);
-  changed_ = true;
+  std::fill(stays_near_.begin(), stays_near_.end(), 0);
   for (std::size_t b = 0; b < bodies_.size(); ++b) impulses_.take(static_cast<std::uint32_t>(b));
 }
 

@@ -24,7 +24,9 @@ struct CollisionTally {
 
 class Collisions {
  public:
-  Collisions(const std::vector<std::unique_ptr<MovingBody>>& bodies, const ContactSpec& spec);
+  /// @param fragments  of each body, null where nothing yields; kept up to date before follow_breaks()
+  Collisions(const std::vector<std::unique_ptr<MovingBody>>& bodies,
+             const std::vector<std::unique_ptr<Fragments>>& fragments, const ContactSpec& spec);
 
   /// Which bodies may touch in the coming frame. @return false: none, so that there is nothing to do in its steps
   bool begin_frame(double frame_seconds) noexcept;
@@ -44,14 +46,15 @@ class Collisions {
   }
   const CollisionTally& tally() const { return tally_; }
   std::size_t n_candidates() const noexcept;
-  std::size_t n_listed() const { return near_.facets().size(); }
-  std::size_t n_pairs() const { return near_.masses().size() + near_.facets().size(); }
+  std::size_t n_pairs() const { return near_.size(); }
 
   /// After a reset or a restore: everything anew.
   void restart() noexcept;
 
  private:
   bool are_near(std::uint32_t a, std::uint32_t b, double frame_seconds) noexcept;
+  double fastest(std::uint32_t b) const noexcept;
+  bool read_where_they_are(double dt) noexcept;
   void give_impulses(double dt) noexcept;
 
   ContactSpec spec_;
@@ -64,10 +67,11 @@ class Collisions {
   CollisionTally tally_;
   std::vector<double>
       apart_;  // of each pair of bodies: how far they may still travel until they could be near [m]
+  std::vector<int> stays_near_;  // of each pair of bodies that are: frames until somebody looks again
   std::int64_t active_overflows_ = 0;
   double smallest_L_ = 0;
   double wanted_step_ = 0;
-  bool changed_ = true;
+  double fastest_ = 0;  // no mass of what is near moves faster in this frame [m/s]
 };
 
 }  // namespace palpate::physics

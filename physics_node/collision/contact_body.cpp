@@ -5,54 +5,71 @@
 
 namespace palpate::physics {
 
-ContactBody::ContactBody(const MovingBody& moving, bool with_facets, bool with_front)
-    : candidates_(moving, with_front) {
+ContactBody::ContactBody(const MovingBody& moving, bool with_facets, bool with_front,
+                         const Fragments* fragments)
+    : candidates_(moving, with_front), fragments_(fragments) {
   if (with_facets) facets_ = std::make_unique<Facets>(candidates_);
-  marked_.resize(candidates_.most());
+  listed_.reserve(candidates_.most());
+  is_listed_.assign(candidates_.most(), 0);
+  find_main_piece();
 }
 
-bool ContactBody::follow_breaks() noexcept {
-  if (moving().fresh_overflow()) {
-    restart();
-    return true;
-  }
+void ContactBody::follow_breaks() noexcept {
+  if (moving().fresh_overflow()) return restart();
   const auto breaks = moving().fresh_breaks();
-  if (breaks.empty()) return false;
-  const bool grown = candidates_.follow(breaks) > 0;
+  if (breaks.empty()) return;
+  changed_ = true;
+  candidates_.follow(breaks);
+  find_main_piece();
   if (facets_) facets_->restart(candidates_);
-  return grown || facets_;
 }
 
 void ContactBody::restart() noexcept {
   candidates_.restart();
+  find_main_piece();
   if (facets_) facets_->restart(candidates_);
-  n_marked_ = 0;
+  changed_ = true;
 }
 
-void ContactBody::mark() noexcept {
-  n_marked_ = candidates_.size();
-  std::copy(candidates_.x().begin(), candidates_.x().end(), marked_.begin());
-  drift_.setZero();
-  stray_ = 0;
+void ContactBody::find_main_piece() noexcept {
+  if (fragments_ == nullptr) return;
+  const auto& masses = fragments_->masses();
+  main_piece_ = static_cast<Index>(std::max_element(masses.begin(), masses.end()) - masses.begin());
+}
+
+bool ContactBody::may_meet_itself(std::size_t candidate) const noexcept {
+  const Index cell = candidates_.cell()[candidate];
+  return fragments_ == nullptr || fragments_->label(cell) != main_piece_ ||
+         moving().mask(cell) != moving().body().lattice.mask[static_cast<std::size_t>(cell)];
 }
 
 bool ContactBody::refresh(double dt) noexcept {
   const bool finite = candidates_.refresh(dt);
-  double most = 0;
-  for (const Vec3& v : candidates_.v_move()) most = std::max(most, v.squaredNorm());
-  speed_ = std::sqrt(most);
+  speed_ = 0;
+  for (const Vec3& v : candidates_.v_move()) speed_ = std::max(speed_, v.squaredNorm());
+  speed_ = std::sqrt(speed_);
+  moved_ += candidates_.moved();
   return finite;
 }
 
-void ContactBody::measure_motion() noexcept {
-  const auto& x = candidates_.x();
-  drift_.setZero();
-  for (std::size_t n = 0; n < n_marked_; ++n) drift_ += x[n] - marked_[n];
-  if (n_marked_ > 0) drift_ /= static_cast<double>(n_marked_);
-  double most = 0;
-  for (std::size_t n = 0; n < n_marked_; ++n)
-    most = std::max(most, (x[n] - marked_[n] - drift_).squaredNorm());
-  stray_ = std::sqrt(most);
+bool ContactBody::refresh_listed(double dt) noexcept {
+  const bool finite = candidates_.refresh(dt, listed_);
+  speed_ = 0;
+  for (const std::uint32_t n : listed_) speed_ = std::max(speed_, candidates_.v_move()[n].squaredNorm());
+  speed_ = std::sqrt(speed_);
+  moved_ += candidates_.moved();
+  return finite;
+}
+
+void ContactBody::clear_listed() noexcept {
+  for (const std::uint32_t n : listed_) is_listed_[n] = 0;
+  listed_.clear();
+}
+
+void ContactBody::list(std::uint32_t candidate) noexcept {
+  if (is_listed_[candidate] != 0) return;
+  is_listed_[candidate] = 1;
+  listed_.push_back(candidate);
 }
 
 Eigen::AlignedBox3d ContactBody::box() const noexcept {

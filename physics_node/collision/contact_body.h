@@ -1,10 +1,11 @@
 #pragma once
-// One body as contact sees it: its candidates, its facets, and how far they have moved since they were last looked at.
+// One body as contact sees it: its candidates, its facets, and what has happened to them since they were last looked at.
 
 #include <memory>
 #include <span>
 
 #include "physics_node/collision/facets.h"
+#include "physics_node/fragments/fragments.h"
 
 namespace palpate::physics {
 
@@ -12,27 +13,34 @@ class ContactBody {
  public:
   /// @param with_facets  whether facets are followed; else there are none
   /// @param with_front   as for Candidates
-  ContactBody(const MovingBody& moving, bool with_facets, bool with_front);
+  /// @param fragments    of the body; without, every candidate counts as come off
+  ContactBody(const MovingBody& moving, bool with_facets, bool with_front,
+              const Fragments* fragments = nullptr);
 
-  /// Follows the elements that broke in the last step. @return true if candidates or facets are not what they were
-  bool follow_breaks() noexcept;
+  /// Follows the elements that broke in the last step.
+  void follow_breaks() noexcept;
   /// Finds everything anew.
   void restart() noexcept;
   /// As Candidates::refresh().
   bool refresh(double dt) noexcept;
+  /// The same of those that are in a list of pairs; what speed() and moved() tell is then of these.
+  bool refresh_listed(double dt) noexcept;
+  void clear_listed() noexcept;
+  void list(std::uint32_t candidate) noexcept;
   /// Of the fastest candidate when last refreshed [m/s].
   double speed() const { return speed_; }
 
-  /// Remembers where the candidates are now.
-  void mark() noexcept;
-  /// Since then: the mean displacement, and how far a candidate strayed from it at most [m].
-  const Vec3& drift() const { return drift_; }
-  double stray() const { return stray_; }
-  void measure_motion() noexcept;
+  /// Since forget_changes(): are candidates or facets not what they were, and how far did a candidate move at most [m]?
+  bool has_changed() const { return changed_; }
+  double moved() const { return moved_; }
+  void forget_changes() noexcept { changed_ = false, moved_ = 0; }
 
   /// Round all candidates, where they were when last refreshed.
   Eigen::AlignedBox3d box() const noexcept;
 
+  /// Can this candidate meet others of its own body? It can where it has lost an element, and everywhere on what has come
+  /// off. What is whole folds through itself, as a body does that has not broken anywhere.
+  bool may_meet_itself(std::size_t candidate) const noexcept;
   /// Has any element broken? Then it touches itself too.
   bool touches_itself() const { return moving().breaks() > 0; }
 
@@ -41,13 +49,17 @@ class ContactBody {
   const MovingBody& moving() const { return candidates_.moving(); }
 
  private:
+  void find_main_piece() noexcept;
+
   Candidates candidates_;
+  const Fragments* fragments_;
+  Index main_piece_ = 0;  // label of the largest fragment
   std::unique_ptr<Facets> facets_;
-  std::vector<Vec3> marked_;
-  std::size_t n_marked_ = 0;
-  Vec3 drift_ = Vec3::Zero();
-  double stray_ = 0;
+  std::vector<std::uint32_t> listed_;
+  std::vector<std::uint8_t> is_listed_;  // of each candidate
   double speed_ = 0;
+  double moved_ = 0;
+  bool changed_ = true;
 };
 
 /// Where the candidates of each body begin when those of all are counted through, and how many there can be in all  (n + 1)

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "physics_node/collision/near_pairs.h"
+#include "physics_node/collision/pair_search.h"
 
 namespace palpate::physics {
 

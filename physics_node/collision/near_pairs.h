@@ -1,27 +1,28 @@
 #pragma once
-// What could touch soon: a list of pairs within reach plus a skin, made anew only when something moved by half the skin.
-// Until then a step looks at these pairs and at nothing else. Source: Verlet 1967 (neighbour lists with a skin).
-//
-// There are lists of (mass, mass) and of (mass, facet); each pair comes once, in one fixed order.
-// Joined masses are no pair, nor is a mass with a facet that it is joined to.
+// What could touch soon: for each two bodies that are near, and for each body with its own fragments, a list of pairs within
+// reach plus a skin, made anew only when something there moved by half the skin or broke. Until then a step looks at these
+// pairs and at nothing else, and at each of them only when enough has been travelled for it to touch.
+// Source: Verlet 1967 (neighbour lists with a skin).
 
-#include <cstdint>
-#include <span>
-#include <vector>
-
-#include "physics_node/collision/contact_body.h"
-#include "physics_node/collision/point_grid.h"
+#include "physics_node/collision/motion_mark.h"
+#include "physics_node/collision/pair_search.h"
 
 namespace palpate::physics {
 
-/// A candidate or a facet: which body, which number there.
-struct PairEnd {
-  std::uint32_t body = 0, n = 0;
-};
-struct NearPair {
-  PairEnd mass, other;  // other: a mass or a facet
-};
 enum class PairKind { masses, facets, both };
+
+/// Two bodies, or one with itself.
+struct Link {
+  std::uint32_t a = 0, b = 0;  // a <= b
+  bool near = false;           // they may touch in this frame
+  bool fresh = false;          // the lists are what they should be
+  MotionMark of_a, of_b;       // since the lists were made
+  double least_skin = 0;       // for what one step moves masses by [m]
+  double slack = 0;   // when all were read last, how far they could still move until the list is too old [m]
+  double unseen = 0;  // what they may have moved since [m]
+  double travel = 0;  // by which a mass may have come nearer to a facet since the lists were made [m]
+  PairList masses, facets;
+};
 
 class NearPairs {
  public:
@@ -30,50 +31,38 @@ class NearPairs {
   /// Which bodies may touch which, this frame; a body beside itself: its fragments.
   void allow(std::uint32_t a, std::uint32_t b, bool near) noexcept;
 
-  /// Brings the lists up to date with where the candidates are now, after a step of dt.
-  /// @param changed  candidates or facets are not what they were when they were made
-  void update(std::vector<ContactBody>& bodies, bool changed, double dt) noexcept;
+  /// Must all candidates be read in this step? Else those in the lists are enough: whatever else there is cannot have come
+  /// within reach since all were read last. @param fastest  no mass of any body moves faster [m/s]
+  bool needs_all(const std::vector<ContactBody>& bodies, double fastest, double dt) noexcept;
+  /// After all were read: brings the lists up to date.
+  void update(std::vector<ContactBody>& bodies, double dt) noexcept;
+  /// After those in the lists were read: takes note of how far they moved.
+  void follow(std::vector<ContactBody>& bodies) noexcept;
 
-  const std::vector<NearPair>& masses() const { return masses_; }  // (mass, mass)
-  const std::vector<NearPair>& facets() const { return facets_; }  // (mass, facet)
+  std::vector<Link>& links() { return links_; }
+  const std::vector<Link>& links() const { return links_; }
+  std::size_t size() const noexcept;  // of all lists
   std::int64_t rebuilds() const { return rebuilds_; }
-  std::int64_t overflows() const { return overflows_; }  // pairs that found no room
+  std::int64_t overflows() const noexcept;                  // pairs that found no room
+  std::size_t most_facets() const { return most_facets_; }  // pairs that there can be
 
  private:
-  bool is_allowed(std::uint32_t a, std::uint32_t b) const { return allowed_[a * n_bodies_ + b] != 0; }
-  double skin(const Candidates& a, const Candidates& b) const noexcept;  // [m]
-  bool is_valid(const std::vector<ContactBody>& bodies) const noexcept;
-  void rebuild(const std::vector<ContactBody>& bodies) noexcept;
-  void choose_seekers(const std::vector<ContactBody>& bodies) noexcept;
-  void seek_masses(const std::vector<ContactBody>& bodies) noexcept;
-  void seek_facets(const std::vector<ContactBody>& bodies) noexcept;
-  void add(std::vector<NearPair>& list, PairEnd mass, PairEnd other) noexcept;
-  /// Masses of a body near a facet.
-  void seek_masses_near(const std::vector<ContactBody>& bodies, PairEnd facet, std::uint32_t other) noexcept;
+  double skin(const std::vector<ContactBody>& bodies, const Link& link) const noexcept;  // [m]
+  double needed_skin(double fastest, double dt) const noexcept;                          // for a step [m]
+  double measure_slack(const std::vector<ContactBody>& bodies, Link& link) const noexcept;
+  void list_all_ends(std::vector<ContactBody>& bodies) const noexcept;
+  void rebuild(const std::vector<ContactBody>& bodies, Link& link) noexcept;
 
-  std::uint32_t n_bodies_;
+  std::size_t n_bodies_;
   PairKind kind_;
-  std::vector<std::uint8_t> allowed_;  // (n_bodies, n_bodies)
-  std::vector<std::uint32_t> first_;   // id of the first candidate of each body, as first_candidates()
-  // Of each candidate: may it meet another body, may it meet its own?
-  std::vector<std::uint8_t> seeks_other_, seeks_own_;
-  std::vector<PointGrid> grids_;             // of each body
-  std::vector<Eigen::AlignedBox3d> boxes_;   // of each body
-  std::vector<Eigen::AlignedBox3d> movers_;  // of each body, round the candidates that may meet their own
-  double smallest_L_ = 0, largest_L_ = 0;
-  double least_skin_ = 0;  // for what one step moves masses by [m]
-  std::vector<NearPair> masses_, facets_;
-  std::int64_t rebuilds_ = 0, overflows_ = 0;
-  bool fresh_ = false;
+  PairSearch search_;
+  std::vector<Link> links_;  // (0, 0), (0, 1) ... (1, 1) ...
+  std::size_t most_facets_ = 0;
+  std::int64_t rebuilds_ = 0;
 };
 
 /// What two masses may move towards each other in a step at most, where the fastest has this speed: a light one that a heavy
 /// one hits goes on at twice its speed, and a little more is allowed for [m].
 double most_motion(double dt, double speed) noexcept;
-/// Distance at which two masses of these bodies touch, at rest: the larger L / sqrt(3). (EQUATIONS C-13)
-double paper_distance(const Candidates& a, const Candidates& b) noexcept;
-/// Distance at which a mass touches a facet whose edges now have this mean length: (edge + L) / (2 sqrt(3)), which is
-/// L / sqrt(3) between equal lattices at rest. A loose mass counts as one with edges of L.
-double swept_distance(double edge, const Candidates& of_mass) noexcept;
 
 }  // namespace palpate::physics

@@ -4,31 +4,37 @@
 #include <bit>
 
 namespace palpate::physics {
+namespace {
+
+std::uint32_t buckets_for(std::size_t points) {
+  return static_cast<std::uint32_t>(std::bit_ceil(std::max<std::size_t>(2 * points, 16)));
+}
+
+}  // namespace
 
 PointGrid::PointGrid(std::size_t most)
-    : bucket_mask_(static_cast<std::uint32_t>(std::bit_ceil(std::max<std::size_t>(2 * most, 16)) - 1)),
-      head_(bucket_mask_ + std::size_t{1}, -1),
-      entries_(most) {}
+    : inserted_(most), arranged_(most), first_(buckets_for(most) + std::size_t{1}, 0) {}
 
 void PointGrid::clear(double size) noexcept {
-  // Only the buckets in use: a large grid with few points is as quick as a small one.
-  if (4 * n_ < head_.size()) {
-    for (std::size_t n = 0; n < n_; ++n) head_[bucket_of(entries_[n].cell)] = -1;
-  } else {
-    std::fill(head_.begin(), head_.end(), -1);
-  }
   n_ = 0;
   inverse_size_ = 1 / size;
 }
 
 void PointGrid::insert(std::uint32_t id, const Eigen::Vector3d& p) noexcept {
-  if (n_ == entries_.size()) return;
-  Entry& e = entries_[n_];
-  e.cell = cell_of(p);
-  e.id = id;
-  std::int32_t& head = head_[bucket_of(e.cell)];
-  e.next = head;
-  head = static_cast<std::int32_t>(n_++);
+  if (n_ == inserted_.size()) return;
+  inserted_[n_++] = {p, cell_of(p), id};
+}
+
+void PointGrid::arrange() noexcept {
+  // No more buckets than points need: a large grid with few points is as quick as a small one.
+  const std::uint32_t buckets = buckets_for(n_);
+  bucket_mask_ = buckets - 1;
+  std::fill_n(first_.begin(), buckets + std::size_t{1}, 0U);
+  for (std::size_t n = 0; n < n_; ++n) ++first_[bucket_of(inserted_[n].cell)];
+  std::uint32_t sum = 0;
+  for (std::size_t b = 0; b <= buckets; ++b) first_[b] = sum += b < buckets ? first_[b] : 0;
+  // From the last to the first, so that first_ ends at the beginning of each bucket.
+  for (std::size_t n = n_; n-- > 0;) arranged_[--first_[bucket_of(inserted_[n].cell)]] = inserted_[n];
 }
 
 }  // namespace palpate::physics

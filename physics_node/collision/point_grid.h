@@ -15,36 +15,44 @@ class PointGrid {
   /// Forgets all points. @param size  of a cell [m]
   void clear(double size) noexcept;
   void insert(std::uint32_t id, const Eigen::Vector3d& p) noexcept;
-  bool empty() const { return n_ == 0; }
+  /// Puts what was inserted in order, points of a cell beside each other; before anything is visited.
+  void arrange() noexcept;
 
-  /// Calls visit(id) for every point in the cells that the box [lo, hi] touches, in a fixed order.
+  /// Calls visit(id) for every point in the box [lo, hi], in a fixed order.
   template <class Visit>
   void visit_box(const Eigen::Vector3d& lo, const Eigen::Vector3d& hi, const Visit& visit) const {
     const Eigen::Vector3i a = cell_of(lo), b = cell_of(hi);
-    if ((b - a + Eigen::Vector3i::Ones()).cast<double>().prod() > static_cast<double>(head_.size())) {
-      for (std::size_t n = 0; n < n_; ++n) visit(entries_[n].id);
+    if ((b - a + Eigen::Vector3i::Ones()).cast<double>().prod() > static_cast<double>(n_)) {
+      for (std::size_t n = 0; n < n_; ++n)
+        if (is_between(arranged_[n].p, lo, hi)) visit(arranged_[n].id);
       return;
     }
     for (int z = a.z(); z <= b.z(); ++z)
       for (int y = a.y(); y <= b.y(); ++y)
-        for (int x = a.x(); x <= b.x(); ++x)
-          for (std::int32_t n = head_[bucket_of({x, y, z})]; n >= 0;
-               n = entries_[static_cast<std::size_t>(n)].next) {
-            const Entry& e = entries_[static_cast<std::size_t>(n)];
-            if (e.cell.x() == x && e.cell.y() == y && e.cell.z() == z) visit(e.id);
+        for (int x = a.x(); x <= b.x(); ++x) {
+          const std::uint32_t bucket = bucket_of({x, y, z});
+          for (std::uint32_t n = first_[bucket]; n < first_[bucket + 1]; ++n) {
+            const Entry& e = arranged_[n];
+            // A bucket may hold points of other cells, which are visited from there.
+            if (is_between(e.p, lo, hi) && e.cell == Eigen::Vector3i(x, y, z)) visit(e.id);
           }
+        }
   }
 
  private:
   struct Entry {
+    Eigen::Vector3d p;
     Eigen::Vector3i cell;
     std::uint32_t id;
-    std::int32_t next;
   };
+  static bool is_between(const Eigen::Vector3d& p, const Eigen::Vector3d& lo, const Eigen::Vector3d& hi) {
+    return p.x() >= lo.x() && p.x() <= hi.x() && p.y() >= lo.y() && p.y() <= hi.y() && p.z() >= lo.z() &&
+           p.z() <= hi.z();
+  }
   Eigen::Vector3i cell_of(const Eigen::Vector3d& p) const {
     return (p * inverse_size_).array().floor().max(-1e9).min(1e9).cast<int>();
   }
-  std::size_t bucket_of(const Eigen::Vector3i& c) const {
+  std::uint32_t bucket_of(const Eigen::Vector3i& c) const {
     const auto mix = static_cast<std::uint32_t>(c.x()) * 73856093U ^
                      static_cast<std::uint32_t>(c.y()) * 19349663U ^
                      static_cast<std::uint32_t>(c.z()) * 83492791U;
@@ -54,8 +62,8 @@ class PointGrid {
   double inverse_size_ = 1;
   std::uint32_t bucket_mask_ = 0;
   std::size_t n_ = 0;
-  std::vector<std::int32_t> head_;  // of each bucket, -1: empty
-  std::vector<Entry> entries_;      // (n_)
+  std::vector<Entry> inserted_, arranged_;  // (n_)
+  std::vector<std::uint32_t> first_;        // of each bucket, in arranged_
 };
 
 }  // namespace palpate::physics

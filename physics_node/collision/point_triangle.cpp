@@ -92,15 +92,14 @@ ClosestPoint closest_point(const Vec3& p, const Triangle& t) noexcept {
   return found;
 }
 
-bool comes_nearer(const Vec3& p, const Vec3& dp, const Triangle& t, const Triangle& dt,
+bool comes_nearer(const Vec3& p, const Vec3& dp, const Triangle& t, const Triangle& dt, double distance,
                   double least) noexcept {
   const Vec3 mean = 0.25 * (dp + dt[0] + dt[1] + dt[2]);
   const double farthest =
       (dp - mean).norm() + std::sqrt(std::max({(dt[0] - mean).squaredNorm(), (dt[1] - mean).squaredNorm(),
                                                (dt[2] - mean).squaredNorm()}));
-  double distance = closest_point(p, t).distance;
+  if (distance - farthest >= least) return false;
   const double near_enough = least + 0.1 * (distance - least);
-  if (farthest == 0) return false;
   for (double s = 0;;) {
     s += 0.9 * (distance - least) / farthest;
     if (!(s < 1)) return closest_point(p + dp, at_time(t, dt, 1)).distance < least;

@@ -21,10 +21,11 @@ ClosestPoint closest_point(const Eigen::Vector3d& p, const Triangle& t) noexcept
 /// Does the distance fall below `least` while all four points move on straight lines? Errs to the side of yes, by a tenth of
 /// the distance at the start.
 /// @param dp, dt  what they move by [m]
-/// @param least   below the distance at the start [m]
+/// @param distance  at the start [m]
+/// @param least   below that [m]
 /// Source: Li, Kaufman, Jiang 2021, Codimensional Incremental Potential Contact, algorithm 1 (additive conservative advancement).
 bool comes_nearer(const Eigen::Vector3d& p, const Eigen::Vector3d& dp, const Triangle& t, const Triangle& dt,
-                  double least) noexcept;
+                  double distance, double least) noexcept;
 
 /// Does the point go through the triangle? Exact up to rounding: finds the times at which the four are in a plane.
 bool passes_through(const Eigen::Vector3d& p, const Eigen::Vector3d& dp, const Triangle& t,

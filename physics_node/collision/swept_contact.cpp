@@ -9,7 +9,7 @@ namespace palpate::physics {
 namespace {
 
 constexpr int most_sweeps = 8;
-constexpr int most_rounds = 32;                     // of zones; each joins at least one more mass
+constexpr int most_rounds = 32;  // of zones; each joins at least one more mass
 
 /// The four where the step began, and what they move by with the impulses so far.
 struct Path {
@@ -25,7 +25,7 @@ double least_distance(double distance, double h) {
 }  // namespace
 
 SweptContact::SweptContact(const std::vector<ContactBody>& bodies, std::size_t most_pairs)
-    : first_(first_candidates(bodies)) {
+    : first_(first_candidates(bodies)), speed_(bodies.size(), 0.0) {
   const std::uint32_t n = first_.back();
   parent_.resize(n);
   for (std::uint32_t i = 0; i < n; ++i) parent_[i] = i;
@@ -35,41 +35,58 @@ SweptContact::SweptContact(const std::vector<ContactBody>& bodies, std::size_t m
   active_.reserve(most_pairs / 2);  // memory is touched only where pairs are
 }
 
-void SweptContact::find_active(const std::vector<ContactBody>& bodies, std::span<const NearPair> pairs,
+void SweptContact::find_active(const std::vector<ContactBody>& bodies, std::span<Link> links,
                                double dt) noexcept {
   active_.clear();
-  double speed = 0;
-  for (const ContactBody& body : bodies) speed = std::max(speed, body.speed());
-  const double reach = most_motion(dt, speed);
-  for (const NearPair& pair : pairs) {
-    const Candidates& c = bodies[pair.mass.body].candidates();
-    const ContactBody& other = bodies[pair.other.body];
-    const Facets::Corners& k = other.facets()->all()[pair.other.n];
-    const Candidates& d = other.candidates();
-    const FacetNow facet = facet_now(d, k);
-    const double h = swept_distance(facet.edge, c);
-    const ClosestPoint nearest = closest_point(c.x()[pair.mass.n], facet.corner);
-    if (nearest.distance > h + reach || nearest.distance == 0) continue;
-    if (active_.size() == active_.capacity()) {
-      ++overflows_;
-      continue;
-    }
-    Active& a = active_.emplace_back();
-    a.end = {pair.mass, PairEnd{pair.other.body, k[0]}, PairEnd{pair.other.body, k[1]},
-             PairEnd{pair.other.body, k[2]}};
-    a.weight = nearest.weight;
-    a.distance = nearest.distance;
-    a.n = nearest.away / nearest.distance;
-    a.h = h;
-    a.W = c.inverse_mass(pair.mass.n);
-    if (k[0] == k[1]) {
-      a.weight = {1, 0, 0};
-      a.W += d.inverse_mass(k[0]);
-    } else {
-      for (int i = 0; i < 3; ++i)
-        a.W += a.weight[i] * a.weight[i] * d.inverse_mass(k[static_cast<std::size_t>(i)]);
-    }
+  for (Link& link : links) {
+    const double reach = dt * (speed_[link.a] + speed_[link.b]);
+    for (NearPair& pair : link.facets.pairs())
+      if (pair.look_at <= link.travel + reach) look_at(bodies, pair, link.travel, reach);
   }
+}
+
+/// Has an impulse made a mass faster than the pairs were looked for with?
+bool SweptContact::outran(const std::vector<ContactBody>& bodies, const ContactImpulses& impulses) noexcept {
+  bool any = false;
+  impulses.for_each([&](PairEnd at, const Vec3&) {
+    const double speed = impulses.v_move(bodies, at).norm();
+    if (!(speed > speed_[at.body])) return;
+    speed_[at.body] = 2 * speed;
+    any = true;
+  });
+  return any;
+}
+
+void SweptContact::look_at(const std::vector<ContactBody>& bodies, NearPair& pair, double travel,
+                           double reach) noexcept {
+  const Candidates& c = bodies[pair.mass.body].candidates();
+  const ContactBody& other = bodies[pair.other.body];
+  const Facets::Corners& k = other.facets()->all()[pair.other.n];
+  const Candidates& d = other.candidates();
+  const FacetNow facet = facet_now(d, k);
+  const double h = swept_distance(facet.edge, c);
+  const ClosestPoint nearest = closest_point(c.x()[pair.mass.n], facet.corner);
+  pair.look_at = travel + (nearest.distance - h);
+  if (nearest.distance > h + reach || nearest.distance == 0) return;
+  if (active_.size() == active_.capacity()) {
+    ++overflows_;
+    return;
+  }
+  Active& a = active_.emplace_back();
+  a.end = {pair.mass, PairEnd{pair.other.body, k[0]}, PairEnd{pair.other.body, k[1]},
+           PairEnd{pair.other.body, k[2]}};
+  a.weight = nearest.weight;
+  a.distance = nearest.distance;
+  a.n = nearest.away / nearest.distance;
+  a.h = h;
+  a.W = c.inverse_mass(pair.mass.n);
+  if (k[0] == k[1]) {
+    a.weight = {1, 0, 0};
+    a.W += d.inverse_mass(k[0]);
+    return;
+  }
+  for (int i = 0; i < 3; ++i)
+    a.W += a.weight[i] * a.weight[i] * d.inverse_mass(k[static_cast<std::size_t>(i)]);
 }
 
 std::int64_t SweptContact::push_apart(const std::vector<ContactBody>& bodies, double e, double dt,
@@ -102,7 +119,7 @@ bool SweptContact::would_pass(const std::vector<ContactBody>& bodies, const Acti
   const auto moves = [&](PairEnd at) { return Vec3(dt * impulses.v_move(bodies, at)); };
   const Triangle t{start(a.end[1]), start(a.end[2]), start(a.end[3])};
   const Triangle by{moves(a.end[1]), moves(a.end[2]), moves(a.end[3])};
-  return comes_nearer(start(a.end[0]), moves(a.end[0]), t, by, least_distance(a.distance, a.h));
+  return comes_nearer(start(a.end[0]), moves(a.end[0]), t, by, a.distance, least_distance(a.distance, a.h));
 }
 
 std::uint32_t SweptContact::zone_of(std::uint32_t id) noexcept {
@@ -151,18 +168,21 @@ void SweptContact::move_zones_together(const std::vector<ContactBody>& bodies,
   }
 }
 
-SweptReport SweptContact::step(const std::vector<ContactBody>& bodies, std::span<const NearPair> pairs,
-                               double e, double dt, ContactImpulses& impulses) noexcept {
+SweptReport SweptContact::step(const std::vector<ContactBody>& bodies, std::span<Link> links, double e,
+                               double dt, ContactImpulses& impulses) noexcept {
   SweptReport report;
   overflows_ = 0;
-  find_active(bodies, pairs, dt);
+  // Twice: what a heavy mass hits leaves at twice its speed.
+  for (std::size_t b = 0; b < bodies.size(); ++b) speed_[b] = 2 * bodies[b].speed();
+  do {
+    find_active(bodies, links, dt);
+    for (int n = 0; n < most_sweeps; ++n) {
+      const std::int64_t collisions = push_apart(bodies, e, dt, impulses, report.lost);
+      report.collisions += collisions;
+      if (collisions == 0) break;
+    }
+  } while (outran(bodies, impulses));
   report.overflows = overflows_;
-  if (active_.empty()) return report;
-  for (int n = 0; n < most_sweeps; ++n) {
-    const std::int64_t collisions = push_apart(bodies, e, dt, impulses, report.lost);
-    report.collisions += collisions;
-    if (collisions == 0) break;
-  }
   for (int round = 0; round < most_rounds; ++round) {
     bool grown = false;
     for (Active& a : active_) {

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "physics_node/collision/contact_impulses.h"
+#include "physics_node/collision/near_pairs.h"
 
 namespace palpate::physics {
 
@@ -30,8 +31,8 @@ struct SweptReport {
 class SweptContact {
  public:
   explicit SweptContact(const std::vector<ContactBody>& bodies, std::size_t most_pairs);
-  SweptReport step(const std::vector<ContactBody>& bodies, std::span<const NearPair> pairs, double e,
-                   double dt, ContactImpulses& impulses) noexcept;
+  SweptReport step(const std::vector<ContactBody>& bodies, std::span<Link> links, double e, double dt,
+                   ContactImpulses& impulses) noexcept;
 
  private:
   struct Active {
@@ -42,8 +43,9 @@ class SweptContact {
     double W = 0;
     bool together = false;  // in a zone: keeps its distance from now on
   };
-  void find_active(const std::vector<ContactBody>& bodies, std::span<const NearPair> pairs,
-                   double dt) noexcept;
+  void find_active(const std::vector<ContactBody>& bodies, std::span<Link> links, double dt) noexcept;
+  bool outran(const std::vector<ContactBody>& bodies, const ContactImpulses& impulses) noexcept;
+  void look_at(const std::vector<ContactBody>& bodies, NearPair& pair, double travel, double reach) noexcept;
   std::int64_t push_apart(const std::vector<ContactBody>& bodies, double e, double dt,
                           ContactImpulses& impulses, double& lost) noexcept;
   bool would_pass(const std::vector<ContactBody>& bodies, const Active& pair, double dt,
@@ -54,6 +56,7 @@ class SweptContact {
   void move_zones_together(const std::vector<ContactBody>& bodies, ContactImpulses& impulses) noexcept;
 
   std::vector<std::uint32_t> first_;
+  std::vector<double> speed_;  // by body: pairs are looked for as if no mass were faster [m/s]
   std::vector<Active> active_;
   std::int64_t overflows_ = 0;
   std::vector<std::uint32_t> parent_;  // of each candidate, in zones; itself where it is in none

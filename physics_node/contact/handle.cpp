@@ -1,6 +1,7 @@
 #include "physics_node/contact/handle.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace palpate::physics {
 
@@ -9,6 +10,8 @@ Handle::Handle(const Body& body) : tip_(body.tip), cell_(body.handle) {
     rest_.push_back(body.lattice.rest_position(cell));
     mass_.push_back(law_at(body, cell).mass);
   }
+  all_.resize(cell_.size());
+  std::iota(all_.begin(), all_.end(), 0U);
   for (auto* array : {&x_, &v_, &v_move_, &v_0_}) array->assign(cell_.size(), Vec3::Zero());
 }
 
@@ -17,7 +20,7 @@ void Handle::reset() noexcept { std::fill(v_0_.begin(), v_0_.end(), Vec3::Zero()
 HandleWork Handle::lead(MovingBody& moving, const Pose& pose, double dt) noexcept {
   HandleWork sum;
   const Eigen::Matrix3d R = pose.q.toRotationMatrix();
-  moving.read(cell_, rest_, 0, x_, v_, v_move_);
+  moving.read(all_, cell_, rest_, 0, x_, v_, v_move_);
   for (std::size_t n = 0; n < cell_.size(); ++n) {
     const Vec3 target = pose.p + R * (rest_[n] - tip_);
     const Vec3 dv = (target - x_[n]) / dt;  // on the velocity that moves the mass

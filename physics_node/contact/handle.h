@@ -2,6 +2,7 @@
 // The masses of a tool by which a hand holds it, led along the hand's path.
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <vector>
 
 #include "physics_node/step/moving_body.h"
@@ -39,6 +40,7 @@ class Handle {
  private:
   Vec3 tip_;
   std::vector<Index> cell_;
+  std::vector<std::uint32_t> all_;  // 0, 1, 2 ...
   std::vector<Vec3> rest_, x_, v_, v_move_, v_0_;
   std::vector<double> mass_;
 };

@@ -178,11 +178,11 @@ class LatticeBody final : public MovingBody {
   }
   Vec3 displacement(Index cell) const noexcept override { return vector_of(state_.u, cell); }
   Vec3 velocity(Index cell) const noexcept override { return vector_of(state_.v, cell); }
-  void read(std::span<const Index> cells, std::span<const Vec3> rest, double dt, std::span<Vec3> x, std::span<Vec3> v,
+  void read(std::span<const std::uint32_t> which, std::span<const Index> cells, std::span<const Vec3> rest, double dt, std::span<Vec3> x, std::span<Vec3> v,
             std::span<Vec3> v_move) const noexcept override {
     const Three<Real>& moving = moving_velocity();
     const bool known = v_before_[0].size() > 0 && !implicit_;
-    for (std::size_t n = 0; n < cells.size(); ++n) {
+    for (const std::uint32_t n : which) {
       v_move[n] = vector_of(moving, cells[n]);
       v[n] = known ? Vec3(0.5 * (v_move[n] + vector_of(v_before_, cells[n]))) : v_move[n];
       x[n] = rest[n] + vector_of(state_.u, cells[n]);

@@ -115,8 +115,8 @@ class MovingBody {
   /// Some masses at the beginning of the step just integrated, all in one call: place x, velocity v, and the velocity v_move
   /// at which it moved them. With the explicit integrators v is the mean of v_move before and after the elements acted, so
   /// that an impulse that keeps the energy of v keeps the energy that the integrator keeps.
-  /// @param rest  their rest positions
-  virtual void read(std::span<const Index> cells, std::span<const Vec3> rest, double dt, std::span<Vec3> x,
+  /// @param which  of the others, which are as long as each other; @param rest  their rest positions
+  virtual void read(std::span<const std::uint32_t> which, std::span<const Index> cells, std::span<const Vec3> rest, double dt, std::span<Vec3> x,
                     std::span<Vec3> v, std::span<Vec3> v_move) const noexcept = 0;
   /// Live elements of every storage cell, as bits  (n_cells)
   virtual std::span<const Mask> masks() const noexcept = 0;

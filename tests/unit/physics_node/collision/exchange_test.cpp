@@ -16,7 +16,8 @@ Recipe two_pairs(double other_mass_g) {
   recipe.shape = Recipe::box(7.2, 7.2, 1);
   recipe.spacing_mm = 10;
   recipe.physics = "sleep = false";
-  recipe.world = "[contact]\ndistance = \"paper\"\n[material.n]\nk1_N_per_m = 1e-15\nmass_g = " + std::to_string(other_mass_g) +
+  recipe.world = "[contact]\ndistance = \"paper\"\n[material.n]\nk1_N_per_m = 1e-15\nmass_g = " +
+                 std::to_string(other_mass_g) +
                  "\n[[body]]\nname = \"other\"\nlattice = \"fcc\"\nspacing_mm = 10\nmaterial = \"n\"\n" +
                  recipe.shape + "\nat_mm = [0, 0, 12]\n";
   return recipe;
@@ -43,7 +44,8 @@ TEST(Exchange, KeepsMomentumAndKineticEnergyOfTwoMassesThatMeet) {
     World world(test::scene_of(two_pairs(dice.between(0.1, 1000))));
     const Index mine = world.body(0).body().lattice.masses.front();
     const Index theirs = world.body(1).body().lattice.masses.front();
-    world.body(0).place(mine, Vec3::Zero(), Vec3(dice.between(-0.05, 0.05), dice.between(-0.05, 0.05), dice.between(0.5, 2)));
+    world.body(0).place(mine, Vec3::Zero(),
+                        Vec3(dice.between(-0.05, 0.05), dice.between(-0.05, 0.05), dice.between(0.5, 2)));
     world.body(1).place(theirs, Vec3::Zero(), Vec3(0, 0, dice.between(-1, 0.3)));
     world.restart_ledger();
     const Sums before = sums(world);
@@ -52,7 +54,8 @@ TEST(Exchange, KeepsMomentumAndKineticEnergyOfTwoMassesThatMeet) {
     const Sums after = sums(world);
     EXPECT_NEAR(after.kinetic / before.kinetic, 1, 1e-12) << "seed 1, case " << n;
     EXPECT_LE((after.linear - before.linear).norm(), 1e-12 * before.linear.norm()) << "seed 1, case " << n;
-    EXPECT_LE((after.angular - before.angular).norm(), 1e-11 * (before.linear.norm() * 0.1)) << "seed 1, case " << n;
+    EXPECT_LE((after.angular - before.angular).norm(), 1e-11 * (before.linear.norm() * 0.1))
+        << "seed 1, case " << n;
   }
 }
 

@@ -55,7 +55,7 @@ TEST(PointTriangle, AdvancementNeverMissesAnApproach) {
     const Moving m = random_motion(dice, 2);
     const double start = closest_point(m.p, m.t).distance;
     const double least = 0.3 * start;
-    const bool told = comes_nearer(m.p, m.dp, m.t, m.dt, least);
+    const bool told = comes_nearer(m.p, m.dp, m.t, m.dt, closest_point(m.p, m.t).distance, least);
     double nearest = start;
     for (int s = 0; s <= 400; ++s)
       nearest = std::min(nearest, closest_point(m.p + s / 400.0 * m.dp, at_time(m, s / 400.0)).distance);

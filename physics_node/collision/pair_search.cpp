@@ -1,0 +1,161 @@
+#include "physics_node/collision/pair_search.h"
+
+#include <algorithm>
+#include <numbers>
+#include <tuple>
+
+#include "physics_node/collision/facet_now.h"
+
+namespace palpate::physics {
+namespace {
+
+constexpr double cell_over_L = 2;  // of a grid: few cells to look at, few masses in each
+// Two masses that have not left their places by more than this, drift apart, do not meet: at rest those that are not joined
+// are 1.4 L apart, L where an element broke, and 0.82 L from a facet that broke off.
+constexpr double still_over_L = 0.1;
+
+}  // namespace
+
+double paper_distance(const Candidates& a, const Candidates& b) noexcept {
+  return std::max(a.length(), b.length()) / std::numbers::sqrt3;
+}
+
+double swept_distance(double edge, const Candidates& of_mass) noexcept {
+  return (edge + of_mass.length()) * (0.5 / std::numbers::sqrt3);
+}
+
+void PairList::add(PairEnd mass, PairEnd other) noexcept {
+  if (pairs_.size() == pairs_.capacity()) {
+    ++overflows_;
+    return;
+  }
+  pairs_.push_back({mass, other});
+}
+
+void PairList::sort() noexcept {
+  std::sort(pairs_.begin(), pairs_.end(), [](const NearPair& p, const NearPair& q) {
+    return std::tie(p.mass.body, p.mass.n, p.other.body, p.other.n) <
+           std::tie(q.mass.body, q.mass.n, q.other.body, q.other.n);
+  });
+}
+
+PairSearch::PairSearch(const std::vector<ContactBody>& bodies) {
+  for (const auto& body : bodies) {
+    const std::size_t most = body.candidates().most();
+    sides_.push_back({std::vector<std::uint8_t>(most, 0), {}, PointGrid(most)});
+  }
+}
+
+void PairSearch::choose_movers(const ContactBody& body, std::uint32_t b) noexcept {
+  const Candidates& c = body.candidates();
+  Side& side = sides_[b];
+  Vec3 drift = Vec3::Zero();
+  for (std::size_t n = 0; n < c.size(); ++n) drift += c.x()[n] - c.rest()[n];
+  drift /= static_cast<double>(c.size());
+  const double still = still_over_L * c.length();
+  for (std::size_t n = 0; n < c.size(); ++n) {
+    const bool moved = (c.x()[n] - c.rest()[n] - drift).squaredNorm() > still * still;
+    side.seeks[n] = moved && body.may_meet_itself(n) ? 1 : 0;
+    if (side.seeks[n] != 0) side.box.extend(c.x()[n]);
+    side.grid.insert(static_cast<std::uint32_t>(n), c.x()[n]);  // what rests can be met
+  }
+  side.grid.arrange();
+}
+
+void PairSearch::choose_inside(const ContactBody& body, std::uint32_t b,
+                               const Eigen::AlignedBox3d& box) noexcept {
+  const Candidates& c = body.candidates();
+  Side& side = sides_[b];
+  for (std::size_t n = 0; n < c.size(); ++n) {
+    side.seeks[n] = box.contains(c.x()[n]) ? 1 : 0;
+    if (side.seeks[n] == 0) continue;
+    side.box.extend(c.x()[n]);
+    side.grid.insert(static_cast<std::uint32_t>(n), c.x()[n]);
+  }
+  side.grid.arrange();
+}
+
+void PairSearch::choose(const std::vector<ContactBody>& bodies, std::uint32_t a, std::uint32_t b,
+                        double reach) noexcept {
+  for (const std::uint32_t n : {a, b}) {
+    sides_[n].box.setEmpty();
+    sides_[n].grid.clear(cell_over_L * bodies[n].candidates().length());
+  }
+  if (a == b) return choose_movers(bodies[a], a);
+  const auto widened = [&](const ContactBody& body) {
+    Eigen::AlignedBox3d box = body.box();
+    box.min().array() -= reach, box.max().array() += reach;
+    return box;
+  };
+  choose_inside(bodies[a], a, widened(bodies[b]));
+  choose_inside(bodies[b], b, widened(bodies[a]));
+}
+
+void PairSearch::find_masses(const std::vector<ContactBody>& bodies, std::uint32_t a, std::uint32_t b,
+                             double skin, PairList& list) noexcept {
+  const Candidates& c = bodies[a].candidates();
+  const Candidates& d = bodies[b].candidates();
+  const double within = paper_distance(c, d) + skin;
+  choose(bodies, a, b, within);
+  const Vec3 reach = Vec3::Constant(within);
+  const auto& seeks = sides_[a].seeks;
+  list.clear();
+  for (std::uint32_t n = 0; n < c.size(); ++n) {
+    if (seeks[n] == 0) continue;
+    const Vec3& p = c.x()[n];
+    sides_[b].grid.visit_box(p - reach, p + reach, [&](std::uint32_t m) {
+      // Of two that seek each other the first finds the second.
+      if (a == b && (m == n || (m < n && seeks[m] != 0))) return;
+      if ((d.x()[m] - p).squaredNorm() > within * within) return;
+      if (a == b && c.are_joined(n, m)) return;
+      list.add({a, a == b ? std::min(n, m) : n}, {b, a == b ? std::max(n, m) : m});
+    });
+  }
+  list.sort();
+}
+
+void PairSearch::find_facets(const std::vector<ContactBody>& bodies, std::uint32_t a, std::uint32_t b,
+                             double skin, PairList& list) noexcept {
+  // As far as any pair is listed at: the facets that are stretched most feel farthest.
+  const double L = std::max(bodies[a].candidates().length(), bodies[b].candidates().length());
+  choose(bodies, a, b, (most_felt_stretch + 1) * L * (0.5 / std::numbers::sqrt3) + skin);
+  list.clear();
+  const auto seek = [&](std::uint32_t of, std::uint32_t other) {
+    const auto n = static_cast<std::uint32_t>(bodies[of].facets()->all().size());
+    for (std::uint32_t f = 0; f < n; ++f) seek_masses_near(bodies, {of, f}, other, skin, list);
+  };
+  seek(a, b);
+  if (a != b) seek(b, a);
+  list.sort();
+}
+
+void PairSearch::seek_masses_near(const std::vector<ContactBody>& bodies, PairEnd facet, std::uint32_t other,
+                                  double skin, PairList& list) const noexcept {
+  const std::uint32_t b = facet.body;
+  const bool same = other == b;
+  const Side& side = sides_[other];
+  const Candidates& c = bodies[b].candidates();
+  const Candidates& d = bodies[other].candidates();
+  const Facets::Corners& k = bodies[b].facets()->all()[facet.n];
+  const FacetNow now = facet_now(c, k);
+  const double within = swept_distance(now.edge, d) + skin;
+  const Vec3 reach = Vec3::Constant(within);
+  const Eigen::AlignedBox3d box(now.corner[0].cwiseMin(now.corner[1]).cwiseMin(now.corner[2]) - reach,
+                                now.corner[0].cwiseMax(now.corner[1]).cwiseMax(now.corner[2]) + reach);
+  // A facet whose corners are all far away may still reach over what is near: stretched tissue round a small tool.
+  const bool seeks = same && (side.seeks[k[0]] | side.seeks[k[1]] | side.seeks[k[2]]) != 0;
+  if (!seeks && !side.box.intersects(box)) return;
+  const bool loose = k[0] == k[1];
+  side.grid.visit_box(box.min(), box.max(), [&](std::uint32_t m) {
+    if (!seeks && side.seeks[m] == 0) return;
+    const Vec3& p = d.x()[m];
+    if (same && (m == k[0] || m == k[1] || m == k[2])) return;
+    // A loose mass that meets a facet is found by that facet; two loose ones find each other once.
+    if (loose && (!bodies[other].facets()->is_loose(m) || other > b || (same && m > k[0]))) return;
+    if (closest_point(p, now.corner).distance > within) return;
+    if (same && (c.are_joined(m, k[0]) || c.are_joined(m, k[1]) || c.are_joined(m, k[2]))) return;
+    list.add({other, m}, facet);
+  });
+}
+
+}  // namespace palpate::physics
