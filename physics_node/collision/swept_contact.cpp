@@ -101,13 +101,14 @@ std::int64_t SweptContact::push_apart(const std::vector<ContactBody>& bodies, do
     };
     const double v_n = closing([&](PairEnd at) { return impulses.v(bodies, at); });
     if (v_n >= 0) continue;
-    if (a.distance + dt * closing([&](PairEnd at) { return impulses.v_move(bodies, at); }) >= a.h) continue;
-    const double J = -(1 + e) * v_n / a.W;
+    const double v_move_n = closing([&](PairEnd at) { return impulses.v_move(bodies, at); });
+    if (a.distance + dt * v_move_n >= a.h) continue;
+    const double J = std::min(std::max(-(1 + e) * v_n, -v_move_n), -2 * v_n) / a.W;
     impulses.push(bodies, a.end[0], J * a.n);
     for (int i = 0; i < 3; ++i)
       if (a.weight[i] > 0)
         impulses.push(bodies, a.end[static_cast<std::size_t>(i) + 1], -a.weight[i] * J * a.n);
-    lost += 0.5 * (1 - e * e) * v_n * v_n / a.W;
+    lost -= J * v_n + 0.5 * J * J * a.W;
     ++collisions;
   }
   return collisions;

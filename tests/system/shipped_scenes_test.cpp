@@ -1,41 +1,17 @@
 // The scenes that come with palpate: the energy of each is accounted for, and what one promises it keeps.
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
-#include <sys/wait.h>
-
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <string>
 
 #include "common/report/json_file.h"
+#include "tests/system/command_run.h"
 
 namespace palpate {
 namespace {
 
 namespace fs = std::filesystem;
 
-class ShippedScenes : public testing::Test {
+class ShippedScenes : public CommandRun {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "palpate_scenes_XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder = name;
-  }
-  void TearDown() override { fs::remove_all(folder); }
-
-  /// `palpate WORDS`, its output in `log`. @return exit code
-  int palpate(const std::string& words) {
-    const fs::path file = folder / "log";
-    const int status =
-        std::system((std::string(PALPATE) + " " + words + " >" + file.string() + " 2>&1").c_str());
-    std::ifstream in(file);
-    log.assign(std::istreambuf_iterator<char>(in), {});
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-
   nlohmann::json simulate(const std::string& scene, const std::string& more) {
     const fs::path out = folder / scene;
     EXPECT_EQ(palpate("simulate " + std::string(SCENES) + "/" + scene + ".toml --no-frames --out " +
@@ -48,9 +24,6 @@ class ShippedScenes : public testing::Test {
     EXPECT_EQ(summary["guard"]["restored"].get<int>(), 0) << scene;
     return summary;
   }
-
-  fs::path folder;
-  std::string log;
 };
 
 TEST_F(ShippedScenes, OfMadeBodiesAccountForTheirEnergy) {

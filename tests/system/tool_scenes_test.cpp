@@ -1,0 +1,110 @@
+// Needles and knives as they ship: what the paper says of their moments, in numbers.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "common/report/json_file.h"
+#include "tests/system/command_run.h"
+
+namespace palpate {
+namespace {
+
+/// Root mean squares over a trace of a tool.
+struct Curves {
+  double force = 0;                // low-passed [N]
+  std::array<double, 3> moment{};  // low-passed, about x, y, z [N m]
+  double force_fluctuation = 0;    // of the raw force about the low-passed [N]
+  double moment_fluctuation = 0;   // the same of the moment [N m]
+};
+
+Curves curves_of(const std::string& file) {
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  EXPECT_EQ(line,
+            "t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm,contacts,raw_fx_N,raw_fy_N,raw_fz_N,raw_mx_Nm,"
+            "raw_my_Nm,"
+            "raw_mz_Nm");
+  Curves sum;
+  double rows = 0;
+  for (; std::getline(in, line); ++rows) {
+    std::istringstream words(line);
+    std::array<double, 17> x{};
+    char comma = 0;
+    for (double& value : x) words >> value >> comma;
+    for (std::size_t a = 0; a < 3; ++a) {
+      sum.force += x[4 + a] * x[4 + a];
+      sum.moment[a] += x[7 + a] * x[7 + a];
+      sum.force_fluctuation += std::pow(x[11 + a] - x[4 + a], 2);
+      sum.moment_fluctuation += std::pow(x[14 + a] - x[7 + a], 2);
+    }
+  }
+  EXPECT_GT(rows, 50);
+  const auto root = [&](double& value) { value = std::sqrt(value / rows); };
+  root(sum.force), root(sum.force_fluctuation), root(sum.moment_fluctuation);
+  for (double& value : sum.moment) root(value);
+  return sum;
+}
+
+class ToolScenes : public CommandRun {
+ protected:
+  /// Runs a scene and looks after its books. @return its summary
+  nlohmann::json simulate(const std::string& scene, const std::string& more) {
+    EXPECT_EQ(palpate("simulate " + std::string(SCENES) + "/" + scene + ".toml --no-frames --out " +
+                      (folder / scene).string() + " " + more),
+              0)
+        << log;
+    const auto summary = read_json((folder / scene / "summary.json").string());
+    EXPECT_LT(summary["energy"]["balance_error"].get<double>(), 0.01) << scene;
+    EXPECT_EQ(summary["guard"]["restored"].get<int>(), 0) << scene;
+    EXPECT_EQ(summary["contact"]["overflows"].get<int>(), 0) << scene;
+    return summary;
+  }
+  Curves curves(const std::string& scene, const std::string& tool) {
+    return curves_of((folder / scene / ("tool_" + tool + ".csv")).string());
+  }
+  static double broken(const nlohmann::json& summary, const char* body) {
+    return summary["bodies"][body]["broken_fraction"].get<double>();
+  }
+};
+
+TEST_F(ToolScenes, RapidPunctureFluctuatesMoreThanSlow) {
+  for (const char* scene : {"puncture_slow", "puncture_rapid"}) {
+    const auto summary =
+        simulate(scene, "--seconds " + std::string(scene == std::string("puncture_slow") ? "0.8" : "0.12"));
+    EXPECT_EQ(broken(summary, "needle"), 0) << scene;
+    EXPECT_GT(broken(summary, "vessel"), 0.002) << scene;
+  }
+  const Curves slow = curves("puncture_slow", "needle"), rapid = curves("puncture_rapid", "needle");
+  EXPECT_GT(rapid.force_fluctuation, 1.5 * slow.force_fluctuation);
+  EXPECT_GT(rapid.moment_fluctuation, 1.2 * slow.moment_fluctuation);
+}
+
+TEST_F(ToolScenes, InclinedKnivesTurnTheHandAboutTheAxisThatTheyAreInclinedTo) {
+  ASSERT_EQ(palpate("import --phantom brain --out " + (folder / "brain").string()), 0) << log;
+  const std::string brain = " --set body.brain.files=" + (folder / "brain/slice_*.png").string();
+  for (const char* scene : {"brain_cut_slow", "brain_cut_inclined_x", "brain_cut_inclined_y"}) {
+    const auto summary = simulate(scene, "--seconds 0.5" + brain);
+    EXPECT_EQ(broken(summary, "knife"), 0) << scene;
+    EXPECT_GT(broken(summary, "brain"), 0.001) << scene;
+  }
+  const Curves upright = curves("brain_cut_slow", "knife");
+  EXPECT_GT(curves("brain_cut_inclined_x", "knife").moment[0], 2 * upright.moment[0]);
+  EXPECT_GT(curves("brain_cut_inclined_y", "knife").moment[1], 2 * upright.moment[1]);
+}
+
+TEST_F(ToolScenes, ABrainIsCutRapidlyAndATooHardBlockBreaksTheKnife) {
+  ASSERT_EQ(palpate("import --phantom brain --out " + (folder / "brain").string()), 0) << log;
+  const auto cut = simulate(
+      "brain_cut_rapid", "--seconds 0.18 --set body.brain.files=" + (folder / "brain/slice_*.png").string());
+  EXPECT_GT(broken(cut, "brain"), 0.005);
+  EXPECT_EQ(broken(cut, "knife"), 0);
+  const auto hard = simulate("knife_breaks", "--seconds 0.5");
+  EXPECT_EQ(broken(hard, "block"), 0);
+  EXPECT_GT(broken(hard, "knife"), 0.01);
+}
+
+}  // namespace
+}  // namespace palpate
