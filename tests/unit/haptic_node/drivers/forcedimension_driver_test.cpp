@@ -54,7 +54,7 @@ TEST_F(ForceDimension, MeasuresEveryAxisThatTheModelHas) {
   EXPECT_EQ(s.angvel[2], 3);
   EXPECT_EQ(s.grip, 0.01);
   EXPECT_EQ(s.buttons, 1u);
-  EXPECT_EQ(s.t_ns, driver.now);
+  EXPECT_EQ(s.t_ns, driver.now.load());
   EXPECT_EQ(driver.info().dof_in, 7u);
   EXPECT_STREQ(driver.info().serial, "40123");
   EXPECT_STREQ(driver.info().sdk_version, "3.17.5.0");

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstdint>
 #include <cstdlib>
 #include <map>
@@ -22,7 +23,7 @@ class DriverUnderTest {
     host_.log = [](void* self, int, const char* line) {
       static_cast<DriverUnderTest*>(self)->log += std::string(line) + "\n";
     };
-    host_.now_ns = [](void* self) { return static_cast<DriverUnderTest*>(self)->now; };
+    host_.now_ns = [](void* self) { return static_cast<DriverUnderTest*>(self)->now.load(); };
   }
   ~DriverUnderTest() { close(); }
   DriverUnderTest(const DriverUnderTest&) = delete;
@@ -73,7 +74,7 @@ class DriverUnderTest {
   const hdev_host& host() const { return host_; }
   hdev* device() const { return device_; }
 
-  std::int64_t now = 1'000'000'000;
+  std::atomic<std::int64_t> now{1'000'000'000};  // drivers with threads read it, too
   hdev_state state{};
   std::string log;
 

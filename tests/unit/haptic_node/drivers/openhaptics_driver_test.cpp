@@ -54,7 +54,7 @@ TEST_F(OpenHaptics, MeasuresInSiUnitsAndTurnsColumnsIntoRows) {
   hd.tick(1);
   ASSERT_EQ(driver.read(), HDEV_OK);
   const hdev_state& s = driver.state;
-  EXPECT_EQ(s.t_ns, driver.now);
+  EXPECT_EQ(s.t_ns, driver.now.load());
   EXPECT_NEAR(s.pos[0], 0.010, 1e-15);
   EXPECT_NEAR(s.pos[1], -0.020, 1e-15);
   EXPECT_NEAR(s.pos[2], 0.030, 1e-15);
