@@ -1,18 +1,8 @@
 #include "haptic_node/drivers/inverse3/websocket.h"
 
 #include <fmt/format.h>
-#include <netdb.h>
-#include <netinet/in.h>
-#include <netinet/tcp.h>
-#include <poll.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cerrno>
 #include <cstdint>
-#include <cstring>
-#include <memory>
 #include <random>
 
 #include "haptic_node/drivers/inverse3/websocket_accept.h"
@@ -44,14 +34,9 @@ std::string lower(std::string text) {
 
 }  // namespace
 
-WebSocket::WebSocket(const std::string& host, const std::string& port, std::chrono::milliseconds timeout) {
-  connect_to(host, port);
-  try {
-    shake_hands(host, port, std::chrono::steady_clock::now() + timeout);
-  } catch (...) {
-    close(socket_);
-    throw;
-  }
+WebSocket::WebSocket(const std::string& host, const std::string& port, std::chrono::milliseconds timeout)
+    : stream_(host, port) {
+  shake_hands(host, port, std::chrono::steady_clock::now() + timeout);
 }
 
 WebSocket::~WebSocket() {
@@ -59,40 +44,19 @@ WebSocket::~WebSocket() {
     send_frame(close_frame, "\x03\xe8");  // 1000: done
   } catch (const ConnectionLost&) {       // it has gone first
   }
-  close(socket_);
-}
-
-void WebSocket::connect_to(const std::string& host, const std::string& port) {
-  addrinfo wanted{};
-  wanted.ai_socktype = SOCK_STREAM;
-  addrinfo* found = nullptr;
-  if (const int failed = getaddrinfo(host.c_str(), port.c_str(), &wanted, &found); failed != 0)
-    throw ConnectionLost(gai_strerror(failed));
-  const std::unique_ptr<addrinfo, void (*)(addrinfo*)> owner(found, freeaddrinfo);
-  int error = 0;
-  for (const addrinfo* one = found; one != nullptr; one = one->ai_next) {
-    socket_ = socket(one->ai_family, one->ai_socktype | SOCK_CLOEXEC, one->ai_protocol);
-    if (socket_ >= 0 && connect(socket_, one->ai_addr, one->ai_addrlen) == 0) {
-      const int on = 1;
-      setsockopt(socket_, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-      return;
-    }
-    error = errno;
-    if (socket_ >= 0) close(socket_);
-  }
-  throw ConnectionLost(std::strerror(error));
 }
 
 void WebSocket::shake_hands(const std::string& host, const std::string& port, Time end) {
   const std::string nonce = random_bytes(16);
   const std::string key = base64(reinterpret_cast<const std::uint8_t*>(nonce.data()), nonce.size());
-  send_all(
+  stream_.send_all(
       fmt::format("GET / HTTP/1.1\r\nHost: {}:{}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
                   "Sec-WebSocket-Key: {}\r\nSec-WebSocket-Version: 13\r\n\r\n",
                   host, port, key));
   std::size_t head = std::string::npos;
   while ((head = input_.find("\r\n\r\n")) == std::string::npos) {
-    if (!read_more(end) || input_.size() > 16384) throw ConnectionLost("no WebSocket answers there");
+    if (!stream_.read_more(input_, end) || input_.size() > 16384)
+      throw ConnectionLost("no WebSocket answers there");
   }
   const std::string answer = input_.substr(0, head + 2);
   input_.erase(0, head + 4);
@@ -106,16 +70,6 @@ void WebSocket::shake_hands(const std::string& host, const std::string& port, Ti
         fmt::format("no WebSocket answers there, but \"{}\"", answer.substr(0, answer.find("\r\n"))));
 }
 
-void WebSocket::send_all(const std::string& bytes) {
-  std::size_t sent = 0;
-  while (sent < bytes.size()) {
-    const ssize_t n = send(socket_, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) throw ConnectionLost(std::strerror(errno));
-    sent += static_cast<std::size_t>(n);
-  }
-}
-
 /// A client masks what it sends.
 void WebSocket::send_frame(unsigned char kind, const std::string& content) {
   std::string frame(1, static_cast<char>(last_of_message | kind));
@@ -127,23 +81,7 @@ void WebSocket::send_frame(unsigned char kind, const std::string& content) {
   const std::string mask = random_bytes(4);
   frame += mask;
   for (std::size_t i = 0; i < content.size(); ++i) frame += static_cast<char>(content[i] ^ mask[i % 4]);
-  send_all(frame);
-}
-
-/// @return false if the time is over
-bool WebSocket::read_more(Time end) {
-  const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
-  pollfd wait{socket_, POLLIN, 0};
-  const int ready = poll(&wait, 1, static_cast<int>(std::max<long>(left.count(), 0)));
-  if (ready < 0 && errno != EINTR) throw ConnectionLost(std::strerror(errno));
-  if (ready <= 0) return false;
-  char some[4096];
-  const ssize_t n = recv(socket_, some, sizeof some, 0);
-  if (n == 0) throw ConnectionLost("the other side has closed the connection");
-  if (n < 0 && errno == EINTR) return true;
-  if (n < 0) throw ConnectionLost(std::strerror(errno));
-  input_.append(some, static_cast<std::size_t>(n));
-  return true;
+  stream_.send_all(frame);
 }
 
 /// @return false if no whole frame comes in time
@@ -168,7 +106,7 @@ bool WebSocket::next_frame(unsigned char& head, std::string& content, Time end) 
         return true;
       }
     }
-    if (!read_more(end)) return false;
+    if (!stream_.read_more(input_, end)) return false;
   }
 }
 

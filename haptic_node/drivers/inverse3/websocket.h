@@ -3,15 +3,13 @@
 // no TLS, no extensions. One thread. Why: an event loop is no help where one message is answered by one message.
 
 #include <chrono>
-#include <stdexcept>
 #include <string>
+
+#include "haptic_node/drivers/kit/tcp_stream.h"
 
 namespace palpate::haptic::inverse3 {
 
-/// The connection has ended, or the other side does not keep to the protocol.
-struct ConnectionLost : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
+using kit::ConnectionLost;
 
 class WebSocket {
  public:
@@ -32,15 +30,12 @@ class WebSocket {
   bool receive_text(std::string& text, std::chrono::milliseconds timeout);
 
  private:
-  using Time = std::chrono::steady_clock::time_point;
-  void connect_to(const std::string& host, const std::string& port);
+  using Time = kit::TcpStream::Time;
   void shake_hands(const std::string& host, const std::string& port, Time end);
-  void send_all(const std::string& bytes);
   void send_frame(unsigned char kind, const std::string& content);
-  bool read_more(Time end);
   bool next_frame(unsigned char& head, std::string& content, Time end);
 
-  int socket_ = -1;
+  kit::TcpStream stream_;
   std::string input_;    // received, not yet taken
   std::string partial_;  // message of several frames
 };

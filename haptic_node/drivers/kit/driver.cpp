@@ -95,7 +95,9 @@ void kit_close(hdev* device) { delete device; }
 
 const char* kit_last_error(hdev* device) {
   if (device == nullptr) return open_trouble().c_str();
-  device->words = device->trouble.empty() ? device->device->last_words() : device->trouble;
+  const std::string now = device->device->last_words();
+  device->words = device->trouble;
+  if (!now.empty()) device->words += (device->trouble.empty() ? "" : "; ") + now;
   return device->words.c_str();
 }
 
