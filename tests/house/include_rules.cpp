@@ -49,6 +49,8 @@ const std::vector<Door>& doors() {
        std::regex("^(haptic_node/(device|drivers/kit)/|deploy/palpate/(doctor|probe_)|tests/)"),
        "haptic_node/device, haptic_node/drivers/kit and the doctor of deploy/palpate"},
       {"libspnav", std::regex("^spnav"), std::regex("^haptic_node/drivers/spacenav/"), "the driver spacenav"},
+      {"OpenIGTLink", std::regex("^(openigtlink/|igtl)"), std::regex("^(haptic_node/drivers/openigtlink/|tests/)"),
+       "the driver openigtlink"},
       {"Google Benchmark", std::regex("^benchmark/"), std::regex("^bench/"), "bench"},
       {"JSON", std::regex("^nlohmann/"), std::regex("report|summary|part|json_file|drivers/inverse3/haply_message|^deploy/|^tests/|^bench/"),
        "files about reports and summaries, haply_message of the driver inverse3, and deploy"},
