@@ -1,6 +1,7 @@
 // The driver "spacenav": a 3-D mouse through spacenavd and Debian's libspnav. It measures, and has no motors.
 
 #include <cstdlib>
+#include <filesystem>
 
 #include "haptic_node/drivers/kit/driver.h"
 #include "haptic_node/drivers/spacenav/spacenav_device.h"
@@ -8,8 +9,16 @@
 namespace palpate::haptic {
 namespace {
 
-/// libspnav tells of no device without a connection, which would be taken from a running session.
-std::vector<std::string> list() { return {"first"}; }
+/// libspnav tells of no device without a connection; whether a daemon is there can be seen.
+std::vector<std::string> list() {
+  const char* named = std::getenv("SPNAV_SOCKET");
+  const std::string socket = named == nullptr ? "/run/spnav.sock" : named;
+  std::error_code error;
+  if (!std::filesystem::exists(socket, error))
+    throw kit::Trouble(HDEV_E_NODEV, "no spacenavd at " + socket +
+                                         "; install the package spacenavd and plug in the 3-D mouse");
+  return {"first"};
+}
 
 std::unique_ptr<kit::OpenDevice> open(const hdev_host& host, const std::string& id, kit::Options& options) {
   constexpr double radian = 3.14159265358979323846 / 180.0;
