@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <deque>
 #include <mutex>
@@ -46,7 +47,8 @@ class Stub final : public StubHd {
     called.clear();
     for (auto& list : raised) list.clear();
     current = ~0u;
-    threaded = false;
+    pressing_since = -1;
+    threaded = std::getenv("STUB_HD_PRESSES") != nullptr;
   }
   StubHdDevice& device(unsigned int i) override { return devices.at(i); }
   void tick(int n) override {
@@ -84,10 +86,22 @@ class Stub final : public StubHd {
     if (!threaded || thread.joinable()) return;
     thread = std::thread([this] {
       while (running) {
+        press();
         run_callbacks();
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
       }
     });
+  }
+  /// With $STUB_HD_PRESSES in the environment the hand goes down and up by that many mm in two seconds, again and again,
+  /// once the forces are on. For tests that start whole programs.
+  void press() {
+    const char* depth = std::getenv("STUB_HD_PRESSES");
+    const std::lock_guard<std::recursive_mutex> lock(mutex);
+    if (depth == nullptr || !devices[0].force_on) return;
+    const double t = 1e-3 * devices[0].frames;
+    if (pressing_since < 0) pressing_since = t;
+    devices[0].transform[14] =
+        -0.5 * std::atof(depth) * (1 - std::cos(3.14159265358979 * (t - pressing_since)));
   }
   void stop() {
     running = false;
@@ -117,6 +131,7 @@ class Stub final : public StubHd {
   unsigned long next_handle = 0x100000001ul;  // does not fit 32 bits, like the real one
   std::atomic<bool> running{false};
   bool threaded = false;
+  double pressing_since = -1;
   std::thread thread;
 };
 
