@@ -51,6 +51,7 @@ Inverse3Device::Inverse3Device(const hdev_host& host, const Settings& settings, 
   take_update(inventory, id_, known_);
   if (!exchange(true))
     throw kit::Trouble(HDEV_E_COMM, "the Haply Inverse service does not answer with a state");
+  has_grip_ = known_.has_grip;
   thread_ = std::thread([this] { converse(); });
 } catch (const ConnectionLost& lost) {
   throw no_service(settings, lost.what());
@@ -64,11 +65,11 @@ Inverse3Device::~Inverse3Device() {
 
 void Inverse3Device::fill(hdev_info& info) const {
   info.caps = HDEV_CAP_POS | HDEV_CAP_VEL | HDEV_CAP_FORCE;
-  if (known_.has_grip) info.caps |= HDEV_CAP_ROT;
+  if (has_grip_) info.caps |= HDEV_CAP_ROT;
   std::snprintf(info.vendor, sizeof info.vendor, "Haply");
   std::snprintf(info.model, sizeof info.model, "Inverse3");
   std::snprintf(info.serial, sizeof info.serial, "%s", id_.c_str());
-  info.dof_in = known_.has_grip ? 6 : 3;
+  info.dof_in = has_grip_ ? 6 : 3;
   info.dof_out = 3;
   info.n_buttons = 3;
   info.max_force = info.cont_force = settings_.max_force;

@@ -63,7 +63,8 @@ class Inverse3Device final : public kit::OpenDevice {
   Settings settings_;
   std::string id_;
   WebSocket socket_;
-  HaplyState known_;
+  bool has_grip_ = false;         // when it was opened
+  HaplyState known_;              // conversation's, once it has begun
   TripleBuffer<Sample> samples_;  // conversation -> host's thread
   TripleBuffer<Order> orders_;    // host's thread -> conversation
   std::atomic<bool> wanted_{false}, leaving_{false}, lost_{false};

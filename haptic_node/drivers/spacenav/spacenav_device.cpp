@@ -21,10 +21,7 @@ SpacenavDevice::SpacenavDevice(const hdev_host& host, const Settings& settings)
                        "another tool of this program has the 3-D mouse; libspnav knows one connection");
   if (spnav_open() < 0) {
     taken.store(false);
-    throw kit::Trouble(
-        HDEV_E_NODEV,
-        "no spacenavd answers at $SPNAV_SOCKET or /run/spnav.sock; install the package spacenavd and plug "
-        "in the 3-D mouse, or name its socket with \"socket\"");
+    throw kit::Trouble(HDEV_E_NODEV, "spacenavd does not answer; start it again and see what it says");
   }
   last_ns_ = now_ns();
   listener_ = std::thread([this] { listen(); });

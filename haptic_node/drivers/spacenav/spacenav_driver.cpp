@@ -9,14 +9,21 @@
 namespace palpate::haptic {
 namespace {
 
-/// libspnav tells of no device without a connection; whether a daemon is there can be seen.
-std::vector<std::string> list() {
+/// libspnav tells of no device without a connection, and loses memory where there is nobody to connect to; whether a
+/// daemon is there can be seen.
+void require_daemon() {
   const char* named = std::getenv("SPNAV_SOCKET");
   const std::string socket = named == nullptr ? "/run/spnav.sock" : named;
   std::error_code error;
-  if (!std::filesystem::exists(socket, error))
-    throw kit::Trouble(HDEV_E_NODEV, "no spacenavd at " + socket +
-                                         "; install the package spacenavd and plug in the 3-D mouse");
+  if (std::filesystem::is_socket(socket, error)) return;
+  throw kit::Trouble(HDEV_E_NODEV,
+                     "no spacenavd at " + socket +
+                         "; install the package spacenavd and plug in the 3-D mouse, or name its socket "
+                         "with \"socket\"");
+}
+
+std::vector<std::string> list() {
+  require_daemon();
   return {"first"};
 }
 
@@ -31,6 +38,7 @@ std::unique_ptr<kit::OpenDevice> open(const hdev_host& host, const std::string& 
   const std::string socket = options.text("socket", "");
   options.refuse_rest();
   if (!socket.empty()) setenv("SPNAV_SOCKET", socket.c_str(), 1);
+  require_daemon();
   return std::make_unique<spacenav::SpacenavDevice>(host, settings);
 }
 

@@ -99,6 +99,8 @@ TEST(OpenIgtLink, TakesThePosesOfItsToolAmongOtherMessages) {
   auto status = igtl::StatusMessage::New();
   status->SetDeviceName("Stylus");
   status->SetCode(1);
+  status->SetSubCode(0);
+  status->SetErrorName("none");
   status->SetStatusString("all is well");
   server.add(other);
   server.add(status);
