@@ -19,15 +19,19 @@ struct Field {
   std::size_t column = 1;
 };
 
+constexpr const char* blanks = " \t\r";
+
+/// Fields between commas; without any comma, between blanks.
 std::vector<Field> split(const std::string& line) {
+  const bool by_commas = line.find(',') != std::string::npos;
   std::vector<Field> fields;
   for (std::size_t from = 0; from <= line.size();) {
-    const std::size_t to = std::min(line.find(',', from), line.size());
-    std::size_t begin = line.find_first_not_of(" \t\r", from);
-    begin = std::min(begin, to);
+    const std::size_t begin = std::min(line.find_first_not_of(blanks, from), line.size());
+    const std::size_t to = by_commas ? std::min(line.find(',', from), line.size())
+                                     : std::min(line.find_first_of(blanks, begin), line.size());
     std::size_t end = to;
-    while (end > begin && std::string_view(" \t\r").find(line[end - 1]) != std::string_view::npos) --end;
-    fields.push_back({line.substr(begin, end - begin), begin + 1});
+    while (end > begin && std::string_view(blanks).find(line[end - 1]) != std::string_view::npos) --end;
+    if (by_commas || end > begin) fields.push_back({line.substr(begin, end - begin), begin + 1});
     from = to + 1;
   }
   return fields;

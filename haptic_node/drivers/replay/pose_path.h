@@ -26,7 +26,7 @@ struct PosePath {
   double duration() const noexcept { return poses.back().t - poses.front().t; }
 };
 
-/// A comma-separated table. Its first line names the columns, in any order: t_s, x_mm y_mm z_mm (or x_m y_m z_m), and
+/// A table, its fields between commas or, without any comma, between blanks. Its first line names the columns, in any order: t_s, x_mm y_mm z_mm (or x_m y_m z_m), and
 /// perhaps qw qx qy qz, and perhaps buttons. Other columns are left alone, so that the traces of a run can be played.
 /// Empty lines and lines that begin with # are skipped.
 /// @throws kit::Trouble "file:line:column: what; what would be right"

@@ -63,6 +63,18 @@ TEST(ReplayDriver, LeadsTheHandleAlongThePath) {
   EXPECT_EQ(driver.state.buttons, 2u);
 }
 
+TEST(ReplayDriver, ReadsFieldsBetweenBlanks) {
+  const Table table("t_s  x_mm y_mm\tz_mm  fx_N\r\n 0 1 2 3 9\n  1.5   4\t5  6 9  \n");
+  DriverUnderTest driver("replay");
+  ASSERT_EQ(driver.open({{"file", table.file}}), HDEV_OK) << driver.api().last_error(nullptr);
+  driver.power(true);
+  driver.read();
+  EXPECT_NEAR(driver.state.pos[2], 0.003, 1e-15);
+  driver.now += 1'500'000'000;
+  driver.read();
+  EXPECT_NEAR(driver.state.pos[0], 0.004, 1e-15);
+}
+
 TEST(ReplayDriver, LoopsAPathThatEndsWhereItBegins) {
   const Table table("t_s,x_m,y_m,z_m\n0,0,0,0\n1,0,0,0.01\n2,0,0,0\n");
   DriverUnderTest driver("replay");
@@ -90,6 +102,8 @@ TEST(ReplayDriver, SaysWhereATableIsWrong) {
   EXPECT_THAT(said("t_s,x_m,y_m,z_m\n"), HasSubstr("no pose"));
   EXPECT_THAT(said("t_s,x_m,y_m,z_m\n0,0,0\n"), HasSubstr(":2:5: 3 fields, the first line names 4"));
   EXPECT_THAT(said("#\nt_s,x_m,y_m,z_m\n0,0, wide,0\n"), HasSubstr(":3:6: \"wide\" is no number"));
+  EXPECT_THAT(said("t_s,x_m,y_m,z_m\n0,,0,0\n"), HasSubstr(":2:3: \"\" is no number"));
+  EXPECT_THAT(said("t_s x_m y_m z_m\n0 0  wide 0\n"), HasSubstr(":2:6: \"wide\" is no number"));
   EXPECT_THAT(said("t_s,x_m,y_m,z_m\n0,0,nan,0\n"), HasSubstr(":2:5: \"nan\" is no number"));
   EXPECT_THAT(said("t_s,x_m,y_m,z_m\n1,0,0,0\n1,0,0,0\n"), HasSubstr(":3:1: 1 s follows 1 s"));
   EXPECT_THAT(said("t_s,x_m,y_m,z_m,qw,qx,qy,qz\n1,0,0,0,2,0,0,0\n"),
