@@ -62,7 +62,7 @@ enum HdParameter : HDenum {
   HD_INPUT_DOF = 0x2553,
   HD_OUTPUT_DOF = 0x2554,
   HD_CALIBRATION_STYLE = 0x2555,
-  HD_NOMINAL_MAX_STIFFNESS = 0x2602,         // 0 to 1 in the vendor's scale, or N/mm
+  HD_NOMINAL_MAX_STIFFNESS = 0x2602,         // N/mm, as the vendor's examples use it
   HD_NOMINAL_MAX_FORCE = 0x2603,             // N
   HD_NOMINAL_MAX_CONTINUOUS_FORCE = 0x2604,  // N
   HD_MOTOR_TEMPERATURE = 0x2605,             // 0 to 1, one for each motor

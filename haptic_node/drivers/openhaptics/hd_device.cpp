@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <thread>
 
+#include "haptic_node/drivers/openhaptics/hd_calibration.h"
 #include "haptic_node/drivers/openhaptics/hd_errors.h"
 
 namespace palpate::haptic::openhaptics {
@@ -34,30 +35,6 @@ int one_integer(const Hd& hd, HDenum what) {
 template <std::size_t N>
 void copy_text(char (&to)[N], const char* from) {
   std::snprintf(to, N, "%s", from == nullptr ? "" : from);
-}
-
-/// One look at the calibration, in the vendor's thread.
-struct CalibrationLook {
-  const Hd* hd;
-  HHD device;
-  HDenum found = 0;
-  int style = 0;
-};
-
-unsigned int look_at_calibration(void* user) {
-  auto& look = *static_cast<CalibrationLook*>(user);
-  look.hd->make_current(look.device);
-  look.found = look.hd->check_calibration();
-  look.hd->get_integers(HD_CALIBRATION_STYLE, &look.style);
-  if (look.found == HD_CALIBRATION_NEEDS_UPDATE) look.hd->update_calibration(static_cast<HDenum>(look.style));
-  return HD_CALLBACK_DONE;
-}
-
-const char* advice(int style) {
-  if ((style & HD_CALIBRATION_INKWELL) != 0) return "put the pen into the inkwell";
-  if ((style & HD_CALIBRATION_ENCODER_RESET) != 0)
-    return "bring the arm to its reset position and start again";
-  return "move the arm through its workspace";
 }
 
 }  // namespace
@@ -125,11 +102,11 @@ void HdDevice::calibrate(std::uint32_t timeout_ms) {
     if (look.found == HD_CALIBRATION_OK) break;
     const bool user = look.found == HD_CALIBRATION_NEEDS_MANUAL_INPUT;
     calibration_.store(user ? HDEV_CAL_NEEDS_USER : HDEV_CAL_RUNNING);
-    if (user && !told) log(1, std::string("not calibrated; ") + advice(look.style));
+    if (user && !told) log(1, std::string("not calibrated; ") + calibration_advice(look.style));
     told = told || user;
     if (std::chrono::steady_clock::now() >= end)
-      throw kit::Trouble(HDEV_E_NOTCAL,
-                         fmt::format("still not calibrated after {} ms; {}", timeout_ms, advice(look.style)));
+      throw kit::Trouble(HDEV_E_NOTCAL, fmt::format("still not calibrated after {} ms; {}", timeout_ms,
+                                                    calibration_advice(look.style)));
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   calibration_.store(HDEV_CAL_OK);

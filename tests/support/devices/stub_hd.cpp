@@ -317,6 +317,7 @@ EXPORT void hdUpdateCalibration(unsigned int style) {
   StubHdDevice* device = stub().subject("hdUpdateCalibration", false);
   if (device == nullptr) return;
   stub().called.push_back("update calibration " + std::to_string(style));
+  if (style != 1 && style != 2 && style != 4) stub().breach("hdUpdateCalibration of more than one style");
   if (device->calibrates_when_updated) device->calibration = 0x5000;
 }
 EXPORT unsigned long hdScheduleAsynchronous(unsigned int (*callback)(void*), void* user, unsigned short) {

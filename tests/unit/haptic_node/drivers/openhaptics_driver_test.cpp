@@ -125,6 +125,7 @@ TEST_F(OpenHaptics, DropsTheForceWhenTheHostFallsSilent) {
 TEST_F(OpenHaptics, CalibratesBeforeItEnables) {
   auto& device = hd.device(0);
   device.calibration = 0x5001;
+  device.calibration_style = 1 | 2 | 4;  // it knows all; the automatic one is taken
   DriverUnderTest driver("openhaptics");
   ASSERT_EQ(driver.open(with_stub), HDEV_OK);
   EXPECT_EQ(driver.power(true), HDEV_E_NOTCAL);

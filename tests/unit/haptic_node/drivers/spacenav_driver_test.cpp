@@ -126,7 +126,8 @@ TEST(Spacenav, NoticesThatTheDaemonHasGone) {
 
 TEST(Spacenav, SaysWhyItDoesNotOpen) {
   DriverUnderTest driver("spacenav"), second("spacenav");
-  EXPECT_THAT(driver.trouble({{"socket", "/no/such.sock"}}), HasSubstr("no spacenavd at /no/such.sock; install"));
+  EXPECT_THAT(driver.trouble({{"socket", "/no/such.sock"}}),
+              HasSubstr("no spacenavd at /no/such.sock; install"));
   EXPECT_THAT(driver.trouble({{"speed", "1"}}), HasSubstr("unknown key \"speed\"; known are speed_mm_per_s"));
   EXPECT_THAT(driver.trouble({{"turn_deg_per_s", "0"}}), HasSubstr("a number above 0"));
   FakeDaemon daemon;
