@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 
 #include "common/math/units.h"
 #include "common/scene/read_parts.h"
@@ -100,6 +101,11 @@ DeviceSpec read_device(TableReader& reader) {
   if (const auto hand = reader.read_word("hand", {"rigid", "arm", "pinch", "firm"}))
     spec.hand = static_cast<HandModel>(*hand);
   const bool simulated = spec.driver == "simulated";
+  if (simulated) {
+    constexpr std::array<const char*, 4> models{"plain", "touch", "premium", "omega"};
+    if (const auto model = reader.read_word("model", {"plain", "touch", "premium", "omega"}))
+      spec.options.emplace_back("model", models[*model]);
+  }
   if (simulated) reader.require("waypoints", "a simulated hand follows a list of [t_s, x_mm, y_mm, z_mm]");
   if (!simulated && !spec.driver.empty()) read_options(reader, spec);
   reader.refuse_left_over();

@@ -183,7 +183,7 @@ struct DeviceSpec {
   Vec3 offset = Vec3::Zero();                             // [m]
   std::vector<Waypoint> waypoints;                        // "simulated": in the world frame
   HandModel hand = HandModel::arm;                        // "simulated"
-  std::vector<std::pair<std::string, std::string>> options;  // other keys, passed to the driver as text
+  std::vector<std::pair<std::string, std::string>> options;  // other keys, passed to the driver as text; "simulated": model
   Place place;
 };
 

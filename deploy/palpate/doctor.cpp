@@ -26,8 +26,12 @@ const char* word(Finding::State state) {
 }  // namespace
 
 std::vector<Finding> check_all() {
-  return {check_nodes(),     check_wire(),  check_gl(),        check_drivers(),     check_plotter(),
-          check_processor(), check_timer(), check_real_time(), check_memory_lock(), check_shared_memory()};
+  std::vector<Finding> findings = {check_nodes(),     check_wire(),        check_gl(),
+                                   check_plotter(),   check_processor(),   check_timer(),
+                                   check_real_time(), check_memory_lock(), check_shared_memory()};
+  const auto drivers = check_drivers();
+  findings.insert(findings.begin() + 3, drivers.begin(), drivers.end());
+  return findings;
 }
 
 void add_doctor(CLI::App& app, int& exit_code) {

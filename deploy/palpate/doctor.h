@@ -29,9 +29,11 @@ Finding check_shared_memory();  // is RouDi running?
 
 // doctor_files.cpp
 Finding check_nodes();
-Finding check_drivers();
 Finding check_plotter();
 Finding check_gl();
+
+// doctor_drivers.cpp
+std::vector<Finding> check_drivers();  // one for each driver, from its own mouth
 
 /// All of them, in the order in which a person should mend what is broken.
 std::vector<Finding> check_all();

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "deploy/palpate/child.h"
 #include "deploy/palpate/doctor.h"
@@ -7,7 +6,6 @@
 #include "deploy/palpate/nodes.h"
 #include "deploy/palpate/plotter.h"
 #include "deploy/palpate/probe_gl.h"
-#include "haptic_node/device/driver_library.h"
 
 namespace palpate::deploy {
 namespace fs = std::filesystem;
@@ -22,13 +20,6 @@ Finding check_nodes() {
     return {"nodes", Finding::State::ok, "physics, haptic and render are beside this program"};
   return {"nodes", Finding::State::fails,
           missing + " not beside this program; build or install palpate again"};
-}
-
-Finding check_drivers() {
-  const auto names = haptic::drivers_present(haptic::driver_folders());
-  if (names.empty())
-    return {"drivers", Finding::State::fails, "no device driver found; build or install palpate again"};
-  return {"drivers", Finding::State::ok, fmt::format("{}", fmt::join(names, ", "))};
 }
 
 Finding check_plotter() {

@@ -124,6 +124,9 @@ INSTANTIATE_TEST_SUITE_P(
         DoorCase{"archive.h", "deploy/import/a.cpp", "deploy/palpate/a.cpp", "libarchive"},
         DoorCase{"dlfcn.h", "haptic_node/device/a.cpp", "haptic_node/loop/a.cpp", "dlopen"},
         DoorCase{"dlfcn.h", "deploy/palpate/doctor.cpp", "deploy/palpate/run.cpp", "dlopen"},
+        DoorCase{"dlfcn.h", "haptic_node/drivers/kit/a.cpp", "haptic_node/drivers/openhaptics/a.cpp", "dlopen"},
+        DoorCase{"spnav.h", "haptic_node/drivers/spacenav/a.cpp", "haptic_node/loop/a.cpp", "libspnav"},
+        DoorCase{"igtlMessageHeader.h", "haptic_node/drivers/openigtlink/a.cpp", "common/a.cpp", "OpenIGTLink"},
         DoorCase{"benchmark/benchmark.h", "bench/kernel/a.cpp", "tests/a.cpp", "Google Benchmark"},
         DoorCase{"nlohmann/json.hpp", "common/report/a.h", "haptic_node/proxy/a.h", "JSON"},
         DoorCase{"nlohmann/json.hpp", "haptic_node/loop/haptic_summary.h", "common/time/a.h", "JSON"}));

@@ -46,11 +46,14 @@ const std::vector<Door>& doors() {
       {"libarchive", std::regex("^archive(_entry)?\\.h$"), std::regex("^(deploy/import/|tests/)"),
        "deploy/import"},
       {"dlopen", std::regex("^dlfcn\\.h$"),
-       std::regex("^(haptic_node/device/|deploy/palpate/(doctor|probe_))"),
-       "haptic_node/device and the doctor of deploy/palpate"},
+       std::regex("^(haptic_node/(device|drivers/kit)/|deploy/palpate/(doctor|probe_)|tests/)"),
+       "haptic_node/device, haptic_node/drivers/kit and the doctor of deploy/palpate"},
+      {"libspnav", std::regex("^spnav"), std::regex("^haptic_node/drivers/spacenav/"), "the driver spacenav"},
+      {"OpenIGTLink", std::regex("^(openigtlink/|igtl)"), std::regex("^(haptic_node/drivers/openigtlink/|tests/)"),
+       "the driver openigtlink"},
       {"Google Benchmark", std::regex("^benchmark/"), std::regex("^bench/"), "bench"},
-      {"JSON", std::regex("^nlohmann/"), std::regex("report|summary|part|json_file|^deploy/|^tests/|^bench/"),
-       "files about reports and summaries, and deploy"},
+      {"JSON", std::regex("^nlohmann/"), std::regex("report|summary|part|json_file|drivers/inverse3/haply_message|^deploy/|^tests/|^bench/"),
+       "files about reports and summaries, haply_message of the driver inverse3, and deploy"},
   };
   return all;
 }

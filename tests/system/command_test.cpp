@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <utility>
 
 namespace palpate {
 namespace {
@@ -64,13 +65,34 @@ TEST(Command, HandsImportOverToTheImporter) {
 TEST(Doctor, SaysOneLineAboutEachThing) {
   setenv("ASAN_OPTIONS", "detect_leaks=0", 1);  // the system's EGL library keeps some bytes
   const Answer answer = palpate_says("doctor");
-  for (const char* name : {"nodes", "DDS", "GL", "drivers", "plots", "processor", "timer", "real time",
+  for (const char* name : {"nodes", "DDS", "GL", "driver", "plots", "processor", "timer", "real time",
                            "memory lock", "shared memory"}) {
     EXPECT_THAT(answer.text, HasSubstr(" " + std::string(name) + " ")) << name;
   }
+  for (const char* driver :
+       {"simulated", "replay", "openhaptics", "forcedimension", "inverse3", "spacenav", "openigtlink"})
+    EXPECT_THAT(answer.text, HasSubstr(" " + std::string(driver) + ": ")) << driver;
   EXPECT_THAT(answer.text, HasSubstr("messages pass, and only this machine is heard"));
   const bool fails = answer.text.rfind("fails", 0) == 0 || answer.text.find("\nfails") != std::string::npos;
   EXPECT_EQ(answer.exit_code, fails ? 1 : 0) << answer.text;
+}
+
+TEST(Doctor, LetsEachDriverSayWhatItLacks) {
+  setenv("ASAN_OPTIONS", "detect_leaks=0", 1);
+  const Answer answer = palpate_says("doctor");
+  EXPECT_THAT(answer.text, HasSubstr("driver         simulated: ready; id = \"simulated\""));
+  const std::pair<const char*, const char*> lacking[] = {
+      {"openhaptics", "the library of OpenHaptics does not load (libHD.so: cannot open shared object file"},
+      {"forcedimension",
+       "the library of Force Dimension does not load (libdhd.so: cannot open shared object file"},
+      {"inverse3", "no Haply Inverse service at ws://localhost:10001 (Connection refused)"}};
+  for (const auto& [driver, words] : lacking) {
+    // a machine with the vendor's software is ready
+    const bool ready = answer.text.find(std::string(driver) + ": ready") != std::string::npos;
+    if (!ready) {
+      EXPECT_THAT(answer.text, HasSubstr(std::string(driver) + ": " + words));
+    }
+  }
 }
 
 }  // namespace

@@ -108,17 +108,22 @@ hdev_status sim_get_info(hdev* device, hdev_info* info) {
   full.size = info->size;
   full.caps = HDEV_CAP_POS | HDEV_CAP_VEL | HDEV_CAP_FORCE | HDEV_CAP_HW_WATCHDOG | HDEV_CAP_SIMULATED;
   std::snprintf(full.vendor, sizeof full.vendor, "palpate");
-  std::snprintf(full.model, sizeof full.model, "simulated hand");
+  const auto& model = options.device;
+  const bool plain = options.model == "plain";
+  std::snprintf(full.model, sizeof full.model, "simulated hand%s%s", plain ? "" : " on a device like ",
+                plain ? "" : options.model.c_str());
   full.dof_in = full.dof_out = 3;
   for (int i = 0; i < 3; ++i) {
     full.ws_min[i] = -options.half_workspace;
     full.ws_max[i] = options.half_workspace;
   }
-  full.max_force = full.cont_force = options.max_force;
-  full.max_stiffness = options.max_stiffness;
+  full.max_force = model.max_force;
+  full.cont_force = model.cont_force;
+  full.max_stiffness = model.max_stiffness;
+  full.friction = model.friction;
   full.max_damping = 5.0;
-  full.pos_resolution = options.noise;
-  full.apparent_mass = options.mass;
+  full.pos_resolution = std::max(options.noise, model.resolution);
+  full.apparent_mass = model.mass;
   full.nominal_rate_hz = 1000;
   full.hw_watchdog_s = static_cast<double>(watchdog_ns) * 1e-9;
   std::memcpy(info, &full, std::min<std::size_t>(info->size, sizeof full));
@@ -151,6 +156,8 @@ hdev_status sim_read(hdev* device, hdev_state* state, std::uint32_t) {
   for (std::size_t i = 0; i < 3; ++i) {
     full.pos[i] = device->hand.position()[i];
     if (device->options.noise > 0) full.pos[i] += device->options.noise * device->noise.next();
+    if (const double q = device->options.device.resolution; q > 0)
+      full.pos[i] = q * std::round(full.pos[i] / q);
     full.vel[i] = device->hand.velocity()[i];
     full.applied_force[i] = now < device->last_write_ns + watchdog_ns ? device->force[i] : 0.0;
   }
@@ -169,7 +176,7 @@ hdev_status sim_write(hdev* device, const hdev_command* command) {
     squared += force[i] * force[i];
   }
   if (!std::isfinite(squared)) return HDEV_E_ARG;
-  const double limit = device->options.max_force;
+  const double limit = device->options.device.max_force;
   if (squared > limit * limit) {
     for (double& component : force) component *= limit / std::sqrt(squared);
   }

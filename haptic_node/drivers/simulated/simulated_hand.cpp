@@ -1,5 +1,7 @@
 #include "haptic_node/drivers/simulated/simulated_hand.h"
 
+#include <cmath>
+
 namespace palpate::haptic::simulated {
 
 SimulatedHand::SimulatedHand(const SimulatedOptions& options, std::int64_t now_ns)
@@ -44,14 +46,21 @@ void SimulatedHand::advance_to(std::int64_t now_ns, const Array3& force,
     return;
   }
   constexpr double h = static_cast<double>(step_ns) * 1e-9;
-  const double m = options_.hand.mass + options_.mass;
+  const double m = options_.hand.mass + options_.device.mass;
   const double k = options_.hand.stiffness;
   const double b = options_.hand.damping;
+  const double b_d = options_.device.damping;
+  const double friction = h / m * options_.device.friction;  // speed that it takes away in a step [m/s]
   while (t_ns_ + step_ns <= now_ns) {
     path_at(t_ns_, q, q_dot);
     const double on = t_ns_ < force_until_ns ? 1.0 : 0.0;
     for (std::size_t i = 0; i < 3; ++i) {
-      v_[i] += h / m * (k * (q[i] - x_[i]) + b * (q_dot[i] - v_[i]) + on * force[i]);
+      v_[i] += h / m * (k * (q[i] - x_[i]) + b * (q_dot[i] - v_[i]) - b_d * v_[i] + on * force[i]);
+    }
+    const double speed = std::sqrt(v_[0] * v_[0] + v_[1] * v_[1] + v_[2] * v_[2]);
+    const double slides = speed > friction ? 1.0 - friction / speed : 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (friction > 0) v_[i] *= slides;
       x_[i] += h * v_[i];
     }
     t_ns_ += step_ns;

@@ -1,9 +1,10 @@
 #pragma once
 // A hand that holds the handle of a device and follows a path, in small fixed steps of simulated or real time.
 //
-//   m x'' = k (q(t) - x) + b (q'(t) - x') + F,     m = hand + device,  q(t) the path,  F the device's force
+//   m x'' = k (q(t) - x) + b (q'(t) - x') - b_d x' - f_c x'/|x'| + F
 //
-// so that a force moves the hand by F / k when all is at rest.
+// m = hand + device, q(t) the path, F the device's force, b_d and f_c damping and Coulomb friction of the device, which
+// sticks where the other forces are smaller than f_c. Without friction a force moves the hand by F / k at rest.
 
 #include <cstdint>
 

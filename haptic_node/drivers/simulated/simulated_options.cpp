@@ -32,6 +32,27 @@ std::string read_hand(const std::string& text, HandParameters& hand) {
   return "hand is \"" + text + "\"; rigid, arm, pinch or firm are known";
 }
 
+std::string read_model(const std::string& text, SimulatedOptions& options) {
+  static const std::pair<const char*, DeviceParameters> models[] = {
+      {"plain", {}},
+      {"touch", {0.045, 0.3, 0.26, 55e-6, 3.3, 0.88, 1000}},
+      {"premium", {0.075, 0.02, 0.04, 30e-6, 8.5, 1.4, 500}},
+      {"omega", {0.2, 1.0, 0.3, 10e-6, 12, 12, 5000}}};
+  for (const auto& [name, parameters] : models) {
+    if (text != name) continue;
+    options.device = parameters;
+    options.model = name;
+    return {};
+  }
+  return "model is \"" + text + "\"; plain, touch, premium or omega are known";
+}
+
+std::string read_max_force(const std::string& key, const std::string& text, DeviceParameters& device) {
+  const std::string trouble = read_positive(key, text, device.max_force);
+  device.cont_force = device.max_force;
+  return trouble;
+}
+
 std::string read_waypoints(const std::string& text, std::vector<PathPoint>& waypoints) {
   std::istringstream list(text);
   for (std::string item; std::getline(list, item, ';');) {
@@ -52,9 +73,10 @@ std::string read_waypoints(const std::string& text, std::vector<PathPoint>& wayp
 std::string read_one(const std::string& key, const std::string& value, SimulatedOptions& options) {
   if (key == "waypoints") return read_waypoints(value, options.waypoints);
   if (key == "hand") return read_hand(value, options.hand);
-  if (key == "mass") return read_positive(key, value, options.mass);
-  if (key == "max_force") return read_positive(key, value, options.max_force);
-  if (key == "max_stiffness") return read_positive(key, value, options.max_stiffness);
+  if (key == "model") return read_model(value, options);
+  if (key == "mass") return read_positive(key, value, options.device.mass);
+  if (key == "max_force") return read_max_force(key, value, options.device);
+  if (key == "max_stiffness") return read_positive(key, value, options.device.max_stiffness);
   if (key == "half_workspace") return read_positive(key, value, options.half_workspace);
   if (key == "noise") return read_positive(key, value, options.noise);
   if (key == "seed") {
@@ -63,7 +85,7 @@ std::string read_one(const std::string& key, const std::string& value, Simulated
     return !value.empty() && *end == '\0' ? "" : "seed is \"" + value + "\"; a whole number is wanted";
   }
   return "unknown key \"" + key +
-         "\"; known are waypoints, hand, mass, max_force, max_stiffness, half_workspace, noise, seed";
+         "\"; known are waypoints, hand, model, mass, max_force, max_stiffness, half_workspace, noise, seed";
 }
 
 }  // namespace

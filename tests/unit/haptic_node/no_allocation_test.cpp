@@ -2,9 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <new>
 
+#include "tests/support/devices/stub_hd.h"
+#include "tests/unit/haptic_node/drivers/opened_driver.h"
+#include "tests/unit/haptic_node/drivers/stub_library.h"
 #include "tests/unit/haptic_node/virtual_world.h"
 
 namespace {
@@ -53,6 +60,48 @@ TEST(HapticSession, TakesNoMemoryInATickWhateverHappens) {
   in_tick = false;
   EXPECT_EQ(allocations, 0u);
   EXPECT_TRUE(world.session.stopped());
+}
+
+/// 500 ticks of a driver that is open; `elsewhere` stands for the vendor's own thread.
+template <class Elsewhere>
+std::size_t taken_by(DriverUnderTest& driver, Elsewhere&& elsewhere) {
+  EXPECT_EQ(driver.calibrate(), HDEV_OK);
+  EXPECT_EQ(driver.power(true), HDEV_OK);
+  allocations = 0;
+  hdev_command command{};
+  command.size = sizeof command;
+  command.force[0] = 0.5;
+  for (int i = 0; i < 500; ++i) {
+    driver.now += 1'000'000;
+    elsewhere();
+    in_tick = true;
+    const hdev_status read = driver.read();
+    const hdev_status written = driver.api().write(driver.device(), &command);
+    in_tick = false;
+    EXPECT_EQ(read, HDEV_OK);
+    EXPECT_EQ(written, HDEV_OK);
+  }
+  EXPECT_EQ(driver.state.force_enabled, 1u);
+  return allocations;
+}
+
+TEST(Drivers, TakeNoMemoryInReadAndWrite) {
+  const auto nobody = [] {};
+  const std::string file =
+      (std::filesystem::temp_directory_path() / ("palpate_quiet_" + std::to_string(getpid()))).string();
+  std::ofstream(file) << "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz\n0,0,0,0,1,0,0,0\n1,1,2,3,0,0,0,1\n";
+  DriverUnderTest simulated("simulated"), replay("replay"), hd_driver("openhaptics"),
+      dhd_driver("forcedimension");
+  auto& hd = stub_library<palpate::test::StubHd>(STUB_HD, "stub_hd");
+  ASSERT_EQ(simulated.open({{"model", "touch"}}), HDEV_OK);
+  ASSERT_EQ(replay.open({{"file", file}}), HDEV_OK);
+  ASSERT_EQ(hd_driver.open({{"library", STUB_HD}}), HDEV_OK);
+  ASSERT_EQ(dhd_driver.open({{"library", STUB_DHD}}), HDEV_OK);
+  EXPECT_EQ(taken_by(simulated, nobody), 0u);
+  EXPECT_EQ(taken_by(replay, nobody), 0u);
+  EXPECT_EQ(taken_by(hd_driver, [&] { hd.tick(1); }), 0u);
+  EXPECT_EQ(taken_by(dhd_driver, nobody), 0u);
+  std::filesystem::remove(file);
 }
 
 }  // namespace

@@ -135,6 +135,7 @@ INSTANTIATE_TEST_SUITE_P(Devices, SceneMistakes, testing::ValuesIn(std::vector<M
     {"[1.5, 0, 0, 40]", "[1.5, 0, 0]", "89:29", "is a list of 3; write [t_s, x_mm, y_mm, z_mm]"},
     {"waypoints = [[0, 0, 0, 50], [1.5, 0, 0, 40]]\n", "", "81:1", "lacks \"waypoints\""},
     {"hand = \"pinch\"", "hand = \"foot\"", "90:8", "write \"rigid\", \"arm\", \"pinch\" or \"firm\""},
+    {"hand = \"pinch\"", "model = \"phantom\"", "90:9", "write \"plain\", \"touch\", \"premium\" or \"omega\""},
     {"hand = \"pinch\"", "port = 3", "90:1", "unknown key \"port\" in [device.right]"},
     {"port = 3", "port = [3]", "95:8", "write a text, a number, true or false"},
 }));

@@ -118,6 +118,13 @@ TEST(SceneReader, ReadsToolsAndDevices) {
   EXPECT_EQ(right.hand, HandModel::pinch);
 }
 
+TEST(SceneReader, PassesTheModelOfASimulatedDeviceOn) {
+  std::string text(full_scene);
+  const std::string hand = "hand = \"pinch\"";
+  text.replace(text.find(hand), hand.size(), "model = \"touch\"");
+  EXPECT_THAT(parsed(text).device("right").options, testing::ElementsAre(Pair("model", "touch")));
+}
+
 TEST(SceneReader, PassesKeysItDoesNotKnowToTheDriverAsText) {
   EXPECT_THAT(parsed(full_scene).device("left").options,
               testing::UnorderedElementsAre(Pair("serial", "A12"), Pair("port", "3"), Pair("gain", "0.5"),

@@ -1,0 +1,230 @@
+#include "haptic_node/drivers/forcedimension/dhd_device.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+
+namespace palpate::haptic::forcedimension {
+namespace {
+
+using Status = std::array<int, status_room>;
+
+/// Opens the first device, or the one with the number that `id` is. @return its number from now on
+int open_number(const Dhd& dhd, const std::string& id) {
+  if (id.empty()) return dhd.open_first();
+  char* end = nullptr;
+  const long number = std::strtol(id.c_str(), &end, 10);
+  if (*end != '\0' || number < 0 || number > 100)
+    throw kit::Trouble(HDEV_E_ARG, fmt::format("id is \"{}\"; the number of a device is wanted, from 0", id));
+  return dhd.open_id(static_cast<char>(number));
+}
+
+}  // namespace
+
+DhdDevice::DhdDevice(const hdev_host& host, const Dhd& dhd, const std::string& id)
+    : OpenDevice(host), dhd_(dhd), model_(models.back()) {
+  const int number = open_number(dhd_, id);
+  if (number < 0)
+    throw kit::Trouble(
+        HDEV_E_NODEV,
+        fmt::format("device {} does not open: {}; plug it in and switch it on, end other programs that "
+                    "use it, and let this user open it (udev rule for USB vendor 1451)",
+                    id.empty() ? "0" : id, dhd_.get_last_error()));
+  id_ = static_cast<char>(number);
+  say_what_it_is();
+  // A watchdog in the device itself. A device without one answers with an error, and the host's own limits remain.
+  const bool watched = dhd_.enable_expert_mode() >= 0 && dhd_.set_watchdog(watchdog_ticks, id_) >= 0;
+  if (watched) {
+    info_.caps |= HDEV_CAP_HW_WATCHDOG;
+    info_.hw_watchdog_s = watchdog_ticks * watchdog_tick;
+  } else {
+    log(1, fmt::format("the device takes no watchdog: {}", dhd_.get_last_error()));
+  }
+  dhd_.enable_force(DHD_OFF, id_);
+  dhd_.set_max_force(model_.max_force, id_);
+  if (dhd_.set_gravity_compensation(DHD_ON, id_) >= 0) info_.caps |= HDEV_CAP_GRAVITY_COMP;
+  sem_init(&wake_, 0, 0);
+  stopper_ = std::thread([this] { keep_ready_to_stop(); });
+}
+
+/// No force, motors off, device released.
+DhdDevice::~DhdDevice() {
+  leaving_.store(true);
+  sem_post(&wake_);
+  stopper_.join();
+  sem_destroy(&wake_);
+  if (!lost_.load()) {
+    dhd_.set_effort(0, 0, 0, 0, 0, 0, id_);
+    dhd_.enable_force(DHD_OFF, id_);
+    dhd_.stop(id_);
+  }
+  dhd_.close(id_);
+}
+
+void DhdDevice::say_what_it_is() {
+  const int type = dhd_.get_system_type(id_);
+  model_ = model_of(type);
+  std::snprintf(info_.vendor, sizeof info_.vendor, "Force Dimension");
+  const char* name = dhd_.get_system_name(id_);
+  std::snprintf(info_.model, sizeof info_.model, "%s", name == nullptr ? "unknown" : name);
+  unsigned short serial = 0;
+  if (dhd_.get_serial_number(&serial, id_) >= 0)
+    std::snprintf(info_.serial, sizeof info_.serial, "%u", serial);
+  int major = 0, minor = 0, release = 0, revision = 0;
+  dhd_.get_sdk_version(&major, &minor, &release, &revision);
+  std::snprintf(info_.sdk_version, sizeof info_.sdk_version, "%d.%d.%d.%d", major, minor, release, revision);
+  info_.caps = HDEV_CAP_POS | HDEV_CAP_VEL | HDEV_CAP_FORCE | HDEV_CAP_BRAKE;
+  if (model_.wrist) info_.caps |= HDEV_CAP_ROT | HDEV_CAP_ANGVEL;
+  if (model_.gripper) info_.caps |= HDEV_CAP_GRIP;
+  if (model_.max_torque > 0) info_.caps |= HDEV_CAP_TORQUE;
+  info_.dof_in = 3u + (model_.wrist ? 3u : 0u) + (model_.gripper ? 1u : 0u);
+  info_.dof_out = model_.max_torque > 0 ? 6 : 3;
+  info_.n_buttons = 4;
+  const std::array<double, 3> half{model_.half_height, model_.half_width, model_.half_height};
+  for (std::size_t i = 0; i < 3; ++i) {
+    info_.ws_min[i] = -half[i];
+    info_.ws_max[i] = half[i];
+  }
+  info_.max_force = info_.cont_force = model_.max_force;
+  info_.max_torque = info_.cont_torque = model_.max_torque;
+  info_.max_stiffness = model_.max_stiffness;
+  info_.max_damping = model_.max_damping;
+  info_.nominal_rate_hz = 1000;
+  info_.min_rate_hz = 1.0 / (watchdog_ticks * watchdog_tick);
+}
+
+/// The vendor's devices calibrate themselves, or with a hand that leads them; this waits until they have.
+void DhdDevice::calibrate(std::uint32_t timeout_ms) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(timeout_ms);
+  bool told = false;
+  while (true) {
+    Status status{};
+    if (dhd_.get_status(status.data(), id_) < 0)
+      throw kit::Trouble(HDEV_E_COMM, fmt::format("the device does not answer: {}", dhd_.get_last_error()));
+    const bool wrist_ready = status[DHD_STATUS_WRIST_DETECTED] == 0 || status[DHD_STATUS_WRIST_INIT] != 0;
+    if (status[DHD_STATUS_RESET] == 0 && wrist_ready) break;
+    if (!told) log(1, "not calibrated; lead the handle to its reference position, or use the vendor's tool");
+    told = true;
+    if (std::chrono::steady_clock::now() >= end)
+      throw kit::Trouble(
+          HDEV_E_NOTCAL,
+          fmt::format("still not calibrated after {} ms; lead the handle to its reference position, or "
+                      "use the vendor's tool",
+                      timeout_ms));
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  calibrated_.store(true);
+}
+
+/// Some models have no button for that and stay without forces until asked.
+void DhdDevice::power(bool on) {
+  if (lost_.load()) throw kit::Trouble(HDEV_E_LOST, last_words());
+  if (on && !calibrated_.load())
+    throw kit::Trouble(HDEV_E_NOTCAL, "forces stay off until the device is calibrated");
+  powered_.store(false);
+  if (dhd_.set_effort(0, 0, 0, 0, 0, 0, id_) < 0 || dhd_.enable_force(on ? DHD_ON : DHD_OFF, id_) < 0)
+    throw kit::Trouble(HDEV_E_COMM, fmt::format("forces do not switch: {}", dhd_.get_last_error()));
+  powered_.store(on);
+}
+
+std::string DhdDevice::last_words() const {
+  if (lost_.load()) return fmt::format("unplugged: {}", dhd_.get_last_error());
+  return failed_in_a_row_ > 0 ? dhd_.get_last_error() : "";
+}
+
+bool DhdDevice::measure(hdev_state& state) noexcept {
+  double r[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  double* p = state.pos;
+  // Positive answers are no errors.
+  if (dhd_.get_position_and_frame(&p[0], &p[1], &p[2], r, id_) < 0) return false;
+  if (dhd_.get_linear_velocity(&state.vel[0], &state.vel[1], &state.vel[2], id_) < 0) return false;
+  state.valid = HDEV_CAP_POS | HDEV_CAP_VEL;
+  if (model_.wrist) {
+    if (dhd_.get_angular_velocity(&state.angvel[0], &state.angvel[1], &state.angvel[2], id_) < 0)
+      return false;
+    state.valid |= HDEV_CAP_ROT | HDEV_CAP_ANGVEL;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) state.R[3 * i + j] = r[i][j];
+  }
+  if (model_.gripper) {
+    if (dhd_.get_gripper_gap(&state.grip, id_) < 0) return false;
+    state.valid |= HDEV_CAP_GRIP;
+  }
+  state.buttons = dhd_.get_buttons(id_);
+  return true;
+}
+
+/// Why forces are off although we switched them on.
+std::uint32_t DhdDevice::faults(const int* status) const noexcept {
+  if (status[DHD_STATUS_POWER] == 0) return HDEV_FAULT_POWER;
+  if (status[DHD_STATUS_ERROR] != 0) return HDEV_FAULT_INTERNAL;
+  if (!powered_.load() || status[DHD_STATUS_FORCE] != 0) return 0;
+  switch (status[DHD_STATUS_FORCE_OFF_CAUSE]) {
+    case DHD_FORCEOFF_BUTTON:
+      return HDEV_FAULT_ESTOP;
+    case DHD_FORCEOFF_VELOCITY:
+      return HDEV_FAULT_OVERSPEED;
+    case DHD_FORCEOFF_WATCHDOG:
+      return HDEV_FAULT_WATCHDOG;
+    case DHD_FORCEOFF_DEADMAN:
+      return HDEV_FAULT_DEADMAN;
+    default:  // between our switching and the next status, or by our own word
+      return 0;
+  }
+}
+
+hdev_status DhdDevice::failed() noexcept {
+  if (++failed_in_a_row_ >= transfers_to_lost) lost_.store(true);
+  return lost_.load() ? HDEV_E_LOST : HDEV_E_COMM;
+}
+
+hdev_status DhdDevice::read(hdev_state& state) noexcept {
+  if (lost_.load()) return HDEV_E_LOST;
+  Status status{};
+  if (dhd_.get_status(status.data(), id_) < 0) return failed();
+  if (status[DHD_STATUS_CONNECTED] == 0 || status[DHD_STATUS_FORCE_OFF_CAUSE] == DHD_FORCEOFF_USBDISCN) {
+    lost_.store(true);
+    return HDEV_E_LOST;
+  }
+  state.t_ns = now_ns();
+  if (!measure(state)) return failed();
+  failed_in_a_row_ = 0;
+  state.seq = ++seq_;
+  state.force_enabled = powered_.load() && status[DHD_STATUS_FORCE] != 0 ? 1u : 0u;
+  state.cal = calibrated_.load() ? HDEV_CAL_OK : HDEV_CAL_NEEDED;
+  state.fault = faults(status.data());
+  return state.fault != 0 ? HDEV_E_FAULT : HDEV_OK;
+}
+
+hdev_status DhdDevice::write(const kit::Effort& effort) noexcept {
+  if (lost_.load()) return HDEV_E_LOST;
+  if (!powered_.load()) return HDEV_OK;
+  const auto& f = effort.force;
+  const auto& t = effort.torque;
+  const int answer = dhd_.set_effort(f[0], f[1], f[2], t[0], t[1], t[2], id_);
+  return answer < 0 ? failed() : HDEV_OK;
+}
+
+hdev_status DhdDevice::stop() noexcept {
+  powered_.store(false);
+  sem_post(&wake_);
+  return HDEV_OK;
+}
+
+void DhdDevice::keep_ready_to_stop() noexcept {
+  while (true) {
+    while (sem_wait(&wake_) != 0 && errno == EINTR) {
+    }
+    if (leaving_.load()) return;
+    if (lost_.load() || powered_.load()) continue;
+    dhd_.set_effort(0, 0, 0, 0, 0, 0, id_);
+    dhd_.enable_force(DHD_OFF, id_);
+    dhd_.stop(id_);
+  }
+}
+
+}  // namespace palpate::haptic::forcedimension

@@ -1,0 +1,60 @@
+#pragma once
+// One Force Dimension device. The host's thread talks to it directly: one position, one status and one force a tick. The
+// controller in the device lets go by itself when forces stop coming (its watchdog), which no fault of ours can prevent.
+
+#include <semaphore.h>
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+#include <thread>
+
+#include "haptic_node/drivers/forcedimension/dhd.h"
+#include "haptic_node/drivers/forcedimension/dhd_models.h"
+#include "haptic_node/drivers/kit/driver.h"
+
+namespace palpate::haptic::forcedimension {
+
+class DhdDevice final : public kit::OpenDevice {
+ public:
+  static constexpr double watchdog_tick = 125e-6;       // unit of the device's watchdog [s]
+  static constexpr unsigned char watchdog_ticks = 240;  // 30 ms; one byte holds no more than 31.9 ms
+  static constexpr int transfers_to_lost = 20;          // failed ones in a row
+
+  /// @param dhd  outlives the device
+  /// @throws kit::Trouble
+  DhdDevice(const hdev_host& host, const Dhd& dhd, const std::string& id);
+  ~DhdDevice() override;
+
+  void fill(hdev_info& info) const override { info = info_; }
+  void calibrate(std::uint32_t timeout_ms) override;
+  void power(bool on) override;
+  std::string last_words() const override;
+
+  hdev_status read(hdev_state& state) noexcept override;
+  hdev_status write(const kit::Effort& effort) noexcept override;
+  hdev_status stop() noexcept override;
+
+ private:
+  void say_what_it_is();
+  bool measure(hdev_state& state) noexcept;
+  std::uint32_t faults(const int* status) const noexcept;
+  hdev_status failed() noexcept;
+  void keep_ready_to_stop() noexcept;
+
+  const Dhd& dhd_;
+  char id_ = 0;
+  Model model_;
+  hdev_info info_{};
+  // stop() may be called from a signal handler, where libdhd may not: it wakes this thread, which calls libdhd.
+  std::thread stopper_;
+  sem_t wake_;
+  std::atomic<bool> leaving_{false};
+  std::atomic<bool> powered_{false};
+  std::atomic<bool> lost_{false};
+  std::atomic<bool> calibrated_{false};
+  std::uint64_t seq_ = 0;
+  std::atomic<int> failed_in_a_row_{0};
+};
+
+}  // namespace palpate::haptic::forcedimension

@@ -1,0 +1,81 @@
+#pragma once
+// One Inverse3 behind the Haply Inverse service. A thread of its own speaks with the service, which answers each message
+// with one state; the host's thread meets it in two triple buffers and never sees a socket or a text.
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "common/exchange/triple_buffer.h"
+#include "haptic_node/drivers/inverse3/haply_message.h"
+#include "haptic_node/drivers/inverse3/websocket.h"
+#include "haptic_node/drivers/kit/driver.h"
+
+namespace palpate::haptic::inverse3 {
+
+struct Settings {
+  std::string host = "localhost";
+  std::string port = "10001";
+  Dialect dialect;
+  double rate_Hz = 1000;     // messages a second
+  double max_force = 4;      // [N]
+  double max_stiffness = 0;  // [N/m]; 0: the scene's
+};
+
+/// The devices that the service has now. @throws kit::Trouble
+std::vector<std::string> list_devices(const Settings& settings);
+
+class Inverse3Device final : public kit::OpenDevice {
+ public:
+  static constexpr std::int64_t silence_ns = 20'000'000;        // of the host, after which the force is none
+  static constexpr std::chrono::milliseconds answer_time{200};  // a service that takes longer is gone
+  static constexpr int bad_answers_to_lost = 20;                // in a row
+
+  /// @throws kit::Trouble
+  Inverse3Device(const hdev_host& host, const Settings& settings, const std::string& id);
+  ~Inverse3Device() override;
+
+  void fill(hdev_info& info) const override;
+  void power(bool on) override;
+  std::string last_words() const override;
+  hdev_status read(hdev_state& state) noexcept override;
+  hdev_status write(const kit::Effort& effort) noexcept override;
+  hdev_status stop() noexcept override;
+
+ private:
+  struct Sample {
+    hdev_state state{};
+    hdev_status status = HDEV_OK;
+  };
+  struct Order {
+    std::array<double, 3> force{};
+    std::int64_t t_ns = 0;
+  };
+  void converse() noexcept;
+  bool exchange(bool first);
+  std::array<double, 3> force_due() noexcept;
+  void publish(hdev_status status, const std::array<double, 3>& force, bool powered) noexcept;
+
+  Settings settings_;
+  std::string id_;
+  WebSocket socket_;
+  bool has_grip_ = false;         // when it was opened
+  HaplyState known_;              // conversation's, once it has begun
+  TripleBuffer<Sample> samples_;  // conversation -> host's thread
+  TripleBuffer<Order> orders_;    // host's thread -> conversation
+  std::atomic<bool> wanted_{false}, leaving_{false}, lost_{false};
+  std::string lost_words_;  // written before lost_ is set, read after
+  // Host's thread:
+  std::uint64_t last_seq_ = 0;
+  // Conversation:
+  std::uint64_t seq_ = 0;
+  bool forcing_ = false;  // the last message held a force, perhaps none
+  int bad_in_a_row_ = 0;
+  std::thread thread_;
+};
+
+}  // namespace palpate::haptic::inverse3

@@ -1,0 +1,38 @@
+#include "haptic_node/drivers/kit/vendor_library.h"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+#include "haptic_node/drivers/kit/driver.h"
+
+namespace palpate::haptic::kit {
+
+VendorLibrary::VendorLibrary(const std::string& what, const std::vector<std::string>& names) : what_(what) {
+  std::string said;
+  for (const auto& name : names) {
+    handle_ = dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (handle_ != nullptr) {
+      file_ = name;
+      return;
+    }
+    said += (said.empty() ? "" : "; ") + std::string(dlerror());
+  }
+  const char* path = std::getenv("LD_LIBRARY_PATH");
+  throw Trouble(
+      HDEV_E_SDK,
+      fmt::format("the library of {} does not load ({}); looked in LD_LIBRARY_PATH ({}), ld.so.cache, /lib, "
+                  "/usr/lib; install it there, or name the file with \"library\"",
+                  what, said, path == nullptr || *path == '\0' ? "empty" : path));
+}
+
+void* VendorLibrary::address(const char* name) const {
+  void* found = dlsym(handle_, name);
+  if (found == nullptr)
+    throw Trouble(HDEV_E_SDK, fmt::format("{} lacks {}() ({}); another version of {} is needed", file_, name,
+                                          dlerror(), what_));
+  return found;
+}
+
+}  // namespace palpate::haptic::kit

@@ -1,0 +1,241 @@
+#include "haptic_node/drivers/openhaptics/hd_device.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <thread>
+
+#include "haptic_node/drivers/openhaptics/hd_calibration.h"
+#include "haptic_node/drivers/openhaptics/hd_errors.h"
+
+namespace palpate::haptic::openhaptics {
+namespace {
+
+constexpr double mm = 1e-3;    // [m]
+constexpr double mN_m = 1e-3;  // [N m]
+constexpr std::size_t most_motors = 8;
+
+unsigned int nothing(void*) { return HD_CALLBACK_DONE; }
+
+double one_double(const Hd& hd, HDenum what) {
+  std::array<double, 16> values{};
+  hd.get_doubles(what, values.data());
+  return values[0];
+}
+
+int one_integer(const Hd& hd, HDenum what) {
+  std::array<int, 16> values{};
+  hd.get_integers(what, values.data());
+  return values[0];
+}
+
+template <std::size_t N>
+void copy_text(char (&to)[N], const char* from) {
+  std::snprintf(to, N, "%s", from == nullptr ? "" : from);
+}
+
+}  // namespace
+
+HdDevice::HdDevice(const hdev_host& host, const Hd& hd, const std::string& name, unsigned long rate_Hz)
+    : OpenDevice(host), hd_(hd), rate_Hz_(rate_Hz) {
+  open_scheduled(hd_, name, rate_Hz, frame, this, prepare, scheduled_);
+}
+
+/// Zero force first, then the motors, then the device.
+HdDevice::~HdDevice() {
+  wanted_.store(false);
+  settle();
+  close_scheduled(hd_, scheduled_);
+}
+
+/// Waits for frames that do what wanted_ says.
+void HdDevice::settle() {
+  for (int i = 0; i < 100 && powered_.load() != wanted_.load() && !lost_.load(); ++i)
+    hd_.schedule_synchronous(nothing, nullptr, HD_DEFAULT_SCHEDULER_PRIORITY);
+}
+
+void HdDevice::prepare(void* self) {
+  auto& device = *static_cast<HdDevice*>(self);
+  const Hd& hd = device.hd_;
+  hd.disable(HD_FORCE_OUTPUT);
+  hd.enable(HD_MAX_FORCE_CLAMPING);
+  hd.enable(HD_FORCE_RAMPING);
+
+  hdev_info& info = device.info_;
+  copy_text(info.vendor, hd.get_string(HD_DEVICE_VENDOR));
+  copy_text(info.model, hd.get_string(HD_DEVICE_MODEL_TYPE));
+  copy_text(info.serial, hd.get_string(HD_DEVICE_SERIAL_NUMBER));
+  copy_text(info.sdk_version, hd.get_string(HD_VERSION));
+  info.dof_in = static_cast<std::uint32_t>(std::max(one_integer(hd, HD_INPUT_DOF), 0));
+  info.dof_out = static_cast<std::uint32_t>(std::max(one_integer(hd, HD_OUTPUT_DOF), 0));
+  info.n_buttons = 4;
+  info.caps = HDEV_CAP_POS | HDEV_CAP_VEL | HDEV_CAP_FORCE | HDEV_CAP_TEMPERATURE | HDEV_CAP_REL_ENCODERS;
+  if (info.dof_in >= 6) info.caps |= HDEV_CAP_ROT | HDEV_CAP_ANGVEL;
+  std::array<double, 16> box{};
+  hd.get_doubles(HD_USABLE_WORKSPACE_DIMENSIONS, box.data());
+  for (std::size_t i = 0; i < 3; ++i) {
+    info.ws_min[i] = box[i] * mm;
+    info.ws_max[i] = box[i + 3] * mm;
+  }
+  info.max_force = one_double(hd, HD_NOMINAL_MAX_FORCE);
+  info.cont_force = one_double(hd, HD_NOMINAL_MAX_CONTINUOUS_FORCE);
+  info.max_stiffness = one_double(hd, HD_NOMINAL_MAX_STIFFNESS) / mm;
+  if (info.dof_out >= 6) {
+    info.caps |= HDEV_CAP_TORQUE;
+    info.max_torque = one_double(hd, HD_NOMINAL_MAX_TORQUE_FORCE) * mN_m;
+  }
+  info.nominal_rate_hz = static_cast<double>(device.rate_Hz_);
+  info.io_latency_s = 1.0 / info.nominal_rate_hz;
+  if (const HDErrorInfo error = hd.get_error(); error.code != HD_SUCCESS)
+    throw kit::Trouble(HDEV_E_NODEV, "the device does not say what it is: " + words_of(hd, error));
+}
+
+void HdDevice::calibrate(std::uint32_t timeout_ms) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(timeout_ms);
+  CalibrationLook look{&hd_, scheduled_.device};
+  bool told = false;
+  while (true) {
+    hd_.schedule_synchronous(look_at_calibration, &look, HD_DEFAULT_SCHEDULER_PRIORITY);
+    if (look.found == HD_CALIBRATION_OK) break;
+    const bool user = look.found == HD_CALIBRATION_NEEDS_MANUAL_INPUT;
+    calibration_.store(user ? HDEV_CAL_NEEDS_USER : HDEV_CAL_RUNNING);
+    if (user && !told) log(1, std::string("not calibrated; ") + calibration_advice(look.style));
+    told = told || user;
+    if (std::chrono::steady_clock::now() >= end)
+      throw kit::Trouble(HDEV_E_NOTCAL, fmt::format("still not calibrated after {} ms; {}", timeout_ms,
+                                                    calibration_advice(look.style)));
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  calibration_.store(HDEV_CAL_OK);
+}
+
+void HdDevice::power(bool on) {
+  if (lost_.load()) throw kit::Trouble(HDEV_E_LOST, last_words());
+  if (on && calibration_.load() != HDEV_CAL_OK)
+    throw kit::Trouble(HDEV_E_NOTCAL, "forces stay off until the device is calibrated");
+  wanted_.store(on);
+}
+
+std::string HdDevice::last_words() const {
+  const unsigned int code = last_code_.load();
+  if (code == HD_SUCCESS) return {};
+  return fmt::format("{}{} (0x{:04x})", lost_.load() ? "unplugged: " : "", hd_.get_error_string(code), code);
+}
+
+/// One tick of the vendor's scheduler.
+unsigned int HdDevice::frame(void* self) {
+  auto& device = *static_cast<HdDevice*>(self);
+  const Hd& hd = device.hd_;
+  if (device.lost_.load()) return HD_CALLBACK_CONTINUE;
+  hd.make_current(device.scheduled_.device);
+  hd.begin_frame(device.scheduled_.device);
+
+  // 1. the hand
+  Sample sample;
+  const std::int64_t now = device.now_ns();
+  sample.state.t_ns = now;
+  device.measure(sample.state);
+
+  // 2. the force; motors go on and off with none
+  const bool wanted = device.wanted_.load() && device.fault_ == 0;
+  const bool was_on = device.powered_.load();
+  const kit::Effort effort = wanted && was_on ? device.effort_due(now) : kit::Effort{};
+  if (wanted || was_on) device.set_effort(effort);
+  hd.end_frame(device.scheduled_.device);
+  if (wanted && !was_on) hd.enable(HD_FORCE_OUTPUT);
+  if (!wanted && was_on) hd.disable(HD_FORCE_OUTPUT);
+  device.powered_.store(wanted);
+
+  // 3. what the vendor has to say, and what the host is told
+  device.heed_errors(sample);
+  sample.state.fault = device.fault_;
+  sample.state.force_enabled = wanted ? 1u : 0u;
+  std::copy_n(effort.force, 3, sample.state.applied_force);
+  std::copy_n(effort.torque, 3, sample.state.applied_torque);
+  sample.state.seq = ++device.seq_;
+  device.samples_.write(sample);
+  return HD_CALLBACK_CONTINUE;
+}
+
+void HdDevice::measure(hdev_state& state) const noexcept {
+  std::array<double, 16> m{};  // column after column, the last one the position [mm]
+  hd_.get_doubles(HD_CURRENT_TRANSFORM, m.data());
+  std::array<double, 3> v{}, w{};
+  hd_.get_doubles(HD_CURRENT_VELOCITY, v.data());
+  hd_.get_doubles(HD_CURRENT_ANGULAR_VELOCITY, w.data());
+  state.valid =
+      info_.caps & (HDEV_CAP_POS | HDEV_CAP_VEL | HDEV_CAP_ROT | HDEV_CAP_ANGVEL | HDEV_CAP_TEMPERATURE);
+  const bool turns = (info_.caps & HDEV_CAP_ROT) != 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    state.pos[i] = m[12 + i] * mm;
+    state.vel[i] = v[i] * mm;
+    state.angvel[i] = turns ? w[i] : 0.0;
+    for (std::size_t j = 0; j < 3; ++j) state.R[3 * i + j] = turns ? m[4 * j + i] : (i == j ? 1.0 : 0.0);
+  }
+  std::array<double, most_motors> motors{};
+  hd_.get_doubles(HD_MOTOR_TEMPERATURE, motors.data());
+  state.temperature = *std::max_element(motors.begin(), motors.end());
+  int buttons = 0;
+  hd_.get_integers(HD_CURRENT_BUTTONS, &buttons);
+  state.buttons = static_cast<std::uint32_t>(buttons);
+}
+
+/// What the host wrote last, or nothing if that is too long ago.
+kit::Effort HdDevice::effort_due(std::int64_t now) noexcept {
+  const Order* order = orders_.newest();
+  if (order == nullptr || now - order->t_ns > silence_ns) return {};
+  return order->effort;
+}
+
+void HdDevice::set_effort(const kit::Effort& effort) const noexcept {
+  hd_.set_doubles(HD_CURRENT_FORCE, effort.force);
+  if ((info_.caps & HDEV_CAP_TORQUE) == 0) return;
+  std::array<double, 3> torque{};
+  for (std::size_t i = 0; i < 3; ++i) torque[i] = effort.torque[i] / mN_m;
+  hd_.set_doubles(HD_CURRENT_TORQUE, torque.data());
+}
+
+void HdDevice::heed_errors(Sample& sample) noexcept {
+  bool failed = false;
+  for (int i = 0; i < 16; ++i) {
+    const HDErrorInfo error = hd_.get_error();
+    if (error.code == HD_SUCCESS) break;
+    last_code_.store(error.code);
+    const Meaning meaning = meaning_of(error.code);
+    failed = failed || meaning.transfer_failed;
+    fault_ |= meaning.fault;
+  }
+  failed_in_a_row_ = failed ? failed_in_a_row_ + 1 : 0;
+  if (failed) sample.status = HDEV_E_COMM;
+  if (failed_in_a_row_ < transfers_to_lost) return;
+  hd_.disable(HD_FORCE_OUTPUT);  // should the cable come back, nothing is driven
+  powered_.store(false);
+  lost_.store(true);
+}
+
+hdev_status HdDevice::read(hdev_state& state) noexcept {
+  if (lost_.load()) return HDEV_E_LOST;
+  const Sample* sample = samples_.newest();
+  if (sample == nullptr || sample->state.seq == last_seq_) return HDEV_E_AGAIN;
+  last_seq_ = sample->state.seq;
+  if (sample->status != HDEV_OK) return sample->status;
+  state = sample->state;
+  state.cal = calibration_.load();
+  return state.fault != 0 ? HDEV_E_FAULT : HDEV_OK;
+}
+
+hdev_status HdDevice::write(const kit::Effort& effort) noexcept {
+  if (lost_.load()) return HDEV_E_LOST;
+  orders_.write({effort, now_ns()});
+  return HDEV_OK;
+}
+
+hdev_status HdDevice::stop() noexcept {
+  wanted_.store(false);
+  return HDEV_OK;
+}
+
+}  // namespace palpate::haptic::openhaptics

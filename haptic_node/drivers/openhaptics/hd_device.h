@@ -1,0 +1,70 @@
+#pragma once
+// One device behind libHD. The vendor's scheduler thread owns it: each of its ticks is one frame that measures the hand
+// and sets the force. The host's thread meets it in two triple buffers, so that neither waits; a force is felt in the
+// tick after the one in which it was written.
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+
+#include "common/exchange/triple_buffer.h"
+#include "haptic_node/drivers/kit/driver.h"
+#include "haptic_node/drivers/openhaptics/hd_scheduler.h"
+
+namespace palpate::haptic::openhaptics {
+
+class HdDevice final : public kit::OpenDevice {
+ public:
+  /// Silence of the host after which the force is none. The host itself starts anew after as much.
+  static constexpr std::int64_t silence_ns = 20'000'000;
+  /// Failed transfers in a row after which the device counts as unplugged.
+  static constexpr int transfers_to_lost = 20;
+
+  /// @throws kit::Trouble
+  HdDevice(const hdev_host& host, const Hd& hd, const std::string& name, unsigned long rate_Hz);
+  ~HdDevice() override;
+
+  void fill(hdev_info& info) const override { info = info_; }
+  void calibrate(std::uint32_t timeout_ms) override;
+  void power(bool on) override;
+  std::string last_words() const override;
+
+  hdev_status read(hdev_state& state) noexcept override;
+  hdev_status write(const kit::Effort& effort) noexcept override;
+  hdev_status stop() noexcept override;
+
+ private:
+  struct Sample {
+    hdev_state state{};
+    hdev_status status = HDEV_OK;
+  };
+  struct Order {
+    kit::Effort effort;
+    std::int64_t t_ns = 0;
+  };
+  static unsigned int frame(void* self);
+  static void prepare(void* self);
+  void measure(hdev_state& state) const noexcept;
+  void set_effort(const kit::Effort& effort) const noexcept;
+  kit::Effort effort_due(std::int64_t now) noexcept;
+  void heed_errors(Sample& sample) noexcept;
+  void settle();
+
+  const Hd& hd_;
+  hdev_info info_{};
+  unsigned long rate_Hz_;
+  ScheduledDevice scheduled_;
+
+  TripleBuffer<Sample> samples_;  // vendor's thread -> host's
+  TripleBuffer<Order> orders_;    // host's thread -> vendor's
+  std::uint64_t last_seq_ = 0;    // host's
+  std::atomic<bool> wanted_{false}, powered_{false}, lost_{false};
+  std::atomic<std::uint32_t> calibration_{HDEV_CAL_NEEDED};
+  std::atomic<unsigned int> last_code_{HD_SUCCESS};
+  // Vendor's thread:
+  std::uint64_t seq_ = 0;
+  std::uint32_t fault_ = 0;
+  int failed_in_a_row_ = 0;
+};
+
+}  // namespace palpate::haptic::openhaptics

@@ -1,0 +1,109 @@
+// One scene, other drivers: a key of the scene changes, and not a line of the program.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "common/report/json_file.h"
+#include "tests/system/dds_domain.h"
+
+namespace palpate {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class DriverSwap : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "palpate_swap_XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder = name;
+  }
+  void TearDown() override { fs::remove_all(folder); }
+
+  /// `palpate WORDS scenes/box_press.toml --out folder/NAME MORE`. @return exit code
+  int palpate(const std::string& words, const std::string& name, const std::string& more) const {
+    const std::string command = std::string(PALPATE) + " " + words + " " + SCENES + "/box_press.toml --out " +
+                                (folder / name).string() + " " + more + " >" +
+                                (folder / (name + ".log")).string() + " 2>&1";
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  std::string said(const std::string& name) const {
+    std::ifstream file(folder / (name + ".log"));
+    std::stringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+  /// Height of the tip and force on it, by the frames of physics.
+  std::vector<std::pair<double, double>> trace(const std::string& name) const {
+    std::ifstream file(folder / name / "tool_tip.csv");
+    std::vector<std::pair<double, double>> rows;
+    for (std::string line; std::getline(file, line);) {
+      double t = 0, x = 0, y = 0, z = 0, fx = 0, fy = 0, fz = 0;
+      if (std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf,%lf", &t, &x, &y, &z, &fx, &fy, &fz) == 7)
+        rows.emplace_back(z, fz);
+    }
+    return rows;
+  }
+  double peak(const std::string& name) const {
+    double most = 0;
+    for (const auto& [z, force] : trace(name)) most = std::max(most, force);
+    return most;
+  }
+
+  fs::path folder;
+};
+
+TEST_F(DriverSwap, PlaysTheTraceOfARunAndFeelsTheSame) {
+  ASSERT_EQ(palpate("simulate", "hand", "--no-frames --seconds 2"), 0) << said("hand");
+  const std::string file = (folder / "hand" / "tool_tip.csv").string();
+  ASSERT_EQ(palpate("simulate", "played",
+                    "--no-frames --seconds 2 --set device.hand.driver=replay --set device.hand.file=" + file),
+            0)
+      << said("played");
+  EXPECT_GT(peak("hand"), 0.1);
+  EXPECT_NEAR(peak("played"), peak("hand"), 0.01 * peak("hand"));
+}
+
+TEST_F(DriverSwap, PressesThroughThreeProcessesWithAVendorsLibrary) {
+  setenv("STUB_HD_PRESSES", "5", 1);  // 5 mm, of which 3 are in the tissue
+  const int exit_code = palpate("run", "live",
+                                "--headless --seconds 3 --domain " + std::to_string(test::own_domain()) +
+                                    " --set device.hand.driver=openhaptics --set device.hand.library=" STUB_HD
+                                    " --set 'device.hand.offset_mm=[0,0,22]'");
+  unsetenv("STUB_HD_PRESSES");
+  ASSERT_EQ(exit_code, 0) << said("live");
+  const auto summary = read_json((folder / "live" / "summary.json").string());
+  EXPECT_EQ(summary["haptic"]["faults"].get<int>(), 0);
+  double lowest = 1;
+  for (const auto& [z, force] : trace("live"))
+    if (force > 0) lowest = std::min(lowest, z);
+  EXPECT_NEAR(lowest, 0.017, 1e-3);
+  EXPECT_GT(peak("live"), 0.1);
+}
+
+TEST_F(DriverSwap, SaysWhatADriverLacksBeforeAnythingIsFelt) {
+  EXPECT_EQ(palpate("simulate", "none",
+                    "--set device.hand.driver=openhaptics --set device.hand.library=/no/libHD.so"),
+            2);
+  EXPECT_THAT(said("none"),
+              HasSubstr("box_press.toml:27:1: driver \"openhaptics\": the library of OpenHaptics does not "
+                        "load (/no/libHD.so: cannot open shared object file"));
+  EXPECT_EQ(palpate("simulate", "none", "--device replay"), 2);
+  EXPECT_THAT(said("none"), HasSubstr("driver \"replay\": no \"file\"; name a table of poses"));
+  EXPECT_EQ(palpate("run", "none", "--device omega"), 2);
+  EXPECT_THAT(said("none"), HasSubstr("no driver \"omega\"; drivers here: forcedimension, inverse3"));
+}
+
+}  // namespace
+}  // namespace palpate

@@ -1,0 +1,156 @@
+// The driver "replay": what it makes of a table, what it says of a bad one, and that a recorded press is felt as the
+// spring says.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "tests/unit/haptic_node/drivers/opened_driver.h"
+#include "tests/unit/haptic_node/virtual_world.h"
+
+namespace palpate::haptic::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+/// A table in a file that goes away with it.
+struct Table {
+  explicit Table(const std::string& text) { std::ofstream(file) << text; }
+  ~Table() { std::filesystem::remove(file); }
+  std::string file =
+      (std::filesystem::temp_directory_path() / ("palpate_replay_" + std::to_string(getpid()) + ".csv"))
+          .string();
+};
+
+TEST(ReplayDriver, LeadsTheHandleAlongThePath) {
+  const Table table(
+      "# a quarter turn about z while going up\n"
+      "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,buttons\n"
+      "1.0, 10, 0, 20, 1,0,0,0, 0\n"
+      "\n"
+      "2.0, 10, 0, 40, 0.70710678,0,0,0.70710678, 2\n");
+  DriverUnderTest driver("replay");
+  ASSERT_EQ(driver.open({{"file", table.file}}), HDEV_OK) << driver.api().last_error(nullptr);
+  const hdev_info info = driver.info();
+  EXPECT_EQ(info.dof_in, 6u);
+  EXPECT_NEAR(info.ws_max[2], 0.040, 1e-15);
+
+  // 1. it rests until the forces are on
+  driver.now += 5'000'000'000;
+  ASSERT_EQ(driver.read(), HDEV_OK);
+  EXPECT_NEAR(driver.state.pos[2], 0.020, 1e-15);
+  EXPECT_EQ(driver.state.force_enabled, 0u);
+  // 2. then it moves in the host's clock
+  ASSERT_EQ(driver.power(true), HDEV_OK);
+  ASSERT_EQ(driver.read(), HDEV_OK);
+  driver.now += 500'000'000;
+  ASSERT_EQ(driver.read(), HDEV_OK);
+  EXPECT_NEAR(driver.state.pos[0], 0.010, 1e-15);
+  EXPECT_NEAR(driver.state.pos[2], 0.030, 1e-12);
+  EXPECT_NEAR(driver.state.R[0], std::cos(M_PI / 8 * 2), 1e-7);  // 45 degrees: row after row
+  EXPECT_NEAR(driver.state.R[1], -std::sin(M_PI / 4), 1e-7);
+  EXPECT_NEAR(driver.state.R[3], std::sin(M_PI / 4), 1e-7);
+  EXPECT_EQ(driver.state.buttons, 0u);
+  // 3. and rests at the end
+  driver.now += 5'000'000'000;
+  ASSERT_EQ(driver.read(), HDEV_OK);
+  EXPECT_NEAR(driver.state.pos[2], 0.040, 1e-15);
+  EXPECT_EQ(driver.state.buttons, 2u);
+}
+
+TEST(ReplayDriver, ReadsFieldsBetweenBlanks) {
+  const Table table("t_s  x_mm y_mm\tz_mm  fx_N\r\n 0 1 2 3 9\n  1.5   4\t5  6 9  \n");
+  DriverUnderTest driver("replay");
+  ASSERT_EQ(driver.open({{"file", table.file}}), HDEV_OK) << driver.api().last_error(nullptr);
+  driver.power(true);
+  driver.read();
+  EXPECT_NEAR(driver.state.pos[2], 0.003, 1e-15);
+  driver.now += 1'500'000'000;
+  driver.read();
+  EXPECT_NEAR(driver.state.pos[0], 0.004, 1e-15);
+}
+
+TEST(ReplayDriver, LoopsAPathThatEndsWhereItBegins) {
+  const Table table("t_s,x_m,y_m,z_m\n0,0,0,0\n1,0,0,0.01\n2,0,0,0\n");
+  DriverUnderTest driver("replay");
+  ASSERT_EQ(driver.open({{"file", table.file}, {"loop", "true"}}), HDEV_OK);
+  driver.power(true);
+  driver.read();
+  driver.now += 3'000'000'000;
+  driver.read();
+  EXPECT_NEAR(driver.state.pos[2], 0.01, 1e-12);
+}
+
+TEST(ReplayDriver, SaysWhereATableIsWrong) {
+  const auto said = [](const std::string& text, const std::string& loop = "false") {
+    const Table table(text);
+    std::string words = DriverUnderTest("replay").trouble({{"file", table.file}, {"loop", loop}});
+    EXPECT_EQ(words.find('\n'), std::string::npos) << words;
+    EXPECT_THAT(words, StartsWith(table.file));
+    return words.substr(std::min(table.file.size(), words.size()));
+  };
+  EXPECT_THAT(said(""), HasSubstr(":1:1: nothing in it"));
+  EXPECT_THAT(said("x_mm,y_mm,z_mm\n"), HasSubstr(":1:1: no column t_s"));
+  EXPECT_THAT(said("t_s,x_mm,y_mm\n"), HasSubstr(":1:1: no column z_mm"));
+  EXPECT_THAT(said("t_s,t_s,x_m,y_m,z_m\n"), HasSubstr(":1:5: a second column t_s"));
+  EXPECT_THAT(said("t_s,x_m,y_m,z_m,qw\n"), HasSubstr(":1:1: an attitude needs all"));
+  EXPECT_THAT(said("t_s,x_m,y_m,z_m\n"), HasSubstr("no pose"));
+  EXPECT_THAT(said("t_s,x_m,y_m,z_m\n0,0,0\n"), HasSubstr(":2:5: 3 fields, the first line names 4"));
+  EXPECT_THAT(said("#\nt_s,x_m,y_m,z_m\n0,0, wide,0\n"), HasSubstr(":3:6: \"wide\" is no number"));
+  EXPECT_THAT(said("t_s,x_m,y_m,z_m\n0,,0,0\n"), HasSubstr(":2:3: \"\" is no number"));
+  EXPECT_THAT(said("t_s x_m y_m z_m\n0 0  wide 0\n"), HasSubstr(":2:6: \"wide\" is no number"));
+  EXPECT_THAT(said("t_s,x_m,y_m,z_m\n0,0,nan,0\n"), HasSubstr(":2:5: \"nan\" is no number"));
+  EXPECT_THAT(said("t_s,x_m,y_m,z_m\n1,0,0,0\n1,0,0,0\n"), HasSubstr(":3:1: 1 s follows 1 s"));
+  EXPECT_THAT(said("t_s,x_m,y_m,z_m,qw,qx,qy,qz\n1,0,0,0,2,0,0,0\n"),
+              HasSubstr(":2:9: the attitude has length 2"));
+  EXPECT_THAT(said("t_s,x_m,y_m,z_m,buttons\n1,0,0,0,0.5\n"), HasSubstr(":2:9: buttons is a sum"));
+  EXPECT_THAT(said("t_s,x_m,y_m,z_m\n0,0,0,0\n1,0,0,0.01\n", "true"),
+              HasSubstr("ends 10 mm from where it begins"));
+}
+
+TEST(ReplayDriver, SaysWhatItWantsToBeTold) {
+  DriverUnderTest driver("replay");
+  EXPECT_THAT(driver.trouble({}), HasSubstr("no \"file\""));
+  EXPECT_THAT(driver.trouble({{"file", "no/such/table.csv"}}), HasSubstr("no/such/table.csv: No such file"));
+  EXPECT_THAT(driver.trouble({{"fill", "x"}}),
+              HasSubstr("unknown key \"fill\"; known are file, loop, max_force_N"));
+  EXPECT_THAT(driver.trouble({{"loop", "yes"}}), HasSubstr("true or false"));
+  EXPECT_THAT(driver.trouble({}, "left"), HasSubstr("no device \"left\""));
+}
+
+/// A plane of 0.5 N/mm, pressed 4 mm deep along a recorded path, as in the data of Ruffaldi et al. 2006. Analytic:
+///   f = K max(0, -z),  without a damper.
+TEST(ReplayDriver, FeelsTheAnalyticForceOfAPlane) {
+  std::string text = "t_s,x_m,y_m,z_m\n";
+  constexpr double period = 2.0, depth = 0.004;
+  for (int i = 0; i <= 400; ++i) {
+    const double t = 0.01 * i;
+    text += std::to_string(t) + ",0,0," + std::to_string(depth * std::cos(2 * M_PI * t / period)) + "\n";
+  }
+  const Table table(text);
+  Scene scene = scene_with(HandModel::rigid, {}, 500);
+  scene.tools[0].damping = 0;
+  scene.devices[0].driver = "replay";
+  scene.devices[0].options = {{"file", table.file}};
+  VirtualWorld world(scene);
+  double error = 0, size = 0;
+  int touched = 0;
+  world.run(4.0, 1000, [&] {
+    const double f = 500 * std::max(0.0, -world.z());
+    error += (world.fz() - f) * (world.fz() - f);
+    size += f * f;
+    touched += f > 0 ? 1 : 0;
+  });
+  EXPECT_EQ(world.session.state(), HapticState::run);
+  EXPECT_GT(touched, 1900);
+  EXPECT_LE(std::sqrt(error / size), 0.01) << "of the force's own RMS " << std::sqrt(size / touched) << " N";
+  RecordProperty("force_rms_error_percent", std::to_string(100 * std::sqrt(error / size)));
+}
+
+}  // namespace
+}  // namespace palpate::haptic::test
