@@ -134,7 +134,7 @@ void HapticSession::fill_messages(std::int64_t now, const ControllerOutput& out)
     if (w.allFinite()) tool_state_.w_WT = array(w);
   }
   tool_state_.proxy = array(out.proxy);
-  tool_state_.force_on_hand = array(out.force);
+  tool_state_.force_on_hand = array(out.reported);
   tool_state_.contact_set = controller_.contact_set();
   tool_state_.buttons = raw_.buttons;
   tool_state_.engaged = controller_.engaged() ? 1u : 0u;
@@ -143,7 +143,7 @@ void HapticSession::fill_messages(std::int64_t now, const ControllerOutput& out)
   trace_.t = seconds_from_ns(now - start_ns_);
   trace_.p = tool_state_.p_WT;
   trace_.proxy = tool_state_.proxy;
-  trace_.force = tool_state_.force_on_hand;
+  trace_.force = array(out.force);
   trace_.energy = counts_.energy;
 }
 

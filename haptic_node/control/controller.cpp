@@ -164,6 +164,7 @@ ControllerOutput Controller::tick(std::int64_t now_ns, const DeviceSample& sampl
   const bool fading = state_ != HapticState::run || stopping_;
   ControllerOutput out;
   out.force = guard_.pass(felt_.force, gain_ * stop_gain_, fading);
+  out.reported = report_.pass(out.force, std::min(dt, stall));
   out.proxy = felt_.n_planes > 0 ? Vec3(motion_.x() + out.force / settings_.stiffness) : motion_.x();
   out.want_power = state_ == HapticState::armed;
   return out;

@@ -12,6 +12,7 @@
 #include "common/message/messages.h"
 #include "common/scene/scene.h"
 #include "haptic_node/contact/local_contact.h"
+#include "haptic_node/control/force_report.h"
 #include "haptic_node/control/motion_watch.h"
 #include "haptic_node/control/patch_watch.h"
 #include "haptic_node/safety/force_guard.h"
@@ -30,11 +31,12 @@ struct ControllerSettings {
 };
 
 struct ControllerOutput {
-  Vec3 force = Vec3::Zero();  // on the hand [N]
-  Vec3 proxy = Vec3::Zero();  // [m]
-  bool write = true;          // false: the device is not to be written to any more
-  bool want_power = false;    // motors should be on
-  bool stop_motors = false;   // now, by the device's stop(); once
+  Vec3 force = Vec3::Zero();     // on the hand [N]
+  Vec3 reported = Vec3::Zero();  // the same for physics, low-passed [N]
+  Vec3 proxy = Vec3::Zero();     // [m]
+  bool write = true;             // false: the device is not to be written to any more
+  bool want_power = false;       // motors should be on
+  bool stop_motors = false;      // now, by the device's stop(); once
 };
 
 class Controller {
@@ -85,6 +87,7 @@ class Controller {
   PatchWatch patches_;
   LocalContact contact_;
   ForceGuard guard_;
+  ForceReport report_;
   ContactResult felt_;
 
   HapticState state_ = HapticState::off;

@@ -87,7 +87,7 @@ Outcome press_yielding_tissue(HandModel hand, const Case& c, double depth) {
   const int ticks = 6000;
   for (int tick = 0; tick < ticks; ++tick) {
     const std::int64_t now = world.now;
-    to_tissue.send(now + delay, world.fz());
+    to_tissue.send(now + delay, world.session.tool_state().force_on_hand[2]);
     if (now >= next) {
       next += every;
       to_tissue.receive(now, force_at_tissue);
