@@ -10,35 +10,47 @@
 namespace palpate::bench {
 namespace {
 
-constexpr double hold_until = 4.0;  // [s]
-
 Path stay_above(double height) {
   return [height](double) { return Aim{{0, 0, height}, Vec3::Zero()}; };
 }
 
+/// Since when the force has been within 5 % of what it ends at [s after the approach].
+double settling_time(const std::vector<double>& forces, double end_force) {
+  std::size_t n = forces.size();
+  while (n > 0 && std::abs(forces[n - 1] - end_force) <= 0.05 * std::abs(end_force)) --n;
+  return 1e-3 * static_cast<double>(n);
+}
+
 }  // namespace
 
-CaseResult run_case(const Case& c) {
+CaseResult run_case(const Case& c, const std::function<void(Tissue&, double)>& move_object) {
   const bool held = c.hand.stiffness > 0;
-  Trial trial(c, held ? press_path(c, 1.0, hold_until) : stay_above(0.02));
+  Trial trial(c, held ? press_path(c, 1.0, hold_end) : stay_above(0.02));
+  trial.move_object = move_object;
   CaseResult result;
   result.c = c;
+  result.force_least = c.device.force_limit;
+  std::vector<double> forces;
   double low = 1, high = -1, sum = 0;
   int n = 0;
-  const double end = held ? hold_until : 6.0;
+  const double end = held ? hold_end : 6.0;
   if (!held) trial.run(0);
   if (!held) trial.push = {0, 0, -1};
   trial.run(6.0, [&] {
-    const double t = trial.t(), z = trial.plant().x().z();
+    const double t = trial.t(), z = trial.plant().x().z(), f = trial.rendered().force.z();
+    if (t > approach_end && t <= end) forces.push_back(f);
     if (z > 5e-3) result.force_outside = std::max(result.force_outside, trial.rendered().force.norm());
     if (t < end - 1.0 || t > end) return;
     low = std::min(low, z);
     high = std::max(high, z);
-    sum += trial.rendered().force.z();
+    result.force_least = std::min(result.force_least, f);
+    result.force_most = std::max(result.force_most, f);
+    sum += f;
     ++n;
   });
   result.swing = high - low;
   result.force = sum / n;
+  result.settled = settling_time(forces, result.force);
   result.surplus = trial.energy().surplus();
   result.plane_excess = trial.energy().plane_excess();
   result.force_step = trial.force_step();

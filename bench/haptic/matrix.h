@@ -11,18 +11,24 @@ namespace palpate::bench {
 
 struct CaseResult {
   Case c;
-  double swing = 0;          // of the tip, peak to peak in the last second of the hold [m]
-  double force = 0;          // mean then [N]
-  double surplus = 0;        // largest G [J]
-  double plane_excess = 0;   // above the bound on the work of planes [J]
-  double force_step = 0;     // largest change in a tick [N]
-  double step_beyond = 0;    // the same less K v T [N]
-  double force_outside = 0;  // largest when the hand is 5 mm outside [N]
+  double swing = 0;                        // of the tip, peak to peak in the last second of the hold [m]
+  double force = 0;                        // mean then [N]
+  double surplus = 0;                      // largest G [J]
+  double plane_excess = 0;                 // above the bound on the work of planes [J]
+  double force_step = 0;                   // largest change in a tick [N]
+  double step_beyond = 0;                  // the same less K v T [N]
+  double force_least = 0, force_most = 0;  // then [N]
+  double settled = 0;                      // after the end of the approach, within 5 % of `force` [s]
+  double force_outside = 0;                // largest when the hand is 5 mm outside [N]
   bool energy_kept() const noexcept { return surplus <= EnergyBook::G_allowed && plane_excess <= 1e-9; }
 };
 
+/// Where the approach ends and the hold begins, and where it ends [s].
+inline constexpr double approach_end = 0.3, hold_end = 4.0;
+
 /// 6 s: press 1 N, hold, slide, retract. With no hand: 6 s of a constant push of 1 N.
-CaseResult run_case(const Case& c);
+/// @param move_object  moves the object, if given
+CaseResult run_case(const Case& c, const std::function<void(Tissue&, double t)>& move_object = {});
 
 struct MatrixSize {
   std::vector<double> rates_Hz{20, 60, 150, 1000};

@@ -35,17 +35,18 @@ Trial::Trial(const Case& c, Path path)
 
 /// Both directions of the link; physics frames.
 void Trial::exchange() {
-  up_.send(now_ns_, {rendered_.reported.z(), plant_.measured().z()});
+  up_.send(now_ns_, {rendered_.reported.z(), plant_.measured(), rendered_.proxy});
   if (now_ns_ >= next_frame_ns_) {
     next_frame_ns_ += static_cast<std::int64_t>(1e9 / case_.rate_Hz);
     up_.receive(now_ns_, known_);
     // Without a local model physics computes the force itself, from the last position that it knows.
     if (case_.mode == RenderMode::direct)
-      known_.force = std::clamp(case_.stiffness * (tissue_.surface() - known_.z), 0.0, settings_.force_limit);
+      known_.force =
+          std::clamp(case_.stiffness * (tissue_.surface() - known_.x.z()), 0.0, settings_.force_limit);
     tissue_.take(known_.force);
     if (physics_alive) {
       Answer answer{tissue_.patch(++frame_), known_.force};
-      if (alter_patch) alter_patch(answer.patch);
+      if (alter_patch) alter_patch(answer.patch, known_.proxy);
       down_.send(now_ns_, answer);
     }
   }

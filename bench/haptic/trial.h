@@ -57,7 +57,7 @@ class Trial {
   bool kinematic = false;
   /// Called on each sample before the renderer sees it, on each patch before it is sent, on the object each 20 us.
   std::function<void(haptic::DeviceSample&)> spoil_sample;
-  std::function<void(ContactPatch&)> alter_patch;
+  std::function<void(ContactPatch&, const Vec3& known_proxy)> alter_patch;
   std::function<void(Tissue&, double t)> move_object;
 
   double t() const noexcept { return 1e-9 * static_cast<double>(now_ns_ - start_ns); }  // 0 after lead_in [s]
@@ -72,8 +72,9 @@ class Trial {
  private:
   static constexpr std::int64_t start_ns = 1'000'000'000;
   struct HandReport {
-    double force = 0;  // along z [N]
-    double z = 0;      // [m]
+    double force = 0;       // along z [N]
+    Vec3 x = Vec3::Zero();  // [m]
+    Vec3 proxy = Vec3::Zero();
   };
   struct Answer {  // physics -> hand
     ContactPatch patch;
