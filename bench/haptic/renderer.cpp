@@ -42,7 +42,7 @@ Rendered local_force(haptic::Controller& controller, std::int64_t now_ns, const 
   out.force = answer.write ? answer.force : Vec3(Vec3::Zero());
   out.reported = answer.reported;
   out.proxy = answer.proxy;
-  out.stored = controller.contact().stored;
+  out.stored = controller.stored();
   out.plane_work = controller.plane_work();
   out.touching = controller.contact().n_planes > 0;
   out.want_power = answer.want_power;

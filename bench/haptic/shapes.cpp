@@ -78,6 +78,16 @@ Shape sphere(double radius, double step) {
   return shape;
 }
 
+double roughness(const Shape& shape, const Vec3& centre) {
+  double most = 0;
+  for (const Triangle& t : shape)
+    for (const Vec3& corner : t.corners) {
+      const Vec3 out = corner - centre;
+      most = std::max(most, std::atan2(t.normal.cross(out).norm(), t.normal.dot(out)));
+    }
+  return most;
+}
+
 ContactPatch nearest_patch(const Shape& shape, const Vec3& p, std::uint64_t tick) {
   std::vector<std::pair<double, std::size_t>> near;
   near.reserve(shape.size());
@@ -100,15 +110,15 @@ ContactPatch nearest_patch(const Shape& shape, const Vec3& p, std::uint64_t tick
 }
 
 double depth_below(const Shape& shape, const Vec3& p) {
-  const Triangle* nearest = nullptr;
-  double least = 1e9;
+  // Of triangles that share the nearest edge, the one whose plane is farthest knows which side p is on.
+  double least = 1e9, height = 0;
   for (const Triangle& t : shape) {
-    const double d = distance(t, p);
-    if (d >= least) continue;
+    const double d = distance(t, p), h = t.normal.dot(p - t.corners[0]);
+    if (d > least + 1e-9 || (d > least - 1e-9 && std::abs(h) <= std::abs(height))) continue;
     least = d;
-    nearest = &t;
+    height = h;
   }
-  return nearest != nullptr && nearest->normal.dot(p - nearest->corners[0]) < 0 ? least : 0.0;
+  return height < 0 ? least : 0.0;
 }
 
 }  // namespace palpate::bench

@@ -24,6 +24,9 @@ Shape repeated_plane(double tilt);
 /// Longitudes and latitudes `step` apart [rad].
 Shape sphere(double radius, double step);
 
+/// Largest angle between a triangle's normal and the way out from `centre` at its corners [rad].
+double roughness(const Shape& shape, const Vec3& centre);
+
 /// The facets nearest to p, up to what a patch holds; nearest first. Rigid.
 ContactPatch nearest_patch(const Shape& shape, const Vec3& p, std::uint64_t tick);
 

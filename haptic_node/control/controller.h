@@ -15,6 +15,7 @@
 #include "haptic_node/control/force_report.h"
 #include "haptic_node/control/motion_watch.h"
 #include "haptic_node/control/patch_watch.h"
+#include "haptic_node/safety/energy_limit.h"
 #include "haptic_node/safety/force_guard.h"
 
 namespace palpate::haptic {
@@ -65,6 +66,10 @@ class Controller {
   const PatchWatch& patches() const noexcept { return patches_; }
   const ContactResult& contact() const noexcept { return felt_; }
   double plane_work() const noexcept { return contact_.plane_work(); }
+  /// In the springs as they are applied: limited, faded [J].
+  double stored() const noexcept { return stored_; }
+  /// Energy made out of nothing, as seen from the samples [J].
+  double surplus() const noexcept { return energy_.surplus(); }
   double force_limit() const noexcept { return guard_.limit(); }
   std::uint64_t contact_set() const noexcept { return contact_set_; }
 
@@ -81,6 +86,7 @@ class Controller {
   void step_ready(std::int64_t now_ns, const DeviceSample& sample) noexcept;
   void step_stale(std::int64_t now_ns, bool new_patch) noexcept;
   void step_safe() noexcept;
+  Vec3 felt_force() noexcept;
 
   ControllerSettings settings_;
   MotionWatch motion_;
@@ -88,7 +94,9 @@ class Controller {
   LocalContact contact_;
   ForceGuard guard_;
   ForceReport report_;
+  EnergyLimit energy_;
   ContactResult felt_;
+  double stored_ = 0;
 
   HapticState state_ = HapticState::off;
   bool resume_inside_ = false;  // after a stall: planes start at the hand, no need to leave the tissue first
