@@ -44,6 +44,7 @@ ControllerSettings settings_of(const Scene& scene, std::uint32_t tool_index, con
   if (info.cont_force > 0) limit = std::min(limit, info.cont_force);
   if ((info.caps & HDEV_CAP_FORCE) == 0) limit = 0;
   settings.force_limit = limit / calibration.force_scale();
+  settings.resolution = info.pos_resolution * calibration.scale();
   return settings;
 }
 

@@ -24,6 +24,7 @@ struct Runs {
   Effort effort = Effort::full;
   int jobs = 1;
   std::vector<CaseResult> seen;  // all cases with the production controller so far, for S6
+  std::vector<CaseResult> raw;   // with raw planes
 };
 
 // rows_matrix.cpp

@@ -128,13 +128,13 @@ Row edges_and_corners() {
     step = std::max({step, corner.step_beyond, twice.step_beyond});
     depth = std::max({depth, corner.depth, twice.depth});
   }
-  return {"S8",
-          "edges of 60, 90, 120, 150 deg, a concave corner, repeated and near-parallel planes, at 0.1 m/s",
-          "steps <= K v T + 0.1 N, <= (F + B v) / K + 0.1 mm deep, 0 N beside an edge and beyond it, corner and "
-          "planes true",
-          fmt::format("beyond K v T {:.3f} N; {:.3f} mm deeper; beside {:g} N, beyond {:g} N{}", step,
-                      1e3 * depth, beside, after, wrong),
-          step <= 0.1 && depth <= 3e-4 && beside == 0 && after == 0 && wrong.empty()};
+  return {
+      "S8", "edges of 60, 90, 120, 150 deg, a concave corner, repeated and near-parallel planes, at 0.1 m/s",
+      "steps <= K v T + 0.1 N, <= (F + B v) / K + 0.1 mm deep, 0 N beside an edge and beyond it, corner and "
+      "planes true",
+      fmt::format("beyond K v T {:.3f} N; {:.3f} mm deeper; beside {:g} N, beyond {:g} N{}", step,
+                  1e3 * depth, beside, after, wrong),
+      step <= 0.1 && depth <= 3e-4 && beside == 0 && after == 0 && wrong.empty()};
 }
 
 Row sphere_is_round() {

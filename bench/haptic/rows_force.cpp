@@ -74,7 +74,7 @@ Row pulse_is_felt(Runs& runs) {
 
 Row force_steps_are_small(const Runs& runs) {
   const Tally t = tally(runs.seen);
-  return {"S6", "force steps in a tick, in all cases above", "<= K v T + 0.1 N, <= 0.3 N",
+  return {"S6", "force steps in a tick, in all cases above", "<= K (v T + q) + 0.1 N, <= 0.3 N",
           fmt::format("{} cases: most {:.3f} N, beyond K v T {:.3f} N", t.cases, t.force_step_most,
                       t.step_beyond_most),
           t.force_step_most <= 0.3 && t.step_beyond_most <= 0.1};

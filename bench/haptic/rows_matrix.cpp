@@ -66,7 +66,8 @@ Row direct_and_raw_are_unstable(Runs& runs) {
   size.losses = {0, 0.1};
   size.stiffnesses = {500};
   const auto cases = chosen(matrix(device_models[0], size, RenderMode::raw_planes), runs.effort, 48);
-  const Tally raw = tally(run_cases(cases, runs.jobs));
+  runs.raw = run_cases(cases, runs.jobs);
+  const Tally raw = tally(runs.raw);
   return {"S0", "negative controls: direct force, K 1000, 20 Hz, 20 ms; raw planes, K 500, Touch",
           "both unstable: > 200 um; > 100 of 384 cases",
           fmt::format("direct {:.1f} mm; raw planes {} of {} cases above 200 um", 1e3 * swing,

@@ -11,6 +11,7 @@ haptic::ControllerSettings settings_of(const Case& c) {
   settings.stiffness = c.stiffness;
   settings.damping = c.damping;
   settings.force_limit = c.device.force_limit;
+  settings.resolution = c.device.resolution;
   return settings;
 }
 
@@ -78,7 +79,8 @@ void Trial::render() {
 void Trial::book_force_step(const Vec3& force) {
   const double by = (force - in_flight_[0]).norm();
   force_step_ = std::max(force_step_, by);
-  step_beyond_ = std::max(step_beyond_, by - case_.stiffness * plant_.v().norm() * settings_.period);
+  step_beyond_ = std::max(
+      step_beyond_, by - case_.stiffness * (plant_.v().norm() * settings_.period + case_.device.resolution));
 }
 
 /// The force of `io_latency` ticks ago acts during this tick.

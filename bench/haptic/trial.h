@@ -65,7 +65,7 @@ class Trial {
   const EnergyBook& energy() const noexcept { return energy_; }
   const haptic::Controller& controller() const noexcept { return controller_; }
   const Rendered& rendered() const noexcept { return rendered_; }
-  /// Largest force change in a tick; the same less K v T, v the hand's speed then [N].
+  /// Largest force change in a tick; the same less K (v T + q), v the hand's speed then, q the resolution [N].
   double force_step() const noexcept { return force_step_; }
   double force_step_beyond_motion() const noexcept { return step_beyond_; }
 

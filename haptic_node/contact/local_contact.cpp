@@ -117,7 +117,7 @@ ContactResult LocalContact::felt(const Vec3& x, const Vec3& v) const noexcept {
   const Projection now = project(x);
   for (std::size_t i = 0; i < n_; ++i) {
     if (now.push[i] <= 0) continue;
-    // Damping never exceeds the spring, so that force starts from zero and never pulls.
+    // Damping is at most half the spring on the way in, so that force starts gently, and never pulls.
     const double spring = planes_[i].stiffness() * now.push[i];
     const double damper = std::clamp(-damping_ * v.dot(planes_[i].normal()), -spring, 0.5 * spring);
     result.force += (spring + damper) * planes_[i].normal();

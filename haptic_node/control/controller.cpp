@@ -35,7 +35,8 @@ Controller::Controller(const ControllerSettings& settings) noexcept
       motion_(settings.period),
       patches_(settings.tool),
       contact_(settings.stiffness, settings.damping, settings.force_limit),
-      guard_(settings.force_limit, settings.stiffness, settings.period) {}
+      guard_(settings.force_limit, settings.stiffness, settings.period),
+      energy_(settings.resolution, settings.stiffness) {}
 
 /// Motors off at once; nothing is written to the device any more.
 ControllerOutput Controller::faulted(bool first) noexcept {
@@ -139,7 +140,8 @@ Vec3 Controller::felt_force() noexcept {
   const double force = felt_.force.norm(), limit = guard_.limit();
   const double r = force > limit ? limit / force : 1.0;
   const double applied = felt_.stored * (2 * r - r * r) * gain_ * stop_gain_;
-  const double share = energy_.share(motion_.x(), applied, contact_.plane_work());
+  const double share =
+      energy_.share(motion_.x(), settings_.period * motion_.v(), applied, contact_.plane_work());
   stored_ = energy_.left();
   return share * felt_.force;
 }

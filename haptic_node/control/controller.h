@@ -29,6 +29,7 @@ struct ControllerSettings {
   double stiffness = 400;  // of the hand spring, in the world [N/m]
   double damping = 1;      // [N s/m]
   double force_limit = 3;  // in the world [N]
+  double resolution = 0;   // of a sample, in the world [m]
 };
 
 struct ControllerOutput {

@@ -20,17 +20,26 @@ namespace palpate::haptic {
 
 class EnergyLimit {
  public:
-  static constexpr double slack = 0.02e-3;   // [J]
+  static constexpr double slack = 0.04e-3;   // [J]
   static constexpr double credit = 0.04e-3;  // most that dissipation is remembered [J]
+
+  /// @param resolution  of the measured position, q [m]
+  /// @param stiffness   of the hand spring, K [N/m]
+  EnergyLimit(double resolution, double stiffness) noexcept
+      : resolution_(resolution), stiffness_(stiffness) {}
 
   /// Once a tick, before the force of this tick is known.
   /// @param x           the hand [m]; forces of two ticks ago acted on its way here, or newer ones, which gives less
+  /// @param coming      about how far it moves until the next tick [m]
   /// @param stored      S, as it would be applied; 0 without contact [J]
   /// @param plane_work  E_plane since the start [J]
   /// @return what is left of the force, 0..1
-  double share(const Vec3& x, double stored, double plane_work) noexcept {
+  double share(const Vec3& x, const Vec3& coming, double stored, double plane_work) noexcept {
     const Vec3 moved = began_ ? Vec3(x - x_) : Vec3(Vec3::Zero());
     given_ += forces_[1].dot(moved) - (plane_work - plane_work_);
+    // Each step q of a slow hand looks as if K q^2 / 2 had been made, on the way in and on the way out.
+    if (stored > 0 && moved.norm() < 1.5 * resolution_)
+      given_ -= 0.5 * stiffness_ * resolution_ * moved.norm();
     began_ = true;
     x_ = x;
     plane_work_ = plane_work;
@@ -41,7 +50,7 @@ class EnergyLimit {
       return 1.0;
     }
     // What is on its way to the motors will be given before this tick's force acts.
-    const double on_its_way = std::max(0.0, (forces_[0] + forces_[1]).dot(moved));
+    const double on_its_way = std::max(0.0, (forces_[0] + forces_[1]).dot(coming));
     const double may_give = std::max(0.0, slack - given_ - on_its_way);
     left_ = std::min(stored, may_give);
     return std::min(1.0, 2 * may_give / stored);
@@ -60,6 +69,8 @@ class EnergyLimit {
   double surplus() const noexcept { return given_ + left_; }
 
  private:
+  double resolution_;
+  double stiffness_;
   bool began_ = false;
   Vec3 x_ = Vec3::Zero();
   double plane_work_ = 0;
