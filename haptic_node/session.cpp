@@ -44,6 +44,7 @@ ControllerSettings settings_of(const Scene& scene, std::uint32_t tool_index, con
   if (info.cont_force > 0) limit = std::min(limit, info.cont_force);
   if ((info.caps & HDEV_CAP_FORCE) == 0) limit = 0;
   settings.force_limit = limit / calibration.force_scale();
+  settings.resolution = info.pos_resolution * calibration.scale();
   return settings;
 }
 
@@ -134,7 +135,7 @@ void HapticSession::fill_messages(std::int64_t now, const ControllerOutput& out)
     if (w.allFinite()) tool_state_.w_WT = array(w);
   }
   tool_state_.proxy = array(out.proxy);
-  tool_state_.force_on_hand = array(out.force);
+  tool_state_.force_on_hand = array(out.reported);
   tool_state_.contact_set = controller_.contact_set();
   tool_state_.buttons = raw_.buttons;
   tool_state_.engaged = controller_.engaged() ? 1u : 0u;
@@ -143,7 +144,7 @@ void HapticSession::fill_messages(std::int64_t now, const ControllerOutput& out)
   trace_.t = seconds_from_ns(now - start_ns_);
   trace_.p = tool_state_.p_WT;
   trace_.proxy = tool_state_.proxy;
-  trace_.force = tool_state_.force_on_hand;
+  trace_.force = array(out.force);
   trace_.energy = counts_.energy;
 }
 

@@ -37,7 +37,7 @@ struct ToolState {
   Array3 v_WT{};                     // velocity of the tip [m/s]
   Array3 w_WT{};                     // angular velocity [rad/s]
   Array3 proxy{};                    // where the proxy rests: the tip if nothing is touched [m]
-  Array3 force_on_hand{};            // force that the device applies to the hand in this tick [N]
+  Array3 force_on_hand{};            // force that the device applies to the hand, low-passed at 2 Hz; HapticTrace has it as it is [N]
   std::uint64_t contact_set = 0;     // contact_set of the patch that this force was computed from; 0 none
   std::uint32_t buttons = 0;         // bit i: button i pressed
   std::uint32_t engaged = 0;         // 1: the hand is armed and its forces count

@@ -13,7 +13,7 @@ namespace {
 constexpr double start_lateral = 1e-3;   // beside a facet, within which contact with it may begin [m]
 constexpr double outran_lateral = 5e-3;  // beside all facets, beyond which the patch says nothing [m]
 constexpr double force_rate =
-    100.0;  // most that moving planes change the force [N/s]: 0.1 N in a tick of 1 ms
+    80.0;  // most that moving planes change the force [N/s]: 0.08 N in a tick of 1 ms
 constexpr double inside_tolerance = 1e-6;  // [m]
 constexpr double crossed_tolerance =
     2e-4;                            // how far below a plane a proxy may be and still count as outside [m]
@@ -37,7 +37,12 @@ bool LocalContact::penetrated(const Vec3& x) const noexcept {
 Projection LocalContact::project(const Vec3& x) const noexcept {
   std::array<HalfSpace, most> spaces;
   for (std::size_t i = 0; i < n_; ++i) spaces[i] = planes_[i].half_space();
-  return project_out({spaces.data(), n_}, x);
+  // Planes that leave no room: the last ones to come are not minded. One alone always leaves some.
+  for (std::size_t n = n_; n > 1; --n) {
+    const Projection projection = project_out({spaces.data(), n}, x);
+    if (projection.feasible) return projection;
+  }
+  return project_out({spaces.data(), std::min<std::size_t>(n_, 1)}, x);
 }
 
 PlaneTarget LocalContact::target_of(const PatchFacet& facet, const Vec3& x) const noexcept {
@@ -81,7 +86,7 @@ void LocalContact::follow_others(const Vec3& x, const Vec3& proxy, const Project
     if (facet == no_facet || planes_[i].gap(x) > forget_gap ||
         same_side(planes_[i].normal(), planes_[0].normal()))
       continue;
-    planes_[i].follow(target_of(patch_.facets[facet], x), x, before.push[i], fraction, force_step, tank_);
+    planes_[i].follow(target_of(patch_.facets[facet], x), x, pressed(before, i), fraction, force_step, tank_);
     planes_[kept++] = planes_[i];
   }
   n_ = kept;
@@ -112,9 +117,9 @@ ContactResult LocalContact::felt(const Vec3& x, const Vec3& v) const noexcept {
   const Projection now = project(x);
   for (std::size_t i = 0; i < n_; ++i) {
     if (now.push[i] <= 0) continue;
-    // Damping never exceeds the spring, so that force starts from zero and never pulls.
+    // Damping is at most half the spring on the way in, so that force starts gently, and never pulls.
     const double spring = planes_[i].stiffness() * now.push[i];
-    const double damper = std::clamp(-damping_ * v.dot(planes_[i].normal()), -spring, spring);
+    const double damper = std::clamp(-damping_ * v.dot(planes_[i].normal()), -spring, 0.5 * spring);
     result.force += (spring + damper) * planes_[i].normal();
     result.stored += 0.5 * spring * now.push[i];
     result.n_planes += 1;
@@ -140,7 +145,7 @@ ContactResult LocalContact::tick(const Vec3& x, const Vec3& v, double dt) noexce
     if (patch_.n_facets > 0) approach(x, fraction, force_step);
   } else {
     const Vec3 proxy = x + spring / stiffness_;
-    outran = follow_first(x, proxy, before.push[0], fraction, force_step);
+    outran = follow_first(x, proxy, pressed(before, 0), fraction, force_step);
     follow_others(x, proxy, before, fraction, force_step);
     if (!outran) add_crossed(x, proxy);
   }

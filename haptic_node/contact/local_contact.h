@@ -12,8 +12,10 @@
 // Source: Astley & Hayward 1998 (Norton equivalents); Zilles & Salisbury 1995 (which facets count).
 // Deviation: Mendoza & Laugier let every plane with d < 0 push; beside a convex edge that is a ghost force.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include "common/message/messages.h"
 #include "common/scene/scene.h"
@@ -36,7 +38,10 @@ class LocalContact {
  public:
   /// @param stiffness  of the spring between hand and proxy, K [N/m]
   /// @param damping    B [N s/m]
-  LocalContact(double stiffness, double damping) noexcept : stiffness_(stiffness), damping_(damping) {}
+  /// @param limit      force beyond which springs do not push harder [N]; planes then do no more work than that
+  LocalContact(double stiffness, double damping,
+               double limit = std::numeric_limits<double>::infinity()) noexcept
+      : stiffness_(stiffness), damping_(damping), limit_(limit) {}
 
   /// A new patch; its planes are reached after about `period` seconds. It must have passed PatchWatch.
   void take(const ContactPatch& patch, double period) noexcept;
@@ -61,6 +66,10 @@ class LocalContact {
   static constexpr std::size_t most = 3;
 
   Projection project(const Vec3& x) const noexcept;
+  /// How far plane i is pressed, as far as its force goes [m].
+  double pressed(const Projection& at, std::size_t i) const noexcept {
+    return std::min(at.push[i], limit_ / planes_[i].stiffness());
+  }
   PlaneTarget target_of(const PatchFacet& facet, const Vec3& x) const noexcept;
   void approach(const Vec3& x, double fraction, double force_step) noexcept;
   bool follow_first(const Vec3& x, const Vec3& proxy, double pressed, double fraction,
@@ -72,6 +81,7 @@ class LocalContact {
 
   double stiffness_;
   double damping_;
+  double limit_;
   ContactPatch patch_{};
   double remaining_ = 0;  // until the planes of the patch are reached [s]
   std::array<TrackedPlane, most> planes_{};

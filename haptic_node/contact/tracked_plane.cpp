@@ -12,23 +12,24 @@ void TrackedPlane::place(const PlaneTarget& target, const Vec3& x) noexcept {
   stiffness_ = target.stiffness;
 }
 
-/// Toward `normal` by a fraction of the angle, at most by `most` [rad].
-void TrackedPlane::turn(const Vec3& normal, double fraction, double most) noexcept {
+/// Toward `normal` by a fraction of the angle, at most by `most` [rad]. @return by how much
+double TrackedPlane::turn(const Vec3& normal, double fraction, double most) noexcept {
   const double cosine = std::clamp(half_space_.normal.dot(normal), -1.0, 1.0);
   const double angle = std::acos(cosine);
   if (angle < 1e-9) {
     half_space_.normal = normal;
-    return;
+    return 0;
   }
-  if (angle > 3.1) return;  // opposite: no way round is better than another
+  if (angle > 3.1) return 0;  // opposite: no way round is better than another
   const Vec3 across = (normal - cosine * half_space_.normal).normalized();
   const double by = std::min(angle * fraction, most);
   half_space_.normal = (std::cos(by) * half_space_.normal + std::sin(by) * across).normalized();
+  return by;
 }
 
-/// A compressed spring that stiffens gains k'/2 d^2: the tank pays for it.
-void TrackedPlane::stiffen(double stiffness, double pressed, double fraction, double force_step,
-                           WorkTank& tank) noexcept {
+/// A compressed spring that stiffens gains k'/2 d^2: the tank pays for it. @return how much the force has changed [N]
+double TrackedPlane::stiffen(double stiffness, double pressed, double fraction, double force_step,
+                             WorkTank& tank) noexcept {
   double by = (stiffness - stiffness_) * fraction;
   if (pressed > 0) {
     by = std::clamp(by, -force_step / pressed, force_step / pressed);
@@ -37,6 +38,7 @@ void TrackedPlane::stiffen(double stiffness, double pressed, double fraction, do
     tank.book(by * half_square);
   }
   stiffness_ += by;
+  return std::abs(by) * pressed;
 }
 
 /// How far the plane moves along its normal [m].
@@ -63,9 +65,10 @@ void TrackedPlane::follow(const PlaneTarget& target, const Vec3& x, double press
   const double now = gap(x);
   const double force = stiffness_ * pressed;
   const double most_turn = force > 0 ? force_step / force : std::numeric_limits<double>::infinity();
-  turn(target.normal, fraction, most_turn);
-  stiffen(target.stiffness, pressed, fraction, force_step, tank);
-  const double moved = step(now, target.gap, pressed, fraction, force_step, tank);
+  force_step -= force * turn(target.normal, fraction, most_turn);
+  force_step = std::max(force_step, 0.0);
+  force_step -= stiffen(target.stiffness, pressed, fraction, force_step, tank);
+  const double moved = step(now, target.gap, pressed, fraction, std::max(force_step, 0.0), tank);
   half_space_.point = x - (now - moved) * half_space_.normal;
 }
 

@@ -37,8 +37,9 @@ class TrackedPlane {
   double stiffness() const noexcept { return stiffness_; }
 
  private:
-  void turn(const Vec3& normal, double fraction, double most) noexcept;
-  void stiffen(double stiffness, double pressed, double fraction, double force_step, WorkTank& tank) noexcept;
+  double turn(const Vec3& normal, double fraction, double most) noexcept;
+  double stiffen(double stiffness, double pressed, double fraction, double force_step,
+                 WorkTank& tank) noexcept;
   double step(double gap, double target_gap, double pressed, double fraction, double force_step,
               WorkTank& tank) const noexcept;
 

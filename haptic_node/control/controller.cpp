@@ -34,8 +34,9 @@ Controller::Controller(const ControllerSettings& settings) noexcept
     : settings_(settings),
       motion_(settings.period),
       patches_(settings.tool),
-      contact_(settings.stiffness, settings.damping),
-      guard_(settings.force_limit, settings.stiffness, settings.period) {}
+      contact_(settings.stiffness, settings.damping, settings.force_limit),
+      guard_(settings.force_limit, settings.stiffness, settings.period),
+      energy_(settings.resolution, settings.stiffness) {}
 
 /// Motors off at once; nothing is written to the device any more.
 ControllerOutput Controller::faulted(bool first) noexcept {
@@ -134,6 +135,17 @@ void Controller::step_state(std::int64_t now_ns, const DeviceSample& sample, boo
   }
 }
 
+/// What the springs may push with. A force that ends at the limit stores S (2 r - r^2), r = limit / F.
+Vec3 Controller::felt_force() noexcept {
+  const double force = felt_.force.norm(), limit = guard_.limit();
+  const double r = force > limit ? limit / force : 1.0;
+  const double applied = felt_.stored * (2 * r - r * r) * gain_ * stop_gain_;
+  const double share =
+      energy_.share(motion_.x(), settings_.period * motion_.v(), applied, contact_.plane_work());
+  stored_ = energy_.left();
+  return share * felt_.force;
+}
+
 ControllerOutput Controller::tick(std::int64_t now_ns, const DeviceSample& sample,
                                   const ContactPatch* patch) noexcept {
   if (state_ == HapticState::fault) return faulted(false);
@@ -163,7 +175,9 @@ ControllerOutput Controller::tick(std::int64_t now_ns, const DeviceSample& sampl
   if (stopping_) stop_gain_ = std::max(0.0, stop_gain_ - settings_.period / safe_ramp);
   const bool fading = state_ != HapticState::run || stopping_;
   ControllerOutput out;
-  out.force = guard_.pass(felt_.force, gain_ * stop_gain_, fading);
+  out.force = guard_.pass(felt_force(), gain_ * stop_gain_, fading);
+  energy_.sent(out.force);
+  out.reported = report_.pass(out.force, std::min(dt, stall));
   out.proxy = felt_.n_planes > 0 ? Vec3(motion_.x() + out.force / settings_.stiffness) : motion_.x();
   out.want_power = state_ == HapticState::armed;
   return out;

@@ -12,8 +12,10 @@
 #include "common/message/messages.h"
 #include "common/scene/scene.h"
 #include "haptic_node/contact/local_contact.h"
+#include "haptic_node/control/force_report.h"
 #include "haptic_node/control/motion_watch.h"
 #include "haptic_node/control/patch_watch.h"
+#include "haptic_node/safety/energy_limit.h"
 #include "haptic_node/safety/force_guard.h"
 
 namespace palpate::haptic {
@@ -27,14 +29,16 @@ struct ControllerSettings {
   double stiffness = 400;  // of the hand spring, in the world [N/m]
   double damping = 1;      // [N s/m]
   double force_limit = 3;  // in the world [N]
+  double resolution = 0;   // of a sample, in the world [m]
 };
 
 struct ControllerOutput {
-  Vec3 force = Vec3::Zero();  // on the hand [N]
-  Vec3 proxy = Vec3::Zero();  // [m]
-  bool write = true;          // false: the device is not to be written to any more
-  bool want_power = false;    // motors should be on
-  bool stop_motors = false;   // now, by the device's stop(); once
+  Vec3 force = Vec3::Zero();     // on the hand [N]
+  Vec3 reported = Vec3::Zero();  // the same for physics, low-passed [N]
+  Vec3 proxy = Vec3::Zero();     // [m]
+  bool write = true;             // false: the device is not to be written to any more
+  bool want_power = false;       // motors should be on
+  bool stop_motors = false;      // now, by the device's stop(); once
 };
 
 class Controller {
@@ -63,6 +67,10 @@ class Controller {
   const PatchWatch& patches() const noexcept { return patches_; }
   const ContactResult& contact() const noexcept { return felt_; }
   double plane_work() const noexcept { return contact_.plane_work(); }
+  /// In the springs as they are applied: limited, faded [J].
+  double stored() const noexcept { return stored_; }
+  /// Energy made out of nothing, as seen from the samples [J].
+  double surplus() const noexcept { return energy_.surplus(); }
   double force_limit() const noexcept { return guard_.limit(); }
   std::uint64_t contact_set() const noexcept { return contact_set_; }
 
@@ -79,13 +87,17 @@ class Controller {
   void step_ready(std::int64_t now_ns, const DeviceSample& sample) noexcept;
   void step_stale(std::int64_t now_ns, bool new_patch) noexcept;
   void step_safe() noexcept;
+  Vec3 felt_force() noexcept;
 
   ControllerSettings settings_;
   MotionWatch motion_;
   PatchWatch patches_;
   LocalContact contact_;
   ForceGuard guard_;
+  ForceReport report_;
+  EnergyLimit energy_;
   ContactResult felt_;
+  double stored_ = 0;
 
   HapticState state_ = HapticState::off;
   bool resume_inside_ = false;  // after a stall: planes start at the hand, no need to leave the tissue first

@@ -13,13 +13,15 @@ bool MotionWatch::believe(const DeviceSample& sample) noexcept {
   if (!ever_) {
     ever_ = true;
     x_ = sample.x;
-    t_ns_ = sample.t_ns;
+    t_ns_ = judged_ns_ = sample.t_ns;
     return true;
   }
   const double dt = seconds_from_ns(sample.t_ns - t_ns_);
   if (dt <= 0) return true;  // the same sample again
   const Vec3 moved = sample.x - x_;
-  if (moved.norm() > jump_speed * std::max(dt, period_)) return false;
+  const double since = seconds_from_ns(sample.t_ns - judged_ns_);
+  judged_ns_ = sample.t_ns;
+  if (moved.norm() > jump_speed * std::max(since, period_)) return false;
 
   // v += a (dx / dt - v), a = dt / (dt + 1 / (2 pi f)); after more than two missed ticks it begins anew
   if (dt > 3.5 * period_) v_.setZero();

@@ -45,7 +45,9 @@ class MotionWatch {
 
   double period_;
   bool ever_ = false;
-  std::int64_t t_ns_ = 0;
+  std::int64_t t_ns_ = 0;  // of the last believed
+  std::int64_t judged_ns_ =
+      0;  // of the last looked at that was finite: a hand that jumped for good is not let in later
   Vec3 x_ = Vec3::Zero();
   Vec3 v_ = Vec3::Zero();
   int jumps_ = 0;

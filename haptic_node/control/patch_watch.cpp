@@ -62,7 +62,8 @@ double PatchWatch::patience() const noexcept { return std::clamp(3.0 * period_, 
 
 double PatchWatch::gain(std::int64_t now_ns) const noexcept {
   if (!ever_) return 0.0;
-  return std::clamp(1.0 - (silence(now_ns) - patience()) / fade_time, 0.0, 1.0);
+  const double s = std::clamp((silence(now_ns) - patience()) / fade_time, 0.0, 1.0);
+  return 1.0 - s * s;
 }
 
 }  // namespace palpate::haptic

@@ -30,6 +30,7 @@ class Calibration {
   Vec3 force_to_world(const Vec3& f_d) const noexcept { return rotation_ * f_d / force_scale_; }
 
   const Eigen::Matrix3d& rotation() const noexcept { return rotation_; }
+  double scale() const noexcept { return scale_; }
   double force_scale() const noexcept { return force_scale_; }
   /// K_d = stiffness_gain() K_w
   double stiffness_gain() const noexcept { return force_scale_ * scale_; }

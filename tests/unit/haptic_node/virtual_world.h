@@ -83,10 +83,10 @@ struct VirtualWorld {
     run(seconds, patches_Hz, [] {});
   }
 
-  double fz() const { return session.tool_state().force_on_hand[2]; }
+  double fz() const { return session.trace().force[2]; }
   double z() const { return session.tool_state().p_WT[2]; }
   double force() const {
-    const Array3& f = session.tool_state().force_on_hand;
+    const Array3& f = session.trace().force;
     return std::sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
   }
 

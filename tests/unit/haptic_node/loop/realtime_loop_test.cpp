@@ -77,7 +77,7 @@ TEST(RealtimeLoop, EndsWithNoForceAndClosedDevices) {
   const auto begin = std::chrono::steady_clock::now();
   running.loop->finish();
   EXPECT_LT(std::chrono::steady_clock::now() - begin, 1s);
-  for (const double f : running.channels[0]->session.tool_state().force_on_hand) EXPECT_EQ(f, 0.0);
+  for (const double f : running.channels[0]->session.trace().force) EXPECT_EQ(f, 0.0);
   running.channels[0]->session.close();
   EXPECT_EQ(running.channels[0]->session.state(), HapticState::off);
 }

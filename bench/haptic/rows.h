@@ -1,0 +1,64 @@
+#pragma once
+// The acceptance rows of the haptic loop. Each runs its experiments, says its figure and whether it is within the limit.
+// docs/haptics.md has a table of them.
+
+#include <string>
+#include <vector>
+
+#include "bench/haptic/matrix.h"
+
+namespace palpate::bench {
+
+struct Row {
+  std::string id;      // "S2"
+  std::string what;    // was done
+  std::string limit;   // that it must keep
+  std::string figure;  // that came out
+  bool pass = false;
+};
+
+/// full: every case. quick: some of them, for tests.
+enum class Effort { quick, full };
+
+struct Runs {
+  Effort effort = Effort::full;
+  int jobs = 1;
+  std::vector<CaseResult> seen;  // all cases with the production controller so far, for S6
+  std::vector<CaseResult> raw;   // with raw planes
+};
+
+// rows_matrix.cpp
+Row direct_and_raw_are_unstable(Runs& runs);        // S0
+Row wall_is_stable(Runs& runs);                     // S1
+Row stiffest_wall(Runs& runs);                      // S1
+Row matrix_is_stable(Runs& runs);                   // S2
+Row push_without_a_hand_gains_nothing(Runs& runs);  // S2
+Row stiff_matrix_is_stable(Runs& runs);             // S3
+Row unruly_links_are_borne(Runs& runs);             // N1
+
+// rows_force.cpp
+Row force_is_true(Runs& runs);                // S4
+Row pulse_is_felt(Runs& runs);                // S5
+Row force_steps_are_small(const Runs& runs);  // S6
+Row free_space_is_free();                     // S10
+Row saturation_is_quiet(Runs& runs);          // S11
+
+// rows_events.cpp
+Row teleports_push_gently();    // S7
+Row silence_fades();            // F1
+Row return_is_no_kick();        // F2
+Row bad_devices_are_stopped();  // F5
+
+// rows_contact.cpp
+Row edges_and_corners();  // S8
+Row sphere_is_round();    // S8
+
+// rows_exact.cpp
+Row proxy_is_exact(const Runs& runs);        // S9
+Row calibration_is_exact(const Runs& runs);  // S13
+Row rubbish_is_harmless(const Runs& runs);   // F3
+
+/// All of them, in order.
+std::vector<Row> all_rows(Runs& runs);
+
+}  // namespace palpate::bench

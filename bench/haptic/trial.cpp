@@ -1,0 +1,147 @@
+#include "bench/haptic/trial.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palpate::bench {
+namespace {
+
+haptic::ControllerSettings settings_of(const Case& c) {
+  haptic::ControllerSettings settings;
+  settings.stiffness = c.stiffness;
+  settings.damping = c.damping;
+  settings.force_limit = c.device.force_limit;
+  settings.resolution = c.device.resolution;
+  return settings;
+}
+
+PlaneKind kind_of(RenderMode mode) { return mode == RenderMode::local ? PlaneKind::norton : PlaneKind::raw; }
+
+}  // namespace
+
+Trial::Trial(const Case& c, Path path)
+    : case_(c),
+      path_(std::move(path)),
+      plant_(c.device, c.hand, path_(0).q),
+      tissue_(c.object, kind_of(c.mode)),
+      settings_(settings_of(c)),
+      controller_(settings_),
+      motion_(settings_.period),
+      up_(c.link, 2 * c.seed),
+      down_(c.link, 2 * c.seed + 1),
+      now_ns_(start_ns - static_cast<std::int64_t>(lead_in * 1e9)),
+      next_frame_ns_(now_ns_) {
+  controller_.set_state(haptic::HapticState::ready);
+}
+
+/// Both directions of the link; physics frames.
+void Trial::exchange() {
+  up_.send(now_ns_, {rendered_.reported.z(), plant_.measured(), rendered_.proxy});
+  if (now_ns_ >= next_frame_ns_) {
+    next_frame_ns_ += static_cast<std::int64_t>(1e9 / case_.rate_Hz);
+    up_.receive(now_ns_, known_);
+    // Without a local model physics computes the force itself, from the last position that it knows.
+    if (case_.mode == RenderMode::direct)
+      known_.force =
+          std::clamp(case_.stiffness * (tissue_.surface() - known_.x.z()), 0.0, settings_.force_limit);
+    tissue_.take(known_.force);
+    if (physics_alive) {
+      Answer answer{tissue_.patch(++frame_), known_.force};
+      if (alter_patch) alter_patch(answer.patch, known_.proxy);
+      down_.send(now_ns_, answer);
+    }
+  }
+  Answer arrived;
+  if (down_.receive(now_ns_, arrived)) newest_ = arrived;
+}
+
+void Trial::render() {
+  haptic::DeviceSample sample;
+  sample.has_new = true;
+  sample.t_ns = now_ns_;
+  sample.x = plant_.measured();
+  sample.powered = powered_;
+  if (spoil_sample) spoil_sample(sample);
+  if (case_.mode == RenderMode::local) {
+    rendered_ = local_force(controller_, now_ns_, sample, newest_ ? &newest_->patch : nullptr);
+    powered_ = powered_ || rendered_.want_power;
+    return;
+  }
+  motion_.take(sample, now_ns_);
+  rendered_ = {};
+  if (!newest_) return;
+  if (case_.mode == RenderMode::raw_planes)
+    rendered_ = raw_plane_force(newest_->patch, motion_.x(), motion_.v(), settings_);
+  else
+    rendered_.force = {0, 0, newest_->force};
+}
+
+void Trial::book_force_step(const Vec3& force) {
+  const double by = (force - in_flight_[0]).norm();
+  force_step_ = std::max(force_step_, by);
+  step_beyond_ = std::max(
+      step_beyond_, by - case_.stiffness * (plant_.v().norm() * settings_.period + case_.device.resolution));
+}
+
+/// The force of `io_latency` ticks ago acts during this tick.
+void Trial::advance_plant() {
+  const Vec3 before = plant_.x();
+  const Vec3 acting = in_flight_[static_cast<std::size_t>(case_.io_latency)];
+  const double begin = t();
+  const int steps = static_cast<int>(std::lround(settings_.period / Plant::step));
+  for (int i = 0; i < steps; ++i) {
+    const double now = begin + i * Plant::step;
+    const Aim aim = path_(std::max(now, 0.0));
+    if (kinematic)
+      plant_.put(aim.q, now < 0 ? Vec3(Vec3::Zero()) : aim.q_dot);
+    else
+      plant_.advance(aim.q, now < 0 ? Vec3(Vec3::Zero()) : aim.q_dot, acting + push);
+    if (move_object) move_object(tissue_, now);
+    tissue_.advance(Plant::step);
+  }
+  energy_.moved(acting, plant_.x() - before);
+}
+
+void Trial::run(double until, const std::function<void()>& each) {
+  while (t() < until - 1e-9) {
+    exchange();
+    render();
+    book_force_step(rendered_.force);
+    in_flight_[2] = in_flight_[1];
+    in_flight_[1] = in_flight_[0];
+    in_flight_[0] = rendered_.force;
+    // The springs are known at the measured position; the port is booked at the true one.
+    const double stored = rendered_.stored - rendered_.force.dot(plant_.x() - plant_.measured());
+    energy_.tick(settings_.period, stored, rendered_.plane_work, rendered_.touching);
+    advance_plant();
+    now_ns_ += tick_ns;
+    if (each) each();
+  }
+}
+
+Path press_path(const Case& c, double force, double hold_until) {
+  const double object = c.object.mass > 0 ? c.object.stiffness : rigid_stiffness;
+  const double hand = c.hand.stiffness > 0 ? c.hand.stiffness : rigid_stiffness;
+  const double depth = force * (1 / c.stiffness + 1 / object + 1 / hand);
+  return [depth, hold_until](double t) {
+    constexpr double above = 0.02, down = 0.3, slide = 1.0, aside = 0.02;
+    const double retract = hold_until + slide;
+    Aim aim;
+    aim.q.z() = -depth;
+    if (t < down) {
+      aim.q.z() = above - (above + depth) * t / down;
+      aim.q_dot.z() = -(above + depth) / down;
+    } else if (t >= hold_until && t < retract) {
+      aim.q.x() = aside * (t - hold_until) / slide;
+      aim.q_dot.x() = aside / slide;
+    } else if (t >= retract) {
+      aim.q.x() = aside;
+      const double s = std::min((t - retract) / down, 1.0);
+      aim.q.z() = -depth + (above + depth) * s;
+      if (s < 1) aim.q_dot.z() = (above + depth) / down;
+    }
+    return aim;
+  };
+}
+
+}  // namespace palpate::bench

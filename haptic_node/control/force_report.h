@@ -1,0 +1,30 @@
+#pragma once
+// The force that physics is told the hand feels: low-passed, so that the swinging of soft tissue does not come back
+// as a force that swings it further. Physics low-passes once more, at 5 Hz; with that pole alone, a hand without friction
+// on 0.5 kg of tissue swings by 0.3 mm for ever, and with this one at 5 Hz it settles late.
+//
+//   R := R + (1 - e^(-2 pi f dt)) (F - R)
+
+#include <cmath>
+#include <numbers>
+
+#include "common/scene/scene.h"
+
+namespace palpate::haptic {
+
+class ForceReport {
+ public:
+  static constexpr double cutoff_Hz = 2.0;
+  static constexpr double negligible = 1e-6;  // [N]; below this no force is no force
+
+  const Vec3& pass(const Vec3& force, double dt) noexcept {
+    reported_ += (1 - std::exp(-2 * std::numbers::pi * cutoff_Hz * dt)) * (force - reported_);
+    if (force.isZero() && reported_.norm() < negligible) reported_.setZero();
+    return reported_;
+  }
+
+ private:
+  Vec3 reported_ = Vec3::Zero();
+};
+
+}  // namespace palpate::haptic

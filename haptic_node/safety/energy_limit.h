@@ -1,0 +1,82 @@
+#pragma once
+// Keeps the rendered springs from giving more than was put into them. A spring whose force is held for a tick and comes
+// a tick late gives K v^2 T (T/2 + T_io) too much each tick; a light handle that bounces collects that.
+//
+//   A = slack - (sum F_k . (x_{k+1} - x_k) - E_plane)       what the springs may still give,  E_plane work of planes
+//   F := F min(1, 2 A / S)                                  S the energy that they hold by their stretch
+//
+// While A >= S / 2 the springs are as they are; what was never put into them is missing at the end of the way out,
+// where the force goes gently. Pressed in again they harden again. Each contact starts with at least half the slack, so
+// that a surface never stays away.
+// Source: Hannaford & Ryu 2002 (passivity observer). Deviation: forces shrink instead of a damper being added, which
+// would be without bounds at rest.
+
+#include <algorithm>
+#include <array>
+
+#include "common/scene/scene.h"
+
+namespace palpate::haptic {
+
+class EnergyLimit {
+ public:
+  static constexpr double slack = 0.04e-3;   // [J]
+  static constexpr double credit = 0.04e-3;  // most that dissipation is remembered [J]
+
+  /// @param resolution  of the measured position, q [m]
+  /// @param stiffness   of the hand spring, K [N/m]
+  EnergyLimit(double resolution, double stiffness) noexcept
+      : resolution_(resolution), stiffness_(stiffness) {}
+
+  /// Once a tick, before the force of this tick is known.
+  /// @param x           the hand [m]; forces of two ticks ago acted on its way here, or newer ones, which gives less
+  /// @param coming      about how far it moves until the next tick [m]
+  /// @param stored      S, as it would be applied; 0 without contact [J]
+  /// @param plane_work  E_plane since the start [J]
+  /// @return what is left of the force, 0..1
+  double share(const Vec3& x, const Vec3& coming, double stored, double plane_work) noexcept {
+    const Vec3 moved = began_ ? Vec3(x - x_) : Vec3(Vec3::Zero());
+    given_ += forces_[1].dot(moved) - (plane_work - plane_work_);
+    // Each step q of a slow hand looks as if K q^2 / 2 had been made, on the way in and on the way out.
+    if (stored > 0 && moved.norm() < 1.5 * resolution_)
+      given_ -= 0.5 * stiffness_ * resolution_ * moved.norm();
+    began_ = true;
+    x_ = x;
+    plane_work_ = plane_work;
+    given_ = std::max(given_, -credit - stored);
+    if (stored <= 0) {
+      given_ = std::min(given_, 0.5 * slack);
+      left_ = 0;
+      return 1.0;
+    }
+    // What is on its way to the motors will be given before this tick's force acts.
+    const double on_its_way = std::max(0.0, (forces_[0] + forces_[1]).dot(coming));
+    const double may_give = std::max(0.0, slack - given_ - on_its_way);
+    left_ = std::min(stored, may_give);
+    return std::min(1.0, 2 * may_give / stored);
+  }
+
+  /// Of the stored energy, what may still be given [J].
+  double left() const noexcept { return left_; }
+
+  /// The force that goes to the device now.
+  void sent(const Vec3& force) noexcept {
+    forces_[1] = forces_[0];
+    forces_[0] = force;
+  }
+
+  /// Given and still to be given, less what planes did and what was dissipated [J].
+  double surplus() const noexcept { return given_ + left_; }
+
+ private:
+  double resolution_;
+  double stiffness_;
+  bool began_ = false;
+  Vec3 x_ = Vec3::Zero();
+  double plane_work_ = 0;
+  double given_ = 0;  // E_port - E_plane, kept above -(credit + S) [J]
+  double left_ = 0;
+  std::array<Vec3, 2> forces_{Vec3::Zero(), Vec3::Zero()};  // newest first
+};
+
+}  // namespace palpate::haptic

@@ -1,0 +1,76 @@
+// The acceptance rows of the haptic loop, with some of their cases: `palpate bench haptic` runs all. docs/haptics.md has
+// the figures.
+
+#include <gtest/gtest.h>
+
+#include "bench/haptic/rows.h"
+
+namespace palpate::bench {
+namespace {
+
+Runs quick() {
+  Runs runs;
+  runs.effort = Effort::quick;
+  return runs;
+}
+
+void expect(const Row& row) {
+  EXPECT_TRUE(row.pass) << row.id << ": " << row.what << "\n  limit: " << row.limit << "\n  " << row.figure;
+}
+
+using MatrixRow = Row (*)(Runs&);
+
+class InAMatrix : public ::testing::TestWithParam<std::pair<const char*, MatrixRow>> {};
+
+TEST_P(InAMatrix, KeepsItsLimitsAndItsForceSteps) {
+  Runs runs = quick();
+  expect(GetParam().second(runs));
+  if (!runs.seen.empty()) expect(force_steps_are_small(runs));
+}
+
+INSTANTIATE_TEST_SUITE_P(HapticLoop, InAMatrix,
+                         ::testing::Values(std::pair{"NegativeControls", &direct_and_raw_are_unstable},
+                                           std::pair{"StaticWall", &wall_is_stable},
+                                           std::pair{"StiffestWall", &stiffest_wall},
+                                           std::pair{"TissueThatYields", &matrix_is_stable},
+                                           std::pair{"NoHand", &push_without_a_hand_gains_nothing},
+                                           std::pair{"StiffHandSpring", &stiff_matrix_is_stable},
+                                           std::pair{"UnrulyLinks", &unruly_links_are_borne},
+                                           std::pair{"TrueForce", &force_is_true},
+                                           std::pair{"Pulse", &pulse_is_felt},
+                                           std::pair{"Saturation", &saturation_is_quiet}),
+                         [](const auto& which) { return std::string(which.param.first); });
+
+TEST(HapticLoop, PushesGentlyWhenPlanesTeleport) { expect(teleports_push_gently()); }
+TEST(HapticLoop, FeelsEdgesAndCornersAsTheyAre) { expect(edges_and_corners()); }
+TEST(HapticLoop, FeelsASphereAsRound) { expect(sphere_is_round()); }
+TEST(HapticLoop, IsFreeInFreeSpace) { expect(free_space_is_free()); }
+TEST(HapticLoop, FadesWhenPhysicsDies) { expect(silence_fades()); }
+TEST(HapticLoop, DoesNotKickWhenPhysicsReturns) { expect(return_is_no_kick()); }
+TEST(HapticLoop, StopsBadDevices) { expect(bad_devices_are_stopped()); }
+TEST(HapticLoop, HasAnExactProxy) { expect(proxy_is_exact(quick())); }
+TEST(HapticLoop, CalibratesExactly) { expect(calibration_is_exact(quick())); }
+TEST(HapticLoop, BearsRubbish) { expect(rubbish_is_harmless(quick())); }
+
+/// The harness must be able to see what is wrong: energy from a spring that comes two ticks late.
+TEST(HapticLoop, IsSeenToGainEnergyWithRawPlanes) {
+  Case c;
+  c.mode = RenderMode::raw_planes;
+  c.object = object_models[1];
+  const CaseResult r = run_case(c);
+  EXPECT_GT(r.surplus, EnergyBook::G_allowed);
+  EXPECT_GT(r.swing, 200e-6);
+}
+
+TEST(HapticLoop, GivesTheSameBitsForTheSameCase) {
+  Case c;
+  c.link.loss = 0.1;
+  c.link.jitter = 5e-3;
+  const CaseResult a = run_case(c), b = run_case(c);
+  EXPECT_EQ(a.force, b.force);
+  EXPECT_EQ(a.swing, b.swing);
+  EXPECT_EQ(a.surplus, b.surplus);
+}
+
+}  // namespace
+}  // namespace palpate::bench
