@@ -1,5 +1,7 @@
 #include "physics_node/collision/exchange.h"
 
+#include "physics_node/step/rebound.h"
+
 namespace palpate::physics {
 
 ExchangeReport exchange_velocities(const std::vector<ContactBody>& bodies, std::span<const NearPair> pairs,
@@ -16,10 +18,11 @@ ExchangeReport exchange_velocities(const std::vector<ContactBody>& bodies, std::
     const double v_n = (impulses.v(bodies, pair.other) - impulses.v(bodies, pair.mass)).dot(n);
     const double w = a.inverse_mass(pair.mass.n) + b.inverse_mass(pair.other.n);
     if (v_n >= 0 || w == 0) continue;
-    const double J = -(1 + e) * v_n / w;
+    const double v_move_n = (impulses.v_move(bodies, pair.other) - impulses.v_move(bodies, pair.mass)).dot(n);
+    const double J = rebound(e, v_n, v_move_n) / w;
     impulses.push(bodies, pair.mass, -J * n);
     impulses.push(bodies, pair.other, J * n);
-    report.lost += 0.5 * (1 - e * e) * v_n * v_n / w;
+    report.lost -= J * v_n + 0.5 * J * J * w;
     ++report.collisions;
   }
   return report;

@@ -13,7 +13,7 @@ struct ExchangeReport {
 };
 
 /// For each pair in order, with r = x_j - x_i, n = r / |r|, v_n = (v_j - v_i) . n:
-///   |r| < d and v_n < 0:  J = -(1 + e) v_n / (w_i + w_j),  v_i -= J w_i n,  v_j += J w_j n
+///   |r| < d and v_n < 0:  J = rebound(e, v_n) / (w_i + w_j),  v_i -= J w_i n,  v_j += J w_j n
 /// at the beginning of a step. Momentum and, with e = 1, kinetic energy are kept by every pair.
 /// Source: Wakamatsu & Honma 2011, collision of masses; EQUATIONS C-14.
 /// @param e  restitution

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "physics_node/collision/facet_now.h"
+#include "physics_node/step/rebound.h"
 
 namespace palpate::physics {
 namespace {
@@ -103,7 +104,7 @@ std::int64_t SweptContact::push_apart(const std::vector<ContactBody>& bodies, do
     if (v_n >= 0) continue;
     const double v_move_n = closing([&](PairEnd at) { return impulses.v_move(bodies, at); });
     if (a.distance + dt * v_move_n >= a.h) continue;
-    const double J = std::min(std::max(-(1 + e) * v_n, -v_move_n), -2 * v_n) / a.W;
+    const double J = rebound(e, v_n, v_move_n) / a.W;
     impulses.push(bodies, a.end[0], J * a.n);
     for (int i = 0; i < 3; ++i)
       if (a.weight[i] > 0)

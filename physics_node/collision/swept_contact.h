@@ -19,7 +19,7 @@ struct SweptReport {
 ///
 /// For each pair, with q the point of the facet nearest to mass p, weights w_k, d = |p - q|, n = (p - q) / d:
 ///   h = (edge + L) / (2 sqrt 3);  v_n = n . (v_p - sum w_k v_k);  W = 1/m_p + sum w_k^2 / m_k
-///   d + dt v_n < h and v_n < 0:   J = -(1 + e) v_n / W on p, -w_k J on the corners
+///   d + dt v_n < h and v_n < 0:   J = rebound(e, v_n) / W on p, -w_k J on the corners
 /// over all pairs in order, until none approaches or eight times. The force acts along the line between the two points, so
 /// momentum and angular momentum are kept.
 ///

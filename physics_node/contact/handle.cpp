@@ -25,7 +25,7 @@ HandleWork Handle::lead(MovingBody& moving, const Pose& pose, double dt) noexcep
     const Vec3 target = pose.p + R * (rest_[n] - tip_);
     const Vec3 dv = (target - x_[n]) / dt;  // on the velocity that moves the mass
     const Vec3 v = v_move_[n] + dv;
-    moving.push(cell_[n], dv, dt);
+    moving.push(cell_[n], dv, dt, true);
     const double m = mass_[n];
     sum.work += m * (dv.dot(v) + 0.5 * (v.squaredNorm() - v_0_[n].squaredNorm()) - (v - v_0_[n]).dot(v));
     sum.linear += m * dv;

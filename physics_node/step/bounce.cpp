@@ -1,12 +1,12 @@
 #include "physics_node/step/bounce.h"
 
 #include "physics_node/step/damper_impulse.h"
+#include "physics_node/step/rebound.h"
 
 namespace palpate::physics {
 template <class Real>
-Bounces bounce(const Body& body, LatticeState<Real>& state, const Three<Real>& moving,
-               const Three<Real>& before, const Plane& plane, double e, double dt,
-               MomentumAccount& momentum) noexcept {
+Bounces bounce(const Body& body, LatticeState<Real>& state, const Three<Real>& moving, Three<Real>* before,
+               const Plane& plane, double e, double dt, MomentumAccount& momentum) noexcept {
   Bounces sum;
   const bool verlet = state.v_half[0].size() > 0;
   for (std::size_t r = 0; r < body.lattice.rows.size(); ++r) {
@@ -23,29 +23,31 @@ Bounces bounce(const Body& body, LatticeState<Real>& state, const Three<Real>& m
       const Vec3 u = vector_of(state.u, cell);
       const Vec3 v_move = vector_of(moving, cell);
       if (rest + per_mass * i + plane.n.dot(u - dt * v_move) >= 0 || state.inverse_mass[c] == 0) continue;
-      const double v_n = 0.5 * plane.n.dot(v_move + vector_of(before, cell));
+      const double v_n =
+          plane.n.dot(before == nullptr ? v_move : Vec3(0.5 * (v_move + vector_of(*before, cell))));
       if (v_n >= 0) continue;
-      const double dv = -(1 + e) * v_n;
+      const double dv = rebound(e, v_n, plane.n.dot(v_move));
       state.ledger[r].viscous -= booked_too_much(body, state, cell, dv * plane.n, dt, verlet);
       for (std::size_t a = 0; a < 3; ++a) {
         const Real d = static_cast<Real>(dv * plane.n[static_cast<Eigen::Index>(a)]);
         state.v[a][c] += d;
         state.u[a][c] += static_cast<Real>(dt) * d;
         if (verlet) state.v_half[a][c] += d;
+        if (before != nullptr) (*before)[a][c] += d;
       }
       const double mass = 1 / static_cast<double>(state.inverse_mass[c]);
       const Vec3 J = mass * dv * plane.n;
       ++sum.masses;
       momentum.push(J, first + i * along + u - dt * v_move, dt);
-      sum.lost += 0.5 * mass * (1 - e * e) * v_n * v_n;
+      sum.lost -= mass * (dv * v_n + 0.5 * dv * dv);
     }
   }
   return sum;
 }
 
-template Bounces bounce(const Body&, LatticeState<float>&, const Three<float>&, const Three<float>&,
-                        const Plane&, double, double, MomentumAccount&) noexcept;
-template Bounces bounce(const Body&, LatticeState<double>&, const Three<double>&, const Three<double>&,
+template Bounces bounce(const Body&, LatticeState<float>&, const Three<float>&, Three<float>*, const Plane&,
+                        double, double, MomentumAccount&) noexcept;
+template Bounces bounce(const Body&, LatticeState<double>&, const Three<double>&, Three<double>*,
                         const Plane&, double, double, MomentumAccount&) noexcept;
 
 }  // namespace palpate::physics

@@ -71,7 +71,7 @@ class LatticeBody final : public MovingBody {
     return work;
   }
 
-  void push(Index cell, const Vec3& dv, double dt) noexcept override {
+  void push(Index cell, const Vec3& dv, double dt, bool led) noexcept override {
     if (implicit_) dt = 0;
     const auto c = static_cast<std::size_t>(cell);
     if (state_.inverse_mass[c] == 0) return;
@@ -79,12 +79,14 @@ class LatticeBody final : public MovingBody {
     const bool verlet = state_.v_half[0].size() > 0;
     momentum_.push(dv / static_cast<double>(state_.inverse_mass[c]), position(cell) - dt * vector_of(moving_velocity(), cell),
                    dt);
-    if (dt > 0) state_.ledger[static_cast<std::size_t>(body_.lattice.row_of(cell))].viscous -= booked_too_much(body_, state_, cell, dv, dt, verlet);
+    if (dt > 0 && !led) state_.ledger[static_cast<std::size_t>(body_.lattice.row_of(cell))].viscous -= booked_too_much(body_, state_, cell, dv, dt, verlet);
     for (std::size_t a = 0; a < 3; ++a) {
       const double d = dv[static_cast<Eigen::Index>(a)];
       state_.v[a][c] += static_cast<Real>(d);
       state_.u[a][c] += static_cast<Real>(dt * d);
       if (verlet) state_.v_half[a][c] += static_cast<Real>(d);
+      // The impulse acts before the elements do: who reads the mean of this and the velocity after them finds all of it.
+      if (v_before_[a].size() > 0) v_before_[a][c] += static_cast<Real>(d);
     }
   }
 
@@ -103,8 +105,8 @@ class LatticeBody final : public MovingBody {
   }
 
   Bounces bounce_off(const Plane& plane, double e, double dt) noexcept override {
-    if (implicit_) return bounce(body_, state_, state_.v, state_.v, plane, e, 0, momentum_);
-    return bounce(body_, state_, moving_velocity(), v_before_, plane, e, dt, momentum_);
+    if (implicit_) return bounce<Real>(body_, state_, state_.v, nullptr, plane, e, 0, momentum_);
+    return bounce(body_, state_, moving_velocity(), &v_before_, plane, e, dt, momentum_);
   }
 
   void sleep_and_wake(double frame_seconds) noexcept override { sleep_.look(body_, state_, frame_seconds); }

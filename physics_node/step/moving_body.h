@@ -85,7 +85,8 @@ class MovingBody {
   /// An impulse at the beginning of the step just integrated: adds dv to the velocity of a mass and dt dv to its place. A held
   /// mass stays; a sleeping one wakes. With backward_euler, whose step is solved as a whole, contact acts at its end instead:
   /// an impulse changes the velocity only, and read() and bounce_off() tell of the end.
-  virtual void push(Index cell, const Vec3& dv, double dt) noexcept = 0;
+  /// @param led  a hand leads the mass along a smooth path: dv takes back what the elements did, and dampers see no jump
+  virtual void push(Index cell, const Vec3& dv, double dt, bool led = false) noexcept = 0;
   /// Masses that were behind the plane when the step began, and approached it, are reflected: v_n := -e v_n.
   /// @return how many, and the kinetic energy that the plane took
   virtual Bounces bounce_off(const Plane& plane, double e, double dt) noexcept = 0;
