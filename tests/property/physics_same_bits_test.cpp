@@ -4,6 +4,7 @@
 
 #include <cstring>
 
+#include "common/scene/load_scene.h"
 #include "physics_node/step/element_context.h"
 #include "physics_node/world.h"
 #include "tests/support/physics/pressed_world.h"
@@ -188,6 +189,31 @@ void compare_every_kernel(double of_sse2) {
     }
   testing::Test::RecordProperty("avx2", wide ? 1 : 0);
   testing::Test::RecordProperty("avx512", widest ? 1 : 0);
+}
+
+/// Two balls that break each other, and what becomes of their pieces.
+std::uint64_t hash_of_crash(int threads, const char* distance) {
+  World world(parse_scene(
+      "gravity_m_per_s2 = [0, 0, -9.81]\n[floor]\nheight_mm = -80\n[physics]\nthreads = " +
+          std::to_string(threads) + "\n[contact]\ndistance = \"" + distance +
+          "\"\n[[body]]\nname = \"a\"\nshape = \"sphere\"\nradius_mm = 40\nspacing_mm = 10\nmaterial = "
+          "\"m\"\n"
+          "[[body]]\nname = \"b\"\nshape = \"sphere\"\nradius_mm = 40\nspacing_mm = 9\nmaterial = \"m\"\n"
+          "at_mm = [5, 3, 92]\nvelocity_m_per_s = [0, 0, -4]\n"
+          "[material.m]\nmass_g = 1\nk1_N_per_m = 500\nviscosity_N_s_per_m = 0.1\nyield_ratio = "
+          "1.03\nbreak_ratio = 1.08\n",
+      "crash.toml"));
+  while (world.t() < 0.06) world.frame({});
+  EXPECT_GT(world.body(0).breaks(), 20);
+  EXPECT_GT(world.collisions()->tally().collisions, 100);
+  return world.state_hash();
+}
+
+TEST(SameBits, OnAnyNumberOfThreadsInContact) {
+  for (const char* distance : {"paper", "swept"}) {
+    const auto one = hash_of_crash(1, distance);
+    for (const int threads : {2, 3}) EXPECT_EQ(hash_of_crash(threads, distance), one) << distance;
+  }
 }
 
 TEST(SameBits, FromEveryInstructionSetThatFuses) {

@@ -13,7 +13,7 @@ constexpr double fastest = 100;  // [m/s]
 TEST(Tunnelling, NoSurfaceMassGoesThroughAFacetInSweptContact) {
   std::random_device device;
   std::int64_t collisions = 0;
-  for (int n = 0; n < 60; ++n) {
+  for (int n = 0; n < 40; ++n) {
     const Shot shot = random_shot(device(), fastest, ContactDistance::swept);
     SCOPED_TRACE("palpate bench shots --seed " + std::to_string(shot.seed));
     const ShotResult result = run_shot(shot);
