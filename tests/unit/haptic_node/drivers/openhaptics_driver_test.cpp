@@ -274,10 +274,10 @@ TEST_F(OpenHaptics, IsFeltThroughAScene) {
   scene.tools[0].damping = 0;
   scene.devices[0].driver = "openhaptics";
   scene.devices[0].options = {{"library", STUB_HD}};
-  VirtualWorld world(scene);
   auto& device = hd.device(0);
+  device.transform[14] = 5;  // before the node looks: a hand that jumps by 5 mm is a fault
+  VirtualWorld world(scene);
   double largest = 0;
-  device.transform[14] = 5;
   world.run(1.5, 500, [&] {
     if (world.session.state() == HapticState::run)
       device.transform[14] = std::max(device.transform[14] - 0.02, -2.0);  // 20 mm/s down to 2 mm deep

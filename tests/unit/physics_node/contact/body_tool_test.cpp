@@ -20,7 +20,7 @@ Scene plate_and_ball(const std::string& ball_velocity) {
           "material = \"steel\"\ndevice = \"hand\"\nset_point_mm = [20, 0, 40]\n"
           "[material.m]\nmass_g = 1\nk1_N_per_m = 500\n"
           "[material.steel]\nmass_g = 10\nk1_N_per_m = 20000\n"
-          "[device.hand]\ndriver = \"simulated\"\n",
+          "[device.hand]\ndriver = \"simulated\"\nwaypoints = [[0, 0, 0, 0], [1, 0, 0, 0]]\n",
       "plate.toml");
 }
 
