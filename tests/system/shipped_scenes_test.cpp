@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <sstream>
+
 #include "common/report/json_file.h"
 #include "tests/system/command_run.h"
 
@@ -46,6 +50,23 @@ TEST_F(ShippedScenes, AneurysmOfAMadeAngiogramIsPressed) {
   const auto summary = simulate("aneurysm", "--seconds 0.7 --set body.vessels.file=" + file);
   EXPECT_GT(summary["tools"]["tip"]["force_peak"].get<double>(), 0.01);
   EXPECT_LT(summary["bodies"]["vessels"]["masses"].get<int>(), 10000);
+}
+
+TEST_F(ShippedScenes, ALumpIsFelt) {
+  simulate("inclusion", "--seconds 6");
+  // Held 2 mm deep beside the lump at 2.4 s, over it at 5.9 s.
+  std::ifstream in(folder / "inclusion" / "tool_tip.csv");
+  double beside = 0, over = 0;
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream words(line);
+    std::array<double, 7> x{};
+    char comma = 0;
+    for (double& value : x) words >> value >> comma;
+    if (std::abs(x[0] - 2.4) < 1e-6) beside = x[6];
+    if (std::abs(x[0] - 5.9) < 1e-6) over = x[6];
+  }
+  EXPECT_GT(beside, 0.1);
+  EXPECT_GT(over, 1.23 * beside);
 }
 
 TEST_F(ShippedScenes, WithAStepFarTooLongEndWithADiagnosis) {
