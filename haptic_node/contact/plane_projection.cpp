@@ -6,24 +6,45 @@
 namespace palpate::haptic {
 namespace {
 
-constexpr double feasible_tolerance = 1e-13;  // [m]
-constexpr double rank_tolerance = 1e-12;      // of det(N^T N), between 0 and 1 for unit normals
+constexpr double feasible_tolerance = 1e-13;                   // [m]
+constexpr double clear_determinant = 1e-4, clear_pull = 1e-6;  // rounding is far below, so well-conditioned
+constexpr double rank_tolerance = 1e-12;  // of det(N^T N), between 0 and 1 for unit normals
 
-/// Tries the `Count` planes in `index` as the active set: lambda = (N^T N)^-1 d, d_i the depth of x below plane i.
+/// What the active sets share: n_i . n_j and the depth of x below plane i.
+struct Products {
+  std::array<std::array<double, max_planes>, max_planes> gram{};
+  std::array<double, max_planes> depth{};
+
+  Products(std::span<const HalfSpace> planes, const Vec3& x) noexcept {
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+      depth[i] = planes[i].normal.dot(planes[i].point - x);
+      for (std::size_t j = 0; j <= i; ++j) gram[i][j] = gram[j][i] = planes[i].normal.dot(planes[j].normal);
+    }
+  }
+};
+
+/// Tries the `Count` planes in `index` as the active set: lambda = (N^T N)^-1 d.
 template <int Count>
-bool try_active(std::span<const HalfSpace> planes, const std::array<std::size_t, 3>& index, const Vec3& x,
-                Projection& result) noexcept {
-  Eigen::Matrix<double, 3, Count> normals;
+bool try_active(std::span<const HalfSpace> planes, const Products& of,
+                const std::array<std::size_t, 3>& index, const Vec3& x, Projection& result) noexcept {
+  Eigen::Matrix<double, Count, Count> gram;
   Eigen::Matrix<double, Count, 1> depth;
   for (int i = 0; i < Count; ++i) {
-    const HalfSpace& plane = planes[index[static_cast<std::size_t>(i)]];
-    normals.col(i) = plane.normal;
-    depth(i) = plane.normal.dot(plane.point - x);
+    const std::size_t a = index[static_cast<std::size_t>(i)];
+    depth(i) = of.depth[a];
+    for (int j = 0; j < Count; ++j) gram(i, j) = of.gram[a][index[static_cast<std::size_t>(j)]];
   }
-  const Eigen::Matrix<double, Count, Count> gram = normals.transpose() * normals;
-  if (!(gram.determinant() > rank_tolerance)) return false;
-  const Eigen::Matrix<double, Count, Count> inverse = gram.inverse();
+  Eigen::Matrix<double, Count, Count> inverse;
+  double determinant = 0;
+  bool independent = false;
+  gram.computeInverseAndDetWithCheck(inverse, determinant, independent, rank_tolerance);
+  if (!independent || !(determinant > 0)) return false;
   Eigen::Matrix<double, Count, 1> lambda = inverse * depth;
+  // Most sets end here: clearly one that pulls, which no refinement changes.
+  if (determinant > clear_determinant && lambda.minCoeff() < -clear_pull * lambda.cwiseAbs().maxCoeff())
+    return false;
+  Eigen::Matrix<double, 3, Count> normals;
+  for (int i = 0; i < Count; ++i) normals.col(i) = planes[index[static_cast<std::size_t>(i)]].normal;
   lambda +=
       inverse * (depth - normals.transpose() * (normals * lambda));  // one refinement: N^T N squares errors
   if (!(lambda.minCoeff() >= 0)) return false;
@@ -50,15 +71,16 @@ Projection project_out(std::span<const HalfSpace> planes, const Vec3& x) noexcep
   result.point = x;
   if (is_free(planes, x)) return result;
   const std::size_t m = planes.size();
+  const Products products(planes, x);
   for (std::size_t i = 0; i < m; ++i)
-    if (try_active<1>(planes, {i, 0, 0}, x, result)) return result;
+    if (try_active<1>(planes, products, {i, 0, 0}, x, result)) return result;
   for (std::size_t i = 0; i < m; ++i)
     for (std::size_t j = i + 1; j < m; ++j)
-      if (try_active<2>(planes, {i, j, 0}, x, result)) return result;
+      if (try_active<2>(planes, products, {i, j, 0}, x, result)) return result;
   for (std::size_t i = 0; i < m; ++i)
     for (std::size_t j = i + 1; j < m; ++j)
       for (std::size_t k = j + 1; k < m; ++k)
-        if (try_active<3>(planes, {i, j, k}, x, result)) return result;
+        if (try_active<3>(planes, products, {i, j, k}, x, result)) return result;
   result.feasible = false;
   return result;
 }
