@@ -44,8 +44,7 @@ World::World(const Scene& scene) : scene_(scene) {
     n_masses += body.lattice.n_masses();
     any_yields_ = any_yields_ || any_yields(body);
     const Lattice& lattice = body.lattice;
-    const double bucket =
-        4 * lattice.spacing();
+    const double bucket = 4 * lattice.spacing();
     bodies_.push_back(make_moving_body(std::move(body), scene.physics.precision, integrator));
     fragments_.push_back(any_yields(bodies_.back()->body()) ? std::make_unique<Fragments>(*bodies_.back()) : nullptr);
     touchable_.push_back({bodies_.back().get(), std::make_unique<ContactSurface>(*bodies_.back(), bucket)});

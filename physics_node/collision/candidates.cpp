@@ -57,9 +57,9 @@ Candidates::Candidates(const MovingBody& moving, bool with_front)
   restart();
 }
 
-bool Candidates::add(Index cell) noexcept {
+void Candidates::add(Index cell) noexcept {
   std::int32_t& number = number_[static_cast<std::size_t>(cell)];
-  if (number >= 0 || cell_.size() == most_) return false;
+  if (number >= 0 || cell_.size() == most_) return;
   const Body& body = moving_->body();
   number = static_cast<std::int32_t>(cell_.size());
   cell_.push_back(cell);
@@ -70,7 +70,6 @@ bool Candidates::add(Index cell) noexcept {
   last_x_.emplace_back(Vec3::Zero());
   v_.emplace_back(Vec3::Zero());
   v_move_.emplace_back(Vec3::Zero());
-  return true;
 }
 
 void Candidates::restart() noexcept {
@@ -85,25 +84,19 @@ void Candidates::restart() noexcept {
     if (moving_->mask(cell) != lattice.mask[static_cast<std::size_t>(cell)]) add_front(cell);
 }
 
-std::size_t Candidates::add_front(Index cell) noexcept {
+void Candidates::add_front(Index cell) noexcept {
   const Lattice& lattice = moving_->body().lattice;
   const auto& offset = lattice.offset[static_cast<std::size_t>(lattice.row_kind(cell))];
-  std::size_t fresh = 0;
   for (Mask mask = moving_->mask(cell); mask != 0; mask &= mask - 1)
-    fresh += add(cell + offset[static_cast<std::size_t>(std::countr_zero(mask))]) ? 1U : 0U;
-  return fresh;
+    add(cell + offset[static_cast<std::size_t>(std::countr_zero(mask))]);
 }
 
-std::size_t Candidates::follow(std::span<const Break> breaks) noexcept {
-  std::size_t fresh = 0;
+void Candidates::follow(std::span<const Break> breaks) noexcept {
   for (const Break& b : breaks) {
-    fresh += (add(b.first) ? 1U : 0U) + (add(b.other) ? 1U : 0U);
-    if (with_front_) fresh += add_front(b.first) + add_front(b.other);
+    add(b.first), add(b.other);
+    if (with_front_) add_front(b.first), add_front(b.other);
   }
-  return fresh;
 }
-
-bool Candidates::refresh(double dt) noexcept { return refresh(dt, {all_.data(), cell_.size()}); }
 
 bool Candidates::refresh(double dt, std::span<const std::uint32_t> which) noexcept {
   for (const std::uint32_t n : which) last_x_[n] = x_[n];

@@ -19,14 +19,14 @@ class Candidates {
 
   /// Finds them anew: after a reset, or when elements came back.
   void restart() noexcept;
-  /// Takes the ends of elements that broke. @return masses that are new
-  std::size_t follow(std::span<const Break> breaks) noexcept;
+  /// Takes the ends of elements that broke.
+  void follow(std::span<const Break> breaks) noexcept;
 
   /// Reads where they were when the step of dt just integrated began, and how fast; with dt = 0 where they are now.
+  /// @param which  of them; the others stay as they were last read
   /// @return false: some number is not finite
-  bool refresh(double dt) noexcept;
-  /// The same for these only; the others stay as they were last read.
   bool refresh(double dt, std::span<const std::uint32_t> which) noexcept;
+  std::span<const std::uint32_t> all() const { return {all_.data(), cell_.size()}; }
   /// How far one of them moved at most between the last two readings [m].
   double moved() const { return moved_; }
 
@@ -51,8 +51,8 @@ class Candidates {
  private:
   /// @param live  its elements
   bool is_candidate(Index cell, Mask live) const;
-  bool add(Index cell) noexcept;
-  std::size_t add_front(Index cell) noexcept;
+  void add(Index cell) noexcept;
+  void add_front(Index cell) noexcept;
 
   const MovingBody* moving_;
   double length_ = 0;

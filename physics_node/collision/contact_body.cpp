@@ -43,20 +43,11 @@ bool ContactBody::may_meet_itself(std::size_t candidate) const noexcept {
          moving().mask(cell) != moving().body().lattice.mask[static_cast<std::size_t>(cell)];
 }
 
-bool ContactBody::refresh(double dt) noexcept {
-  const bool finite = candidates_.refresh(dt);
-  speed_ = 0;
-  for (const Vec3& v : candidates_.v_move()) speed_ = std::max(speed_, v.squaredNorm());
-  speed_ = std::sqrt(speed_);
-  moved_ += candidates_.moved();
-  return finite;
-}
-
-bool ContactBody::refresh_listed(double dt) noexcept {
-  const bool finite = candidates_.refresh(dt, listed_);
-  speed_ = 0;
-  for (const std::uint32_t n : listed_) speed_ = std::max(speed_, candidates_.v_move()[n].squaredNorm());
-  speed_ = std::sqrt(speed_);
+bool ContactBody::read(double dt, std::span<const std::uint32_t> which) noexcept {
+  const bool finite = candidates_.refresh(dt, which);
+  double most = 0;
+  for (const std::uint32_t n : which) most = std::max(most, candidates_.v_move()[n].squaredNorm());
+  speed_ = std::sqrt(most);
   moved_ += candidates_.moved();
   return finite;
 }

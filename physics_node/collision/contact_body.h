@@ -21,10 +21,10 @@ class ContactBody {
   void follow_breaks() noexcept;
   /// Finds everything anew.
   void restart() noexcept;
-  /// As Candidates::refresh().
-  bool refresh(double dt) noexcept;
+  /// As Candidates::refresh(), of all.
+  bool refresh(double dt) noexcept { return read(dt, candidates_.all()); }
   /// The same of those that are in a list of pairs; what speed() and moved() tell is then of these.
-  bool refresh_listed(double dt) noexcept;
+  bool refresh_listed(double dt) noexcept { return read(dt, listed_); }
   void clear_listed() noexcept;
   void list(std::uint32_t candidate) noexcept;
   /// Of the fastest candidate when last refreshed [m/s].
@@ -49,6 +49,7 @@ class ContactBody {
   const MovingBody& moving() const { return candidates_.moving(); }
 
  private:
+  bool read(double dt, std::span<const std::uint32_t> which) noexcept;
   void find_main_piece() noexcept;
 
   Candidates candidates_;
