@@ -136,6 +136,7 @@ void HapticSession::fill_messages(std::int64_t now, const ControllerOutput& out)
   }
   tool_state_.proxy = array(out.proxy);
   tool_state_.force_on_hand = array(out.reported);
+  tool_state_.force_now = array(out.force);
   tool_state_.contact_set = controller_.contact_set();
   tool_state_.buttons = raw_.buttons;
   tool_state_.engaged = controller_.engaged() ? 1u : 0u;

@@ -14,7 +14,7 @@ using Array3 = std::array<double, 3>;
 using Array4 = std::array<double, 4>;
 using Array3f = std::array<float, 3>;
 
-inline constexpr std::uint32_t wire_version = 2;  // a reader rejects every other version
+inline constexpr std::uint32_t wire_version = 3;  // a reader rejects every other version
 
 inline constexpr std::uint32_t max_tools = 8;
 inline constexpr std::uint32_t max_bodies = 64;
@@ -38,6 +38,8 @@ struct ToolState {
   Array3 w_WT{};                     // angular velocity [rad/s]
   Array3 proxy{};                    // where the proxy rests: the tip if nothing is touched [m]
   Array3 force_on_hand{};            // force that the device applies to the hand, low-passed at 2 Hz; HapticTrace has it as it is [N]
+  Array3 force_now{};                // the same as it is in this tick [N]
+  Array3 torque_now{};               // about the tip, as it is in this tick [N m]
   std::uint64_t contact_set = 0;     // contact_set of the patch that this force was computed from; 0 none
   std::uint32_t buttons = 0;         // bit i: button i pressed
   std::uint32_t engaged = 0;         // 1: the hand is armed and its forces count
@@ -68,16 +70,21 @@ struct ContactPatch {
   std::array<PatchFacet, max_patch_facets> facets{};
 };
 
-/// physics -> haptic, render. What the tissue does to a tool.
+/// physics -> haptic, render. What the tissue does to a tool, and how that changes with the pose of the hand:
+///   (F, M)(p, q) = (F, M) - stiffness (p - p_WT, rotation vector from q_WT to q),   F and M about set_point
 struct ToolWrench {
   std::uint32_t tool = 0;
   std::uint64_t tick = 0;
   std::int64_t stamp_ns = 0;
+  std::uint64_t answers = 0;             // as in ContactPatch
+  std::int64_t answers_ns = 0;
   double t = 0;                          // simulated time [s]
+  Array3 p_WT{};                         // pose of the hand to which force and moment belong: its tip [m]
+  Array4 q_WT{1, 0, 0, 0};               // attitude, unit
   Array3 force{};                        // on the tool [N]
   Array3 moment{};                       // on the tool, about set_point [N m]
   Array3 set_point{};                    // [m]
-  std::array<double, 36> stiffness{};    // local 6x6, row major [N/m, N, N m/rad]; all zero: not computed
+  std::array<double, 36> stiffness{};    // local 6x6, symmetric, row major [N/m, N, N m/rad]; zero: not computed
   std::uint32_t n_contacts = 0;          // colliding masses
 };
 
@@ -128,6 +135,7 @@ struct TraceSample {
   Array3 p{};              // tip [m]
   Array3 proxy{};          // [m]
   Array3 force{};          // on the hand [N]
+  Array3 torque{};         // on the hand, about the tip [N m]
   double energy = 0;       // given to the hand so far through the device port [J]
 };
 struct HapticTrace {
@@ -137,6 +145,17 @@ struct HapticTrace {
   std::array<TraceSample, max_trace_samples> samples{};
 };
 
+/// render -> haptic. Where a person points with mouse and keys: the tip of a tool in the world, for the driver `mouse`.
+struct Pointer {
+  std::uint32_t tool = 0;
+  std::uint64_t tick = 0;      // counts samples
+  std::int64_t stamp_ns = 0;   // writer's CLOCK_MONOTONIC
+  Array3 p_W{};                // [m]
+  Array4 q_W{1, 0, 0, 0};      // attitude of the tool, unit
+  std::uint32_t buttons = 0;   // bit i: button i pressed
+  std::uint32_t held = 0;      // 1: the person moves the tool; 0: let go
+};
+
 enum class CommandKind : std::uint32_t { pause, resume, reset, threshold, record, material, device, stop };
 inline constexpr std::uint32_t n_command_kinds = 8;
 
@@ -144,8 +163,8 @@ inline constexpr std::uint32_t n_command_kinds = 8;
 struct Command {
   std::uint64_t id = 0;             // grows per writer; a repeated id is ignored
   CommandKind kind = CommandKind::pause;
-  double value = 0;                 // threshold: intensity; record: 0 or 1
-  std::array<char, 64> name{};      // material or device it is about
+  double value = 0;                 // threshold: intensity; record: 0 or 1; device: 1 ends a fault
+  std::array<char, 64> name{};      // material, or tool whose device it is about
 };
 
 enum class NodeKind : std::uint32_t { physics, haptic, render, supervisor };
@@ -172,6 +191,9 @@ struct NodeStatus {
   std::uint64_t samples_lost = 0;       // gaps in the writers' ticks
   std::array<std::uint64_t, n_tallies> rejected{};
   std::uint32_t warnings = 0;
+  double energy_J = 0;                  // haptic only: given to the hand so far, of the tool that got most
+  double surplus_J = 0;                 // haptic only: of that, made out of nothing, now; above 0.1 mJ is not passive
+  std::uint32_t stale_events = 0, safe_events = 0, faults = 0;  // haptic only: since the start, over all tools
   std::array<std::uint64_t, histogram_bins> lateness{};  // wake-up lateness since the start
   std::array<char, 128> note{};         // what a person should know now
 };

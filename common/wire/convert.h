@@ -21,6 +21,7 @@ Verdict judge(const palpate_wire_ToolWrench& wire) noexcept;
 Verdict judge(const palpate_wire_BodySurface& wire) noexcept;
 Verdict judge(const palpate_wire_VertexBlock& wire) noexcept;
 Verdict judge(const palpate_wire_HapticTrace& wire) noexcept;
+Verdict judge(const palpate_wire_Pointer& wire) noexcept;
 Verdict judge(const palpate_wire_Command& wire) noexcept;
 Verdict judge(const palpate_wire_NodeStatus& wire) noexcept;
 
@@ -32,6 +33,7 @@ Verdict from_wire(const palpate_wire_ToolWrench& wire, ToolWrench& message) noex
 Verdict from_wire(const palpate_wire_BodySurface& wire, BodySurface& message) noexcept;
 Verdict from_wire(const palpate_wire_VertexBlock& wire, VertexBlock& message) noexcept;
 Verdict from_wire(const palpate_wire_HapticTrace& wire, HapticTrace& message) noexcept;
+Verdict from_wire(const palpate_wire_Pointer& wire, Pointer& message) noexcept;
 Verdict from_wire(const palpate_wire_Command& wire, Command& message) noexcept;
 Verdict from_wire(const palpate_wire_NodeStatus& wire, NodeStatus& message) noexcept;
 
@@ -42,6 +44,7 @@ void to_wire(const ToolWrench& message, palpate_wire_ToolWrench& wire) noexcept;
 void to_wire(const BodySurface& message, palpate_wire_BodySurface& wire) noexcept;
 void to_wire(const VertexBlock& message, palpate_wire_VertexBlock& wire) noexcept;
 void to_wire(const HapticTrace& message, palpate_wire_HapticTrace& wire) noexcept;
+void to_wire(const Pointer& message, palpate_wire_Pointer& wire) noexcept;
 void to_wire(const Command& message, palpate_wire_Command& wire) noexcept;
 void to_wire(const NodeStatus& message, palpate_wire_NodeStatus& wire) noexcept;
 

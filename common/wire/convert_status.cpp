@@ -35,7 +35,7 @@ Verdict judge(const palpate_wire_NodeStatus& wire) noexcept {
   if (wire.node >= n_node_kinds) return RejectReason::unknown_id;
   if (wire.phase >= n_node_phases) return RejectReason::out_of_range;
   if (!finite(wire.t) || !finite(wire.rate_Hz) || !finite(wire.real_time_factor) ||
-      !finite(wire.loop_age_ms_p50)) {
+      !finite(wire.loop_age_ms_p50) || !finite(wire.energy_J) || !finite(wire.surplus_J)) {
     return RejectReason::not_finite;
   }
   if (wire.t < 0 || wire.rate_Hz < 0 || wire.real_time_factor < 0 || wire.loop_age_ms_p50 < 0) {
@@ -61,6 +61,11 @@ Verdict from_wire(const palpate_wire_NodeStatus& wire, NodeStatus& message) noex
   message.samples_lost = wire.samples_lost;
   copy(wire.rejected, message.rejected);
   message.warnings = wire.warnings;
+  message.energy_J = wire.energy_J;
+  message.surplus_J = wire.surplus_J;
+  message.stale_events = wire.stale_events;
+  message.safe_events = wire.safe_events;
+  message.faults = wire.faults;
   copy(wire.lateness, message.lateness);
   copy(wire.note, message.note);
   return {};
@@ -82,6 +87,11 @@ void to_wire(const NodeStatus& message, palpate_wire_NodeStatus& wire) noexcept 
   wire.samples_lost = message.samples_lost;
   copy(message.rejected, wire.rejected);
   wire.warnings = message.warnings;
+  wire.energy_J = message.energy_J;
+  wire.surplus_J = message.surplus_J;
+  wire.stale_events = message.stale_events;
+  wire.safe_events = message.safe_events;
+  wire.faults = message.faults;
   copy(message.lateness, wire.lateness);
   copy(message.note, wire.note);
 }

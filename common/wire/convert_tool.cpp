@@ -9,7 +9,8 @@ Verdict judge(const palpate_wire_ToolState& wire) noexcept {
   if (wire.version != wire_version) return RejectReason::version;
   if (wire.tool >= max_tools) return RejectReason::unknown_id;
   if (!finite(wire.p_WT) || !finite(wire.q_WT) || !finite(wire.v_WT) || !finite(wire.w_WT) ||
-      !finite(wire.proxy) || !finite(wire.force_on_hand)) {
+      !finite(wire.proxy) || !finite(wire.force_on_hand) || !finite(wire.force_now) ||
+      !finite(wire.torque_now)) {
     return RejectReason::not_finite;
   }
   if (!unit(wire.q_WT)) return RejectReason::not_unit;
@@ -28,6 +29,8 @@ Verdict from_wire(const palpate_wire_ToolState& wire, ToolState& message) noexce
   copy(wire.w_WT, message.w_WT);
   copy(wire.proxy, message.proxy);
   copy(wire.force_on_hand, message.force_on_hand);
+  copy(wire.force_now, message.force_now);
+  copy(wire.torque_now, message.torque_now);
   message.contact_set = wire.contact_set;
   message.buttons = wire.buttons;
   message.engaged = wire.engaged;
@@ -45,6 +48,8 @@ void to_wire(const ToolState& message, palpate_wire_ToolState& wire) noexcept {
   copy(message.w_WT, wire.w_WT);
   copy(message.proxy, wire.proxy);
   copy(message.force_on_hand, wire.force_on_hand);
+  copy(message.force_now, wire.force_now);
+  copy(message.torque_now, wire.torque_now);
   wire.contact_set = message.contact_set;
   wire.buttons = message.buttons;
   wire.engaged = message.engaged;
@@ -54,9 +59,10 @@ Verdict judge(const palpate_wire_ToolWrench& wire) noexcept {
   if (wire.version != wire_version) return RejectReason::version;
   if (wire.tool >= max_tools) return RejectReason::unknown_id;
   if (!finite(wire.t) || !finite(wire.force) || !finite(wire.moment) || !finite(wire.set_point) ||
-      !finite(wire.stiffness)) {
+      !finite(wire.stiffness) || !finite(wire.p_WT) || !finite(wire.q_WT)) {
     return RejectReason::not_finite;
   }
+  if (!unit(wire.q_WT)) return RejectReason::not_unit;
   return {};
 }
 
@@ -65,7 +71,11 @@ Verdict from_wire(const palpate_wire_ToolWrench& wire, ToolWrench& message) noex
   message.tool = wire.tool;
   message.tick = wire.tick;
   message.stamp_ns = wire.stamp_ns;
+  message.answers = wire.answers;
+  message.answers_ns = wire.answers_ns;
   message.t = wire.t;
+  copy(wire.p_WT, message.p_WT);
+  copy(wire.q_WT, message.q_WT);
   copy(wire.force, message.force);
   copy(wire.moment, message.moment);
   copy(wire.set_point, message.set_point);
@@ -79,7 +89,11 @@ void to_wire(const ToolWrench& message, palpate_wire_ToolWrench& wire) noexcept 
   wire.tool = message.tool;
   wire.tick = message.tick;
   wire.stamp_ns = message.stamp_ns;
+  wire.answers = message.answers;
+  wire.answers_ns = message.answers_ns;
   wire.t = message.t;
+  copy(message.p_WT, wire.p_WT);
+  copy(message.q_WT, wire.q_WT);
   copy(message.force, wire.force);
   copy(message.moment, wire.moment);
   copy(message.set_point, wire.set_point);

@@ -12,7 +12,7 @@ Verdict judge(const palpate_wire_HapticTrace& wire) noexcept {
   for (std::uint32_t i = 0; i < wire.n_samples; ++i) {
     const palpate_wire_TraceSample& sample = wire.samples[i];
     if (!finite(sample.t) || !finite(sample.p) || !finite(sample.proxy) || !finite(sample.force) ||
-        !finite(sample.energy)) {
+        !finite(sample.torque) || !finite(sample.energy)) {
       return RejectReason::not_finite;
     }
     if (i > 0 && sample.tick <= wire.samples[i - 1].tick) return RejectReason::other;  // out of order
@@ -33,6 +33,7 @@ Verdict from_wire(const palpate_wire_HapticTrace& wire, HapticTrace& message) no
     copy(from.p, to.p);
     copy(from.proxy, to.proxy);
     copy(from.force, to.force);
+    copy(from.torque, to.torque);
     to.energy = from.energy;
   }
   return {};
@@ -51,6 +52,7 @@ void to_wire(const HapticTrace& message, palpate_wire_HapticTrace& wire) noexcep
     copy(from.p, to.p);
     copy(from.proxy, to.proxy);
     copy(from.force, to.force);
+    copy(from.torque, to.torque);
     to.energy = from.energy;
   }
 }

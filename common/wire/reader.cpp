@@ -107,6 +107,7 @@ template class Reader<ToolWrench>;
 template class Reader<BodySurface>;
 template class Reader<VertexBlock>;
 template class Reader<HapticTrace>;
+template class Reader<Pointer>;
 template class Reader<Command>;
 template class Reader<NodeStatus>;
 

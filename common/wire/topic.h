@@ -32,6 +32,7 @@ struct Topic;  // of a message: Wire, descriptor(), name, service
 PALPATE_TOPIC(ToolState, Service::newest);
 PALPATE_TOPIC(ContactPatch, Service::newest);
 PALPATE_TOPIC(ToolWrench, Service::newest);
+PALPATE_TOPIC(Pointer, Service::newest);
 PALPATE_TOPIC(VertexBlock, Service::newest);
 PALPATE_TOPIC(BodySurface, Service::state);
 PALPATE_TOPIC(NodeStatus, Service::state);

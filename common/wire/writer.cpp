@@ -48,6 +48,7 @@ template class Writer<ToolWrench>;
 template class Writer<BodySurface>;
 template class Writer<VertexBlock>;
 template class Writer<HapticTrace>;
+template class Writer<Pointer>;
 template class Writer<Command>;
 template class Writer<NodeStatus>;
 

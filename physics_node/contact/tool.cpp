@@ -24,6 +24,8 @@ void Tool::write_wrench(ToolWrench& out, std::uint64_t frame, std::int64_t now_n
   out.tool = index_;
   out.tick = frame;
   out.stamp_ns = now_ns;
+  out.answers = tick_;
+  out.answers_ns = stamp_ns_;
   out.t = t;
   out.force = array(now.force);
   out.moment = array(now.moment);

@@ -38,7 +38,7 @@ bool eventually(Done done) {
 template <class M>
 class Wire : public testing::Test {};
 using AllMessages = testing::Types<ToolState, ContactPatch, ToolWrench, BodySurface, VertexBlock, HapticTrace,
-                                   Command, NodeStatus>;
+                                   Pointer, Command, NodeStatus>;
 TYPED_TEST_SUITE(Wire, AllMessages);
 
 TYPED_TEST(Wire, CarriesAMessageFromWriterToReader) {

@@ -14,7 +14,7 @@ using test::same;
 template <class M>
 class Conversion : public testing::Test {};
 using AllMessages = testing::Types<ToolState, ContactPatch, ToolWrench, BodySurface, VertexBlock, HapticTrace,
-                                   Command, NodeStatus>;
+                                   Pointer, Command, NodeStatus>;
 TYPED_TEST_SUITE(Conversion, AllMessages);
 
 TYPED_TEST(Conversion, BringsEveryFieldBack) {

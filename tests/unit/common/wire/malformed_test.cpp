@@ -67,6 +67,8 @@ TEST(MalformedToolState, IsRejectedForItsReason) {
       {"NaN angular velocity", R::not_finite, [](auto& w) { w.w_WT[1] = nan; }},
       {"NaN proxy", R::not_finite, [](auto& w) { w.proxy[0] = nan; }},
       {"infinite force", R::not_finite, [](auto& w) { w.force_on_hand[2] = -inf; }},
+      {"NaN force now", R::not_finite, [](auto& w) { w.force_now[0] = nan; }},
+      {"infinite torque", R::not_finite, [](auto& w) { w.torque_now[1] = inf; }},
       {"NaN attitude", R::not_finite, [](auto& w) { w.q_WT[0] = nan; }},
       {"attitude of length 1.01", R::not_unit,
        [](auto& w) {
@@ -113,6 +115,12 @@ TEST(MalformedToolWrench, IsRejectedForItsReason) {
       {"infinite moment", R::not_finite, [](auto& w) { w.moment[2] = inf; }},
       {"NaN set point", R::not_finite, [](auto& w) { w.set_point[1] = nan; }},
       {"NaN in the last stiffness", R::not_finite, [](auto& w) { w.stiffness[35] = nan; }},
+      {"infinite pose", R::not_finite, [](auto& w) { w.p_WT[0] = inf; }},
+      {"NaN attitude", R::not_finite, [](auto& w) { w.q_WT[2] = nan; }},
+      {"attitude of length 2", R::not_unit,
+       [](auto& w) {
+         for (double& q : w.q_WT) q *= 2;
+       }},
   });
 }
 
@@ -164,8 +172,23 @@ TEST(MalformedHapticTrace, IsRejectedForItsReason) {
       {"NaN position", R::not_finite, [](auto& w) { w.samples[63].p[0] = nan; }},
       {"NaN proxy", R::not_finite, [](auto& w) { w.samples[9].proxy[1] = nan; }},
       {"infinite force", R::not_finite, [](auto& w) { w.samples[9].force[1] = inf; }},
+      {"NaN torque", R::not_finite, [](auto& w) { w.samples[9].torque[0] = nan; }},
       {"NaN energy", R::not_finite, [](auto& w) { w.samples[9].energy = nan; }},
       {"samples out of order", R::other, [](auto& w) { w.samples[9].tick = w.samples[8].tick; }},
+  });
+}
+
+TEST(MalformedPointer, IsRejectedForItsReason) {
+  expect_all_rejected<Pointer>({
+      {"other version", R::version, [](auto& w) { w.version = wire_version - 1; }},
+      {"tool beyond the last", R::unknown_id, [](auto& w) { w.tool = max_tools; }},
+      {"NaN position", R::not_finite, [](auto& w) { w.p_W[1] = nan; }},
+      {"infinite attitude", R::not_finite, [](auto& w) { w.q_W[3] = inf; }},
+      {"attitude of length 0.9", R::not_unit,
+       [](auto& w) {
+         for (double& q : w.q_W) q *= 0.9;
+       }},
+      {"held neither 0 nor 1", R::out_of_range, [](auto& w) { w.held = 2; }},
   });
 }
 
@@ -186,6 +209,8 @@ TEST(MalformedNodeStatus, IsRejectedForItsReason) {
       {"NaN time", R::not_finite, [](auto& w) { w.t = nan; }},
       {"infinite rate", R::not_finite, [](auto& w) { w.rate_Hz = inf; }},
       {"NaN real-time factor", R::not_finite, [](auto& w) { w.real_time_factor = nan; }},
+      {"NaN energy", R::not_finite, [](auto& w) { w.energy_J = nan; }},
+      {"infinite surplus", R::not_finite, [](auto& w) { w.surplus_J = -inf; }},
       {"NaN loop age", R::not_finite, [](auto& w) { w.loop_age_ms_p50 = nan; }},
       {"negative time", R::out_of_range, [](auto& w) { w.t = -1; }},
       {"negative rate", R::out_of_range, [](auto& w) { w.rate_Hz = -1; }},

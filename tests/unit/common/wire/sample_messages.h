@@ -48,7 +48,8 @@ class Dice {
 inline void randomise(Dice& dice, ToolState& m) {
   m.tool = dice.below(max_tools);
   dice.fill(m.tick), dice.fill(m.stamp_ns), dice.fill(m.p_WT), dice.fill_unit(m.q_WT), dice.fill(m.v_WT);
-  dice.fill(m.w_WT), dice.fill(m.proxy), dice.fill(m.force_on_hand), dice.fill(m.contact_set),
+  dice.fill(m.w_WT), dice.fill(m.proxy), dice.fill(m.force_on_hand), dice.fill(m.force_now),
+      dice.fill(m.torque_now), dice.fill(m.contact_set),
       dice.fill(m.buttons);
   m.engaged = dice.below(2);
 }
@@ -69,6 +70,7 @@ inline void randomise(Dice& dice, ToolWrench& m) {
   m.tool = dice.below(max_tools);
   dice.fill(m.tick), dice.fill(m.stamp_ns), dice.fill(m.t), dice.fill(m.force), dice.fill(m.moment);
   dice.fill(m.set_point), dice.fill(m.stiffness), dice.fill(m.n_contacts);
+  dice.fill(m.answers), dice.fill(m.answers_ns), dice.fill(m.p_WT), dice.fill_unit(m.q_WT);
 }
 inline void randomise(Dice& dice, BodySurface& m) {
   m.body = dice.below(max_bodies);
@@ -109,8 +111,13 @@ inline void randomise(Dice& dice, HapticTrace& m) {
   for (std::uint32_t i = 0; i < m.n_samples; ++i) {
     TraceSample& s = m.samples[i];
     s.tick = first + i;
-    dice.fill(s.t), dice.fill(s.p), dice.fill(s.proxy), dice.fill(s.force), dice.fill(s.energy);
+    dice.fill(s.t), dice.fill(s.p), dice.fill(s.proxy), dice.fill(s.force), dice.fill(s.torque), dice.fill(s.energy);
   }
+}
+inline void randomise(Dice& dice, Pointer& m) {
+  m.tool = dice.below(max_tools);
+  dice.fill(m.tick), dice.fill(m.stamp_ns), dice.fill(m.p_W), dice.fill_unit(m.q_W), dice.fill(m.buttons);
+  m.held = dice.below(2);
 }
 inline void randomise(Dice& dice, Command& m) {
   dice.fill(m.id), dice.fill(m.value), dice.fill_text(m.name);
@@ -121,7 +128,8 @@ inline void randomise(Dice& dice, NodeStatus& m) {
   m.phase = static_cast<NodePhase>(dice.below(n_node_phases));
   dice.fill(m.pid), dice.fill(m.scene_checksum), dice.fill(m.ticks), dice.fill(m.late);
   dice.fill(m.samples_received), dice.fill(m.samples_lost), dice.fill(m.rejected), dice.fill(m.warnings);
-  dice.fill(m.lateness), dice.fill_text(m.note);
+  dice.fill(m.lateness), dice.fill_text(m.note), dice.fill(m.energy_J), dice.fill(m.surplus_J);
+  dice.fill(m.stale_events), dice.fill(m.safe_events), dice.fill(m.faults);
   m.t = dice.real(0, 1e4), m.rate_Hz = dice.real(0, 1e4), m.real_time_factor = dice.real(0, 9);
   m.loop_age_ms_p50 = dice.real(0, 9);
 }
@@ -137,13 +145,14 @@ M random_message(std::uint64_t seed) {
 // Every field, for comparison one by one. Elements beyond the counts are default in what is compared.
 inline auto fields(const ToolState& m) {
   return std::tie(m.tool, m.tick, m.stamp_ns, m.p_WT, m.q_WT, m.v_WT, m.w_WT, m.proxy, m.force_on_hand,
-                  m.contact_set, m.buttons, m.engaged);
+                  m.force_now, m.torque_now, m.contact_set, m.buttons, m.engaged);
 }
 inline auto fields(const PatchFacet& m) {
   return std::tie(m.corners, m.point, m.normal, m.velocity, m.stiffness, m.damping, m.body);
 }
 inline auto fields(const ToolWrench& m) {
-  return std::tie(m.tool, m.tick, m.stamp_ns, m.t, m.force, m.moment, m.set_point, m.stiffness, m.n_contacts);
+  return std::tie(m.tool, m.tick, m.stamp_ns, m.answers, m.answers_ns, m.t, m.p_WT, m.q_WT, m.force, m.moment,
+                  m.set_point, m.stiffness, m.n_contacts);
 }
 inline auto fields(const BodySurface& m) {
   return std::tie(m.body, m.revision, m.chunk, m.n_chunks, m.total_vertices, m.total_facets, m.facets_hidden,
@@ -154,12 +163,18 @@ inline auto fields(const VertexBlock& m) {
   return std::tie(m.body, m.revision, m.block, m.tick, m.t, m.first_vertex, m.n_vertices, m.position,
                   m.flags);
 }
-inline auto fields(const TraceSample& m) { return std::tie(m.tick, m.t, m.p, m.proxy, m.force, m.energy); }
+inline auto fields(const TraceSample& m) {
+  return std::tie(m.tick, m.t, m.p, m.proxy, m.force, m.torque, m.energy);
+}
+inline auto fields(const Pointer& m) {
+  return std::tie(m.tool, m.tick, m.stamp_ns, m.p_W, m.q_W, m.buttons, m.held);
+}
 inline auto fields(const Command& m) { return std::tie(m.id, m.kind, m.value, m.name); }
 inline auto fields(const NodeStatus& m) {
   return std::tie(m.node, m.phase, m.pid, m.scene_checksum, m.t, m.rate_Hz, m.real_time_factor,
                   m.loop_age_ms_p50, m.ticks, m.late, m.samples_received, m.samples_lost, m.rejected,
-                  m.warnings, m.lateness, m.note);
+                  m.warnings, m.energy_J, m.surplus_J, m.stale_events, m.safe_events, m.faults, m.lateness,
+                  m.note);
 }
 template <class M>
 bool same(const M& a, const M& b) {
