@@ -38,12 +38,19 @@ ControllerSettings settings_of(const Scene& scene, std::uint32_t tool_index, con
   settings.period = 1.0 / spec.rate_Hz;
   settings.stiffness = tool.stiffness;
   settings.damping = tool.damping;
+  settings.model = force_model_of(tool);
   if (info.max_stiffness > 0)
     settings.stiffness = std::min(tool.stiffness, info.max_stiffness / calibration.stiffness_gain());
   double limit = std::min(spec.force_limit, info.max_force);
   if (info.cont_force > 0) limit = std::min(limit, info.cont_force);
   if ((info.caps & HDEV_CAP_FORCE) == 0) limit = 0;
   settings.force_limit = limit / calibration.force_scale();
+  if ((info.caps & HDEV_CAP_TORQUE) != 0 && (info.caps & HDEV_CAP_ROT) != 0) {
+    double torque = info.max_torque * calibration.scale() / calibration.force_scale();
+    if (info.cont_torque > 0)
+      torque = std::min(torque, info.cont_torque * calibration.scale() / calibration.force_scale());
+    settings.torque_limit = std::min(tool.torque_limit, torque);
+  }
   settings.resolution = info.pos_resolution * calibration.scale();
   return settings;
 }
@@ -52,6 +59,12 @@ Eigen::Matrix3d handle_rotation(const double (&r)[9]) {
   Eigen::Matrix3d m;
   m << r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8];
   return m;
+}
+
+bool is_rotation(const Eigen::Matrix3d& R) {
+  constexpr double tolerance = 1e-3;
+  const double skew = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  return skew <= tolerance && R.determinant() > 0;  // false for not a number
 }
 
 }  // namespace
@@ -96,25 +109,34 @@ DeviceSample HapticSession::sample_device() noexcept {
   }
   sample.t_ns = raw_.t_ns;
   sample.x = calibration_.world_from_device({raw_.pos[0], raw_.pos[1], raw_.pos[2]});
+  if ((raw_.valid & HDEV_CAP_ROT) != 0) {
+    const Eigen::Matrix3d R = handle_rotation(raw_.R);
+    sample.is_rotation = is_rotation(R);
+    if (sample.is_rotation) sample.q = Eigen::Quaterniond(calibration_.rotation() * R).normalized();
+  }
   sample.powered = raw_.force_enabled != 0 || !device_.can(HDEV_CAP_FORCE);
   sample.held = raw_.deadman != 0 || !device_.can(HDEV_CAP_DEADMAN);
   sample.calibrated = raw_.cal == HDEV_CAL_OK;
   return sample;
 }
 
-/// E += F . dx, with the force that was held while the hand moved. Device frame: what the motors really did.
-void HapticSession::book_energy(const Vec3& x_d) noexcept {
+/// E += F . dx + M . turn, with what was held while the hand moved. What the motors really did.
+void HapticSession::book_energy(const Vec3& x_d, const Eigen::Quaterniond& q_w) noexcept {
   if (counts_.ticks > 0 && x_d.allFinite()) counts_.energy += force_d_.dot(x_d - last_x_d_);
+  if (counts_.ticks > 0 && !torque_w_.isZero()) counts_.energy += torque_w_.dot(turn_between(last_q_, q_w));
+  last_q_ = q_w;
   if (x_d.allFinite()) last_x_d_ = x_d;
   counts_.energy_max = std::max(counts_.energy_max, counts_.energy);
 }
 
 void HapticSession::write_force(const ControllerOutput& out) noexcept {
   force_d_ = out.write ? calibration_.force_to_device(out.force) : Vec3(Vec3::Zero());
+  const Vec3 torque_d = out.write ? calibration_.torque_to_device(out.torque) : Vec3(Vec3::Zero());
+  torque_w_ = calibration_.turned_to_world(torque_d);
   if (!out.write || !device_.can(HDEV_CAP_FORCE)) return;
   hdev_command command{};
   command.size = sizeof(hdev_command);
-  for (int i = 0; i < 3; ++i) command.force[i] = force_d_(i);
+  for (int i = 0; i < 3; ++i) command.force[i] = force_d_(i), command.torque[i] = torque_d(i);
   device_.write(command);
 }
 
@@ -124,12 +146,8 @@ void HapticSession::fill_messages(std::int64_t now, const ControllerOutput& out)
   tool_state_.stamp_ns = now;
   tool_state_.p_WT = array(x);
   tool_state_.v_WT = array(controller_.motion().v());
-  if ((raw_.valid & HDEV_CAP_ROT) != 0) {
-    const Eigen::Quaterniond q(Eigen::Matrix3d(calibration_.rotation() * handle_rotation(raw_.R)));
-    const double norm = q.norm();
-    if (std::abs(norm - 1.0) < 1e-3)
-      tool_state_.q_WT = {q.w() / norm, q.x() / norm, q.y() / norm, q.z() / norm};
-  }
+  const Eigen::Quaterniond& q = controller_.motion().q();
+  tool_state_.q_WT = {q.w(), q.x(), q.y(), q.z()};
   if ((raw_.valid & HDEV_CAP_ANGVEL) != 0) {
     const Vec3 w = calibration_.turned_to_world({raw_.angvel[0], raw_.angvel[1], raw_.angvel[2]});
     if (w.allFinite()) tool_state_.w_WT = array(w);
@@ -137,6 +155,7 @@ void HapticSession::fill_messages(std::int64_t now, const ControllerOutput& out)
   tool_state_.proxy = array(out.proxy);
   tool_state_.force_on_hand = array(out.reported);
   tool_state_.force_now = array(out.force);
+  tool_state_.torque_now = array(out.torque);
   tool_state_.contact_set = controller_.contact_set();
   tool_state_.buttons = raw_.buttons;
   tool_state_.engaged = controller_.engaged() ? 1u : 0u;
@@ -146,10 +165,11 @@ void HapticSession::fill_messages(std::int64_t now, const ControllerOutput& out)
   trace_.p = tool_state_.p_WT;
   trace_.proxy = tool_state_.proxy;
   trace_.force = array(out.force);
+  trace_.torque = array(out.torque);
   trace_.energy = counts_.energy;
 }
 
-void HapticSession::tick(const ContactPatch* newest) noexcept {
+void HapticSession::tick(const ContactPatch* newest, const ToolWrench* wrench) noexcept {
   if (!device_.is_open()) return;
   const std::int64_t now = now_ns_(user_);
 
@@ -157,11 +177,11 @@ void HapticSession::tick(const ContactPatch* newest) noexcept {
   DeviceSample sample;
   if (state() != HapticState::fault) {
     sample = sample_device();
-    book_energy({raw_.pos[0], raw_.pos[1], raw_.pos[2]});
+    book_energy({raw_.pos[0], raw_.pos[1], raw_.pos[2]}, sample.q);
   }
 
   // 2. the force
-  const ControllerOutput out = controller_.tick(now, sample, newest);
+  const ControllerOutput out = controller_.tick(now, sample, newest, wrench);
   if (out.stop_motors) device_.stop();
   write_force(out);
   if (first_run_ns_ == 0 && state() == HapticState::run) first_run_ns_ = now;
@@ -180,7 +200,7 @@ void HapticSession::tick(const ContactPatch* newest) noexcept {
   counts_.safe_events = controller_.safe_events();
   counts_.faults = controller_.faults();
   counts_.patches_taken = controller_.patches().taken();
-  counts_.patches_rejected = controller_.patches().rejected();
+  counts_.patches_rejected = controller_.patches().rejected() + controller_.wrenches().rejected();
   counts_.samples_rejected = controller_.motion().rejected();
   counts_.outran = controller_.outran();
   fill_messages(now, out);

@@ -21,7 +21,7 @@ struct SessionCounts {
   std::uint64_t safe_events = 0;   // forces ramped down for a stall, an old sample, overspeed
   std::uint64_t faults = 0;        // of the device; at most one, it is latched
   std::uint64_t patches_taken = 0;
-  std::uint64_t patches_rejected = 0;  // malformed, rejected whole
+  std::uint64_t patches_rejected = 0;  // malformed, rejected whole; wrenches as well
   std::uint64_t samples_rejected = 0;  // of the device: not finite, or a jump
   std::uint64_t outran = 0;            // ticks in which the tool was beyond what its patch covers
   double energy = 0;                   // given to the hand through the port so far [J]
@@ -48,8 +48,8 @@ class HapticSession {
 
   /// One tick at the clock's present time: read the hand, feel, write the force.
   /// Contract: real time; allocates, locks, prints and throws nothing (with Power::by_service).
-  /// @param newest  the newest patch known, which may be the one of the last tick; null: none yet
-  void tick(const ContactPatch* newest) noexcept;
+  /// @param newest, wrench  the newest known, which may be those of the last tick; null: none yet
+  void tick(const ContactPatch* newest, const ToolWrench* wrench = nullptr) noexcept;
 
   /// With Power::by_service: switches the motors on when a tick has asked for it. Not the ticking thread.
   void service() noexcept;
@@ -77,7 +77,7 @@ class HapticSession {
  private:
   DeviceSample sample_device() noexcept;
   void write_force(const ControllerOutput& out) noexcept;
-  void book_energy(const Vec3& x_d) noexcept;
+  void book_energy(const Vec3& x_d, const Eigen::Quaterniond& q_w) noexcept;
   void fill_messages(std::int64_t now, const ControllerOutput& out) noexcept;
 
   ClockFunction now_ns_;
@@ -93,6 +93,8 @@ class HapticSession {
   bool read_once_ = false;
   Vec3 force_d_ = Vec3::Zero();   // now at the device [N], device frame
   Vec3 last_x_d_ = Vec3::Zero();  // [m], device frame
+  Vec3 torque_w_ = Vec3::Zero();  // now at the device [N m], turned to the world
+  Eigen::Quaterniond last_q_ = Eigen::Quaterniond::Identity();  // in the world
   std::atomic<bool> want_power_{false};
   std::int64_t start_ns_ = 0;
   std::int64_t first_run_ns_ = 0;

@@ -49,9 +49,11 @@ World::World(const Scene& scene) : scene_(scene) {
     fragments_.push_back(any_yields(bodies_.back()->body()) ? std::make_unique<Fragments>(*bodies_.back()) : nullptr);
     touchable_.push_back({bodies_.back().get(), std::make_unique<ContactSurface>(*bodies_.back(), bucket)});
   }
-  make_tools();
+  const std::vector<std::size_t> felt = make_tools();
   if (scene.contact.enabled && (bodies_.size() > 1 || any_yields_))
     collisions_ = std::make_unique<Collisions>(bodies_, fragments_, scene.contact);
+  if (collisions_)
+    for (const std::size_t b : felt) collisions_->feel(b);
   if (scene.floor) planes_.push_back({Vec3::UnitZ(), scene.floor->height});
   if (scene.floor || !scene.walls.empty())
     for (auto& body : bodies_) body->prepare_contact();
@@ -72,20 +74,38 @@ World::World(const Scene& scene) : scene_(scene) {
   restart_ledger();
 }
 
-void World::make_tools() {
+std::vector<std::size_t> World::make_tools() {
+  std::vector<std::size_t> felt_bodies;
   for (std::uint32_t n = 0; n < scene_.tools.size(); ++n) {
     const ToolSpec& spec = scene_.tools[n];
     if (spec.shape == ToolShape::point) {
       tools_.push_back(std::make_unique<ToolCoupling>(spec, n, touchable_));
       continue;
     }
+    if (spec.shape == ToolShape::stick) {
+      if (scene_.physics.integrator == Integrator::backward_euler)
+        throw InputError(spec.place.text() + ": a stick moves masses step by step, which \"backward_euler\" does not; write "
+                         "integrator = \"symplectic_euler\" or \"velocity_verlet\"");
+      auto stick = std::make_unique<StickTool>(spec, n, bodies_);
+      for (const auto& body : bodies_)
+        if (body->body().n_held < body->body().lattice.n_masses() && spec.radius < 0.5 * body->body().lattice.spacing())
+          remarks_.push_back(fmt::format("{}: stick \"{}\" of radius {:.3g} mm meets masses {:.3g} mm apart and may slip between "
+                                         "them; give it half of that at least",
+                                         spec.place.text(), spec.name, 1e3 * spec.radius, 1e3 * body->body().lattice.spacing()));
+      led_tools_.push_back(stick.get());
+      tools_.push_back(std::move(stick));
+      for (auto& body : bodies_) body->prepare_contact();
+      continue;
+    }
     std::size_t b = 0;
     while (b < bodies_.size() && bodies_[b]->body().name != spec.body) ++b;
     PALPATE_CHECK(b < bodies_.size() && !bodies_[b]->body().handle.empty(), "a tool names a body that has a handle");
     auto tool = std::make_unique<BodyTool>(spec, n, b, *bodies_[b]);
-    body_tools_.push_back(tool.get());
+    led_tools_.push_back(tool.get());
+    felt_bodies.push_back(b);
     tools_.push_back(std::move(tool));
   }
+  return felt_bodies;
 }
 
 void World::restart_ledger() {
@@ -161,7 +181,7 @@ void World::move_bodies(double dt, bool watch) noexcept {
 
 void World::touch(double dt, double done) noexcept {
   const bool implicit = scene_.physics.integrator == Integrator::backward_euler;
-  bool any = near_ || !planes_.empty() || !body_tools_.empty();
+  bool any = near_ || !planes_.empty() || !led_tools_.empty();
   for (const auto& tool : tools_) any = any || (!implicit && !tool->forces().empty());
   if (!any) {
     ++report_[Stage::contact_forces].skipped;
@@ -170,7 +190,11 @@ void World::touch(double dt, double done) noexcept {
   const StageTimer timer(report_, Stage::contact_forces);
   for (const auto& tool : tools_)
     if (!implicit && !tool->forces().empty()) book_work(bodies_[tool->touched_body()]->kick(tool->forces(), dt));
-  for (BodyTool* tool : body_tools_) book_work(tool->lead(done, dt).work);
+  for (LedTool* tool : led_tools_) {
+    const LeadWork led = tool->lead(done, dt);
+    book_work(led.work);
+    report_.contact_lost += led.lost;
+  }
   if (near_) {
     const CollisionTally before = collisions_->tally();
     collisions_->step(dt);
@@ -182,7 +206,7 @@ void World::touch(double dt, double done) noexcept {
 }
 
 void World::step(double dt, double done, bool watch) noexcept {
-  if (near_ || !planes_.empty())
+  if (near_ || stick_near_ || !planes_.empty())
     for (auto& body : bodies_) body->remember_velocities();
   if (scene_.physics.integrator == Integrator::backward_euler) {
     move_bodies_implicitly(dt, watch);
@@ -271,13 +295,14 @@ void World::take_tools(std::span<const std::optional<ToolState>> tools) noexcept
 }
 
 void World::find_contacts() noexcept {
-  near_ = false;
+  near_ = stick_near_ = false;
   if (tools_.empty() && !collisions_) {
     ++report_[Stage::find_contacts].skipped;
     return;
   }
   const StageTimer timer(report_, Stage::find_contacts);
   for (auto& tool : tools_) tool->find_contact(t_);
+  for (const LedTool* tool : led_tools_) stick_near_ = stick_near_ || tool->is_near();
   if (collisions_) near_ = collisions_->begin_frame(frame_dt_);
 }
 
@@ -294,8 +319,7 @@ void World::frame(std::span<const std::optional<ToolState>> tools) noexcept {
   const int n_substeps = substeps_of_frame();
   const double dt = frame_dt_ / n_substeps;
   for (int n = 1; n <= n_substeps; ++n) step(dt, static_cast<double>(n) / n_substeps, n == n_substeps);
-  for (BodyTool* tool : body_tools_)
-    tool->feel(collisions_ ? collisions_->take_impulse(tool->body()) : BodyImpulse{}, frame_dt_);
+  for (LedTool* tool : led_tools_) tool->end_frame(collisions_.get(), frame_dt_);
   guard();
   // backward_euler solves for all masses at once: none of them can be left out.
   if (scene_.physics.sleep && scene_.physics.integrator != Integrator::backward_euler)

@@ -12,6 +12,7 @@
 #include "common/scene/scene.h"
 #include "physics_node/collision/collisions.h"
 #include "physics_node/contact/body_tool.h"
+#include "physics_node/contact/stick_tool.h"
 #include "physics_node/contact/tool_coupling.h"
 #include "physics_node/fragments/fragments.h"
 #include "physics_node/step/energy_account.h"
@@ -74,7 +75,7 @@ class World {
   void take_tools(std::span<const std::optional<ToolState>> tools) noexcept;
   void find_contacts() noexcept;
   int substeps_of_frame() const noexcept;
-  void make_tools();
+  std::vector<std::size_t> make_tools();  // @return bodies whose impulses somebody feels
   std::span<const NodalForce> gathered(std::size_t body) noexcept;  // forces of all tools on a body
   void guard() noexcept;
   void save_all(bool good) noexcept;
@@ -88,7 +89,8 @@ class World {
   std::vector<std::unique_ptr<Fragments>> fragments_;  // of each body that yields, null elsewhere
   std::vector<TouchableBody> touchable_;
   std::vector<std::unique_ptr<Tool>> tools_;
-  std::vector<BodyTool*> body_tools_;  // those of them that are bodies
+  std::vector<LedTool*> led_tools_;  // those of them that move tissue themselves: bodies and sticks
+  bool stick_near_ = false;          // one of them may touch in this frame
   std::unique_ptr<Collisions> collisions_;
   std::vector<Plane> planes_;  // floor and walls
   std::vector<NodalForce> gathered_;

@@ -70,8 +70,8 @@ struct ContactPatch {
   std::array<PatchFacet, max_patch_facets> facets{};
 };
 
-/// physics -> haptic, render. What the tissue does to a tool, and how that changes with the pose of the hand:
-///   (F, M)(p, q) = (F, M) - stiffness (p - p_WT, rotation vector from q_WT to q),   F and M about set_point
+/// physics -> haptic, render. What the tissue does to a tool, and how that changes with the pose of the hand: with M_T the
+/// moment about tip,   (F, M_T)(p, q) = (F, M_T) - stiffness (p - p_WT, rotation vector from q_WT to q)
 struct ToolWrench {
   std::uint32_t tool = 0;
   std::uint64_t tick = 0;
@@ -84,6 +84,7 @@ struct ToolWrench {
   Array3 force{};                        // on the tool [N]
   Array3 moment{};                       // on the tool, about set_point [N m]
   Array3 set_point{};                    // [m]
+  Array3 tip{};                          // of the tool, which M_T is about [m]; elsewhere than p_WT if the hand took it there
   std::array<double, 36> stiffness{};    // local 6x6, symmetric, row major [N/m, N, N m/rad]; zero: not computed
   std::uint32_t n_contacts = 0;          // colliding masses
 };

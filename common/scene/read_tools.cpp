@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "common/math/angles.h"
 #include "common/math/units.h"
 #include "common/message/messages.h"
 #include "common/scene/near_miss.h"
@@ -11,7 +12,8 @@
 namespace palpate {
 namespace {
 
-const std::vector<std::string> tool_shapes = {"point", "knife", "needle"};
+const std::vector<std::string> tool_shapes = {"point", "stick", "knife", "needle"};
+const std::vector<std::string> force_models = {"norton", "tangent", "raw_planes", "direct"};
 
 /// A knife or needle in the table of its tool, under the name of the tool.
 void read_own_body(TableReader& reader, ReadContext& context, ToolSpec& spec) {
@@ -35,6 +37,8 @@ void read_other_shape(TableReader& reader, ToolSpec& spec) {
   }
   if (shape != nullptr && reader.has("body"))
     reader.complain("body", "both \"shape\" and \"body\" are given; keep one of them");
+  else if (shape != nullptr && shape->value_or(std::string()) == "stick")
+    spec.shape = ToolShape::stick;
   else if (shape != nullptr && shape->value_or(std::string()) != "point")
     reader.complain_value("shape", *shape,
                           quoted_list(tool_shapes) + ", or body = the name of a [[body]] instead");
@@ -85,6 +89,32 @@ void check_tool_body(TableReader& reader, const ReadContext& context, const Tool
                   tip.y(), tip.z()));
 }
 
+/// Length, radius and attitude of a stick; the forces of a stick or body are low-passed.
+void read_stick(TableReader& reader, ToolSpec& spec) {
+  reader.require("length_mm", "give the stick a length, such as length_mm = 100");
+  set_if(spec.length, reader.read_length_mm("length_mm"));
+  spec.radius = 0.002;
+  set_if(spec.radius, reader.read_length_mm("radius_mm"));
+  set_if(spec.low_pass_Hz, reader.read_number("low_pass_Hz", positive));
+  if (const auto degrees = reader.read_numbers("theta_deg", 3, "[about z, about y, about x]"))
+    spec.attitude = rotation_of_angles(
+        {rad_from_deg((*degrees)[0]), rad_from_deg((*degrees)[1]), rad_from_deg((*degrees)[2])});
+}
+
+/// What the hand feels between two answers of physics.
+void read_force_model(TableReader& reader, ToolSpec& spec) {
+  const bool point = spec.shape == ToolShape::point;
+  const auto word = reader.read_word("force_model", force_models);
+  if (!word) return;
+  const auto model = static_cast<ForceModel>(*word);
+  spec.force_model = model;
+  const bool planes = model == ForceModel::norton || model == ForceModel::raw_planes;
+  if (point && model == ForceModel::tangent)
+    reader.complain("force_model", "a point feels planes; write \"norton\", \"raw_planes\" or \"direct\"");
+  if (!point && planes)
+    reader.complain("force_model", "this tool is more than a point and feels a wrench; write \"tangent\" or \"direct\"");
+}
+
 ToolSpec read_tool(TableReader& reader, ReadContext& context) {
   ToolSpec spec;
   spec.place = reader.place();
@@ -105,9 +135,13 @@ ToolSpec read_tool(TableReader& reader, ReadContext& context) {
     set_if(spec.low_pass_Hz, reader.read_number("low_pass_Hz", positive));
     if (const auto* body = find_tool_body(reader, context, spec))
       check_tool_body(reader, context, spec, *body);
+  } else if (spec.shape == ToolShape::stick) {
+    read_stick(reader, spec);
   } else {
     set_if(spec.radius, reader.read_length_mm("radius_mm"));
   }
+  read_force_model(reader, spec);
+  set_if(spec.torque_limit, reader.read_number("torque_limit_N_m", positive));
   set_if(spec.stiffness, reader.read_number("stiffness_N_per_m", positive));
   set_if(spec.damping, reader.read_number("damping_N_s_per_m", not_negative));
   reader.refuse_left_over();

@@ -155,7 +155,10 @@ struct ContactSpec {
 };
 
 /// A point touches tissue by the plane under it; a body is one of the scene's, driven by masses that the hand holds.
-enum class ToolShape { point, body };
+enum class ToolShape { point, stick, body };
+// norton: planes at zero force. tangent: wrench and its 6 x 6 stiffness. raw_planes, direct: as the papers have it
+enum class ForceModel { norton, tangent, raw_planes, direct };
+
 struct ToolSpec {
   std::string name;
   ToolShape shape = ToolShape::point;
@@ -166,8 +169,16 @@ struct ToolSpec {
   double radius = 0.003;          // of the tip: its force fades out over twice that [m]
   double stiffness = 400;         // of the contact spring between hand and proxy [N/m]
   double damping = 1.0;           // [N s/m]
+  double torque_limit = 0.1;      // [N m]
+  std::optional<ForceModel> force_model;  // of the hand between two answers of physics; absent: force_model_of()
+  double length = 0.1;            // from tip to end [m]; only ToolShape::stick
+  Eigen::Matrix3d attitude = Eigen::Matrix3d::Identity();  // where the handle is not turned; only ToolShape::stick
   Place place;
 };
+/// A point feels planes, all others a wrench.
+inline ForceModel force_model_of(const ToolSpec& tool) {
+  return tool.force_model.value_or(tool.shape == ToolShape::point ? ForceModel::norton : ForceModel::tangent);
+}
 
 struct Waypoint { double t = 0; Vec3 p = Vec3::Zero(); };  // [s], world [m]
 enum class HandModel { rigid, arm, pinch, firm };

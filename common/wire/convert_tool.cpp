@@ -59,7 +59,8 @@ Verdict judge(const palpate_wire_ToolWrench& wire) noexcept {
   if (wire.version != wire_version) return RejectReason::version;
   if (wire.tool >= max_tools) return RejectReason::unknown_id;
   if (!finite(wire.t) || !finite(wire.force) || !finite(wire.moment) || !finite(wire.set_point) ||
-      !finite(wire.stiffness) || !finite(wire.p_WT) || !finite(wire.q_WT)) {
+      !finite(wire.stiffness) || !finite(wire.p_WT) || !finite(wire.q_WT) ||
+      !finite(wire.tip)) {
     return RejectReason::not_finite;
   }
   if (!unit(wire.q_WT)) return RejectReason::not_unit;
@@ -79,6 +80,7 @@ Verdict from_wire(const palpate_wire_ToolWrench& wire, ToolWrench& message) noex
   copy(wire.force, message.force);
   copy(wire.moment, message.moment);
   copy(wire.set_point, message.set_point);
+  copy(wire.tip, message.tip);
   copy(wire.stiffness, message.stiffness);
   message.n_contacts = wire.n_contacts;
   return {};
@@ -97,6 +99,7 @@ void to_wire(const ToolWrench& message, palpate_wire_ToolWrench& wire) noexcept 
   copy(message.force, wire.force);
   copy(message.moment, wire.moment);
   copy(message.set_point, wire.set_point);
+  copy(message.tip, wire.tip);
   copy(message.stiffness, wire.stiffness);
   wire.n_contacts = message.n_contacts;
 }

@@ -15,6 +15,7 @@ VirtualSession::VirtualSession(const Scene& scene, const VirtualOptions& options
       options_(options),
       world_(scene_),
       patches_(scene.tools.size()),
+      wrenches_(scene.tools.size()),
       states_(scene.tools.size()),
       traces_(scene.tools.size()) {
   for (std::uint32_t n = 0; n < scene_.tools.size(); ++n) {
@@ -38,7 +39,7 @@ void VirtualSession::tick_hands(std::int64_t until_ns) {
     while (next_tick_ns_[n] < until_ns) {
       now_ns_ = next_tick_ns_[n];
       next_tick_ns_[n] += period;
-      hands_[n]->tick(patches_[n].tick > 0 ? &patches_[n] : nullptr);
+      hands_[n]->tick(patches_[n].tick > 0 ? &patches_[n] : nullptr, wrenches_[n].tick > 0 ? &wrenches_[n] : nullptr);
       states_[n] = hands_[n]->tool_state();
       HapticTrace& trace = traces_[n];
       trace.samples[trace.n_samples++] = hands_[n]->trace();
@@ -53,8 +54,10 @@ void VirtualSession::tick_hands(std::int64_t until_ns) {
 
 void VirtualSession::tell_hands() {
   const auto frame = static_cast<std::uint64_t>(world_.report().frames);
-  for (std::size_t n = 0; n < patches_.size(); ++n)
+  for (std::size_t n = 0; n < patches_.size(); ++n) {
     world_.tool(n).write_patch(patches_[n], frame, now_ns_);
+    world_.tool(n).write_wrench(wrenches_[n], frame, now_ns_, world_.t());
+  }
 }
 
 void VirtualSession::show() {

@@ -50,6 +50,7 @@ class VirtualSession {
   std::vector<std::unique_ptr<haptic::HapticSession>> hands_;
   std::vector<std::int64_t> next_tick_ns_;
   std::vector<ContactPatch> patches_;
+  std::vector<ToolWrench> wrenches_;
   std::vector<std::optional<ToolState>> states_;
   std::vector<HapticTrace> traces_;
   std::unique_ptr<physics::Recorder> recorder_;

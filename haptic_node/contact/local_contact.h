@@ -19,20 +19,12 @@
 
 #include "common/message/messages.h"
 #include "common/scene/scene.h"
+#include "haptic_node/contact/contact_result.h"
 #include "haptic_node/contact/facet_choice.h"
 #include "haptic_node/contact/tracked_plane.h"
 #include "haptic_node/contact/work_tank.h"
 
 namespace palpate::haptic {
-
-struct ContactResult {
-  Vec3 force = Vec3::Zero();   // on the hand [N]; exactly zero in free space
-  Vec3 proxy = Vec3::Zero();   // [m]
-  double depth = 0;            // from hand to the planes' common surface [m]
-  double stored = 0;           // in the springs [J]
-  std::uint32_t n_planes = 0;  // that push
-  bool outran = false;         // the proxy has left the neighbourhood that the patch covers
-};
 
 class LocalContact {
  public:

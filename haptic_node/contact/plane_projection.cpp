@@ -23,6 +23,26 @@ struct Products {
   }
 };
 
+/// Whether two or three planes are surely no active set: one of them pulls, clearly. By Cramer's rule the signs of lambda
+/// are those of the numerators alone, and most sets of a search end here.
+bool surely_pulls(double determinant, double a, double b, double c) noexcept {
+  const double most = std::max({std::abs(a), std::abs(b), std::abs(c)});
+  return determinant > clear_determinant && std::min({a, b, c}) < -clear_pull * most;
+}
+bool pair_pulls(const Products& of, std::size_t i, std::size_t j) noexcept {
+  const double g = of.gram[i][j], a = of.depth[i], b = of.depth[j];
+  const double first = a - g * b, second = b - g * a;
+  return surely_pulls(1 - g * g, first, second, std::max(first, second));
+}
+bool triple_pulls(const Products& of, std::size_t i, std::size_t j, std::size_t k) noexcept {
+  const double p = of.gram[i][j], q = of.gram[i][k], r = of.gram[j][k];
+  const double a = of.depth[i], b = of.depth[j], c = of.depth[k];
+  const double pq_r = q * r - p, pr_q = p * r - q, pq = p * q - r;  // cofactors beside the diagonal
+  const double determinant = 1 + 2 * p * q * r - p * p - q * q - r * r;
+  return surely_pulls(determinant, (1 - r * r) * a + pq_r * b + pr_q * c, pq_r * a + (1 - q * q) * b + pq * c,
+                      pr_q * a + pq * b + (1 - p * p) * c);
+}
+
 /// Tries the `Count` planes in `index` as the active set: lambda = (N^T N)^-1 d.
 template <int Count>
 bool try_active(std::span<const HalfSpace> planes, const Products& of,
@@ -40,9 +60,6 @@ bool try_active(std::span<const HalfSpace> planes, const Products& of,
   gram.computeInverseAndDetWithCheck(inverse, determinant, independent, rank_tolerance);
   if (!independent || !(determinant > 0)) return false;
   Eigen::Matrix<double, Count, 1> lambda = inverse * depth;
-  // Most sets end here: clearly one that pulls, which no refinement changes.
-  if (determinant > clear_determinant && lambda.minCoeff() < -clear_pull * lambda.cwiseAbs().maxCoeff())
-    return false;
   Eigen::Matrix<double, 3, Count> normals;
   for (int i = 0; i < Count; ++i) normals.col(i) = planes[index[static_cast<std::size_t>(i)]].normal;
   lambda +=
@@ -76,11 +93,11 @@ Projection project_out(std::span<const HalfSpace> planes, const Vec3& x) noexcep
     if (try_active<1>(planes, products, {i, 0, 0}, x, result)) return result;
   for (std::size_t i = 0; i < m; ++i)
     for (std::size_t j = i + 1; j < m; ++j)
-      if (try_active<2>(planes, products, {i, j, 0}, x, result)) return result;
+      if (!pair_pulls(products, i, j) && try_active<2>(planes, products, {i, j, 0}, x, result)) return result;
   for (std::size_t i = 0; i < m; ++i)
     for (std::size_t j = i + 1; j < m; ++j)
       for (std::size_t k = j + 1; k < m; ++k)
-        if (try_active<3>(planes, products, {i, j, k}, x, result)) return result;
+        if (!triple_pulls(products, i, j, k) && try_active<3>(planes, products, {i, j, k}, x, result)) return result;
   result.feasible = false;
   return result;
 }

@@ -5,6 +5,11 @@
 #include "common/time/clock.h"
 
 namespace palpate::haptic {
+namespace {
+
+constexpr double torque_lever = 0.1;  // [m]: torques may change as fast as the force at its end
+
+}  // namespace
 
 const char* name_of(HapticState state) noexcept {
   switch (state) {
@@ -34,8 +39,10 @@ Controller::Controller(const ControllerSettings& settings) noexcept
     : settings_(settings),
       motion_(settings.period),
       patches_(settings.tool),
-      contact_(settings.stiffness, settings.damping, settings.force_limit),
+      wrenches_(settings.tool),
+      model_(settings.model, settings.stiffness, settings.damping, settings.force_limit),
       guard_(settings.force_limit, settings.stiffness, settings.period),
+      torque_guard_(settings.torque_limit, settings.stiffness * torque_lever * torque_lever, settings.period),
       energy_(settings.resolution, settings.stiffness) {}
 
 /// Motors off at once; nothing is written to the device any more.
@@ -45,6 +52,7 @@ ControllerOutput Controller::faulted(bool first) noexcept {
     state_ = HapticState::fault;
     felt_ = {};
     guard_.pass(Vec3::Zero(), 0, false);
+    torque_guard_.pass(Vec3::Zero(), 0, false);
   }
   ControllerOutput out;
   out.proxy = motion_.x();
@@ -74,16 +82,17 @@ void Controller::look_for_trouble(MotionVerdict verdict, const DeviceSample& sam
 
 void Controller::step_ready(std::int64_t now_ns, const DeviceSample& sample) noexcept {
   gain_ = 0;
-  const bool may = patches_.gain(now_ns) >= 1.0 && motion_.ever() && sample.calibrated && sample.held;
-  const bool outside = may && (resume_inside_ || !contact_.penetrated(motion_.x()));
+  const bool may = freshness(now_ns) >= 1.0 && motion_.ever() && sample.calibrated && sample.held;
+  const bool outside = may && (resume_inside_ || !model_.penetrated(motion_.hand()));
   if (!outside || (state_ == HapticState::ready && motion_.v().norm() > arming_speed && !sample.powered)) {
     state_ = HapticState::ready;
     return;
   }
   state_ = HapticState::armed;
   if (!sample.powered) return;
-  contact_.release();
+  model_.release();
   guard_.restart();
+  torque_guard_.restart();
   resume_inside_ = false;
   gain_ = 1;
   state_ = HapticState::run;
@@ -93,15 +102,16 @@ void Controller::step_ready(std::int64_t now_ns, const DeviceSample& sample) noe
 /// has gone, only leaving the tissue brings it back.
 void Controller::step_stale(std::int64_t now_ns, bool new_patch) noexcept {
   if (!new_patch) {
-    gain_ = std::min(gain_, patches_.gain(now_ns));
+    gain_ = std::min(gain_, freshness(now_ns));
     return;
   }
   if (gain_ <= 0) {
     state_ = HapticState::ready;
     return;
   }
-  contact_.weaken(motion_.x(), gain_);
+  model_.weaken(motion_.x(), gain_);
   guard_.restart();
+  torque_guard_.restart();
   gain_ = 1;
   state_ = HapticState::run;
 }
@@ -115,7 +125,7 @@ void Controller::step_safe() noexcept {
 }
 
 void Controller::step_state(std::int64_t now_ns, const DeviceSample& sample, bool new_patch) noexcept {
-  if (state_ == HapticState::run && patches_.gain(now_ns) < 1.0) {
+  if (state_ == HapticState::run && freshness(now_ns) < 1.0) {
     state_ = HapticState::stale;
     ++stale_events_;
   }
@@ -136,18 +146,32 @@ void Controller::step_state(std::int64_t now_ns, const DeviceSample& sample, boo
 }
 
 /// What the springs may push with. A force that ends at the limit stores S (2 r - r^2), r = limit / F.
-Vec3 Controller::felt_force() noexcept {
+double Controller::share_of_felt() noexcept {
+  if (!model_.is_passive()) return 1;
   const double force = felt_.force.norm(), limit = guard_.limit();
   const double r = force > limit ? limit / force : 1.0;
   const double applied = felt_.stored * (2 * r - r * r) * gain_ * stop_gain_;
-  const double share =
-      energy_.share(motion_.x(), settings_.period * motion_.v(), applied, contact_.plane_work());
+  const double share = energy_.share(motion_.hand(), settings_.period, applied, model_.work());
   stored_ = energy_.left();
-  return share * felt_.force;
+  return share;
 }
 
-ControllerOutput Controller::tick(std::int64_t now_ns, const DeviceSample& sample,
-                                  const ContactPatch* patch) noexcept {
+/// @return whether there is a new one
+bool Controller::take_answer(std::int64_t now_ns, const ContactPatch* patch,
+                             const ToolWrench* wrench) noexcept {
+  const bool new_patch = patches_.accept(patch, now_ns);
+  if (new_patch) {
+    model_.take(*patch, std::max(patches_.period(), settings_.period));
+    contact_set_ = patch->contact_set;
+  }
+  if (!model_.needs_wrench()) return new_patch;
+  const bool new_wrench = wrenches_.accept(wrench, now_ns);
+  if (new_wrench) model_.take(*wrench, std::max(wrenches_.period(), settings_.period));
+  return new_wrench;
+}
+
+ControllerOutput Controller::tick(std::int64_t now_ns, const DeviceSample& sample, const ContactPatch* patch,
+                                  const ToolWrench* wrench) noexcept {
   if (state_ == HapticState::fault) return faulted(false);
   const double dt = ticked_ ? seconds_from_ns(now_ns - last_ns_) : settings_.period;
   last_ns_ = now_ns;
@@ -159,24 +183,23 @@ ControllerOutput Controller::tick(std::int64_t now_ns, const DeviceSample& sampl
   look_for_trouble(verdict, sample, dt);
 
   // 2. the tissue
-  const bool new_patch = patches_.accept(patch, now_ns);
-  if (new_patch) {
-    contact_.take(*patch, std::max(patches_.period(), settings_.period));
-    contact_set_ = patch->contact_set;
-  }
+  const bool is_new = take_answer(now_ns, patch, wrench);
 
   // 3. what may be felt
-  step_state(now_ns, sample, new_patch);
+  step_state(now_ns, sample, is_new);
   const bool feels = engaged() || (state_ == HapticState::safe && gain_ > 0);
-  felt_ = feels ? contact_.tick(motion_.x(), motion_.v(), std::min(dt, stall)) : ContactResult{};
+  felt_ = feels ? model_.tick(motion_.hand(), std::min(dt, stall)) : ContactResult{};
   if (felt_.outran) ++outran_;
 
   // 4. the force
   if (stopping_) stop_gain_ = std::max(0.0, stop_gain_ - settings_.period / safe_ramp);
   const bool fading = state_ != HapticState::run || stopping_;
   ControllerOutput out;
-  out.force = guard_.pass(felt_force(), gain_ * stop_gain_, fading);
-  energy_.sent(out.force);
+  const double share = share_of_felt();
+  out.force = guard_.pass(share * felt_.force, gain_ * stop_gain_, fading);
+  if (settings_.torque_limit > 0)
+    out.torque = torque_guard_.pass(share * felt_.torque, gain_ * stop_gain_, fading);
+  energy_.sent(out.force, out.torque);
   out.reported = report_.pass(out.force, std::min(dt, stall));
   out.proxy = felt_.n_planes > 0 ? Vec3(motion_.x() + out.force / settings_.stiffness) : motion_.x();
   out.want_power = state_ == HapticState::armed;

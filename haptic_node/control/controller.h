@@ -11,10 +11,10 @@
 
 #include "common/message/messages.h"
 #include "common/scene/scene.h"
-#include "haptic_node/contact/local_contact.h"
+#include "haptic_node/contact/local_model.h"
+#include "haptic_node/control/answer_watch.h"
 #include "haptic_node/control/force_report.h"
 #include "haptic_node/control/motion_watch.h"
-#include "haptic_node/control/patch_watch.h"
 #include "haptic_node/safety/energy_limit.h"
 #include "haptic_node/safety/force_guard.h"
 
@@ -25,15 +25,18 @@ const char* name_of(HapticState state) noexcept;
 
 struct ControllerSettings {
   std::uint32_t tool = 0;
-  double period = 1e-3;    // nominal time between ticks [s]
-  double stiffness = 400;  // of the hand spring, in the world [N/m]
-  double damping = 1;      // [N s/m]
-  double force_limit = 3;  // in the world [N]
-  double resolution = 0;   // of a sample, in the world [m]
+  ForceModel model = ForceModel::norton;
+  double period = 1e-3;     // nominal time between ticks [s]
+  double stiffness = 400;   // of the hand spring, in the world [N/m]
+  double damping = 1;       // [N s/m]
+  double force_limit = 3;   // in the world [N]
+  double torque_limit = 0;  // in the world; 0: the device gives none [N m]
+  double resolution = 0;    // of a sample, in the world [m]
 };
 
 struct ControllerOutput {
   Vec3 force = Vec3::Zero();     // on the hand [N]
+  Vec3 torque = Vec3::Zero();    // on the hand, about the tip [N m]
   Vec3 reported = Vec3::Zero();  // the same for physics, low-passed [N]
   Vec3 proxy = Vec3::Zero();     // [m]
   bool write = true;             // false: the device is not to be written to any more
@@ -54,8 +57,9 @@ class Controller {
   void set_state(HapticState state) noexcept { state_ = state; }
 
   /// Contract: real time. Every call counts as one tick at `now_ns`.
-  /// @param patch  newest known, which may be an old one, or null
-  ControllerOutput tick(std::int64_t now_ns, const DeviceSample& sample, const ContactPatch* patch) noexcept;
+  /// @param patch, wrench  newest known, which may be old ones, or null; only what the model needs is looked at
+  ControllerOutput tick(std::int64_t now_ns, const DeviceSample& sample, const ContactPatch* patch,
+                        const ToolWrench* wrench = nullptr) noexcept;
 
   /// Forces ramp to zero within safe_ramp and stay there.
   void begin_stop() noexcept { stopping_ = true; }
@@ -65,13 +69,17 @@ class Controller {
   bool engaged() const noexcept { return state_ == HapticState::run || state_ == HapticState::stale; }
   const MotionWatch& motion() const noexcept { return motion_; }
   const PatchWatch& patches() const noexcept { return patches_; }
+  const WrenchWatch& wrenches() const noexcept { return wrenches_; }
+  bool needs_wrench() const noexcept { return model_.needs_wrench(); }
+  bool is_passive() const noexcept { return model_.is_passive(); }
   const ContactResult& contact() const noexcept { return felt_; }
-  double plane_work() const noexcept { return contact_.plane_work(); }
+  double plane_work() const noexcept { return model_.work(); }
   /// In the springs as they are applied: limited, faded [J].
   double stored() const noexcept { return stored_; }
   /// Energy made out of nothing, as seen from the samples [J].
   double surplus() const noexcept { return energy_.surplus(); }
   double force_limit() const noexcept { return guard_.limit(); }
+  double torque_limit() const noexcept { return torque_guard_.limit(); }
   std::uint64_t contact_set() const noexcept { return contact_set_; }
 
   std::uint64_t stale_events() const noexcept { return stale_events_; }
@@ -87,13 +95,20 @@ class Controller {
   void step_ready(std::int64_t now_ns, const DeviceSample& sample) noexcept;
   void step_stale(std::int64_t now_ns, bool new_patch) noexcept;
   void step_safe() noexcept;
-  Vec3 felt_force() noexcept;
+  double share_of_felt() noexcept;
+  bool take_answer(std::int64_t now_ns, const ContactPatch* patch, const ToolWrench* wrench) noexcept;
+  /// What the silence of physics leaves of the force.
+  double freshness(std::int64_t now_ns) const noexcept {
+    return model_.needs_wrench() ? wrenches_.gain(now_ns) : patches_.gain(now_ns);
+  }
 
   ControllerSettings settings_;
   MotionWatch motion_;
   PatchWatch patches_;
-  LocalContact contact_;
+  WrenchWatch wrenches_;
+  LocalModel model_;
   ForceGuard guard_;
+  ForceGuard torque_guard_;
   ForceReport report_;
   EnergyLimit energy_;
   ContactResult felt_;

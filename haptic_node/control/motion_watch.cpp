@@ -7,12 +7,13 @@
 
 namespace palpate::haptic {
 
-/// @return false for a sample that cannot be: not finite, or too far from the last one
+/// @return false for a sample that cannot be: not finite, no rotation, or too far from the last one
 bool MotionWatch::believe(const DeviceSample& sample) noexcept {
-  if (!sample.x.allFinite()) return false;
+  if (!sample.x.allFinite() || !sample.is_rotation || !sample.q.coeffs().allFinite()) return false;
   if (!ever_) {
     ever_ = true;
     x_ = sample.x;
+    q_ = sample.q;
     t_ns_ = judged_ns_ = sample.t_ns;
     return true;
   }
@@ -22,12 +23,14 @@ bool MotionWatch::believe(const DeviceSample& sample) noexcept {
   const double since = seconds_from_ns(sample.t_ns - judged_ns_);
   judged_ns_ = sample.t_ns;
   if (moved.norm() > jump_speed * std::max(since, period_)) return false;
+  if (turn_between(q_, sample.q).norm() > turn_jump_speed * std::max(since, period_)) return false;
 
   // v += a (dx / dt - v), a = dt / (dt + 1 / (2 pi f)); after more than two missed ticks it begins anew
   if (dt > 3.5 * period_) v_.setZero();
   const double a = dt / (dt + 1.0 / (2.0 * std::numbers::pi * corner_Hz));
   v_ += a * (moved / dt - v_);
   x_ = sample.x;
+  q_ = sample.q;
   t_ns_ = sample.t_ns;
   return true;
 }

@@ -4,18 +4,21 @@
 #include <cstdint>
 
 #include "common/scene/scene.h"
+#include "haptic_node/contact/hand_motion.h"
 
 namespace palpate::haptic {
 
 /// One look at a device, in the world frame.
 struct DeviceSample {
-  bool has_new = false;     // false: the device had nothing newer
-  bool lost = false;        // unplugged
-  std::uint32_t fault = 0;  // HDEV_FAULT_*
-  std::int64_t t_ns = 0;    // when it was measured
-  Vec3 x = Vec3::Zero();    // tip [m]
-  bool powered = false;     // motors on
-  bool held = true;         // a hand holds it, as far as the device can tell
+  bool has_new = false;                                   // false: the device had nothing newer
+  bool lost = false;                                      // unplugged
+  std::uint32_t fault = 0;                                // HDEV_FAULT_*
+  std::int64_t t_ns = 0;                                  // when it was measured
+  Vec3 x = Vec3::Zero();                                  // tip [m]
+  Eigen::Quaterniond q = Eigen::Quaterniond::Identity();  // attitude, unit
+  bool is_rotation = true;                                // false: what the device calls its attitude is none
+  bool powered = false;                                   // motors on
+  bool held = true;                                       // a hand holds it, as far as the device can tell
   bool calibrated = true;
 };
 
@@ -25,6 +28,7 @@ class MotionWatch {
  public:
   static constexpr double overspeed = 1.5;         // [m/s]
   static constexpr double jump_speed = 2.0;        // faster than a hand: 2 mm in a tick of 1 ms [m/s]
+  static constexpr double turn_jump_speed = 60.0;  // [rad/s]
   static constexpr int jumps_to_fault = 3;         // in a row; samples that are not finite count as jumps
   static constexpr double old_sample = 5e-3;       // velocity counts as zero [s]
   static constexpr double too_old_sample = 20e-3;  // [s]
@@ -38,6 +42,8 @@ class MotionWatch {
   bool ever() const noexcept { return ever_; }
   const Vec3& x() const noexcept { return x_; }  // last believed [m]
   const Vec3& v() const noexcept { return v_; }  // low-passed difference [m/s]
+  const Eigen::Quaterniond& q() const noexcept { return q_; }
+  HandMotion hand() const noexcept { return {x_, v_, q_}; }
   std::uint64_t rejected() const noexcept { return rejected_; }
 
  private:
@@ -50,6 +56,7 @@ class MotionWatch {
       0;  // of the last looked at that was finite: a hand that jumped for good is not let in later
   Vec3 x_ = Vec3::Zero();
   Vec3 v_ = Vec3::Zero();
+  Eigen::Quaterniond q_ = Eigen::Quaterniond::Identity();
   int jumps_ = 0;
   std::uint64_t rejected_ = 0;
 };

@@ -1,7 +1,7 @@
 #pragma once
 // From the frame of a device to the world and back.
 //
-//   x_w = s R x_d + o        v_w = s R v_d        F_d = f_s R^T F_w
+//   x_w = s R x_d + o        v_w = s R v_d        F_d = f_s R^T F_w        M_d = (f_s / s) R^T M_w
 //
 // The hand then feels the stiffness f_s s K_w, and the energies at the port obey E_d = (f_s / s) E_w.
 // Source: Takada, Abe et al. (rotation of the device into the world); scale and offset are ours.
@@ -26,6 +26,9 @@ class Calibration {
   Vec3 turned_to_world(const Vec3& w_d) const noexcept { return rotation_ * w_d; }
   Vec3 force_to_device(const Vec3& f_w) const noexcept {
     return force_scale_ * (rotation_.transpose() * f_w);
+  }
+  Vec3 torque_to_device(const Vec3& m_w) const noexcept {
+    return force_scale_ / scale_ * (rotation_.transpose() * m_w);
   }
   Vec3 force_to_world(const Vec3& f_d) const noexcept { return rotation_ * f_d / force_scale_; }
 

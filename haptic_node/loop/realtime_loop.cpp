@@ -37,7 +37,7 @@ void RealtimeLoop::tick_tools(std::int64_t woke_ns) noexcept {
     const ContactPatch* patch = channel->patches.newest(&is_new);
     if (is_new && patch->answers_ns > 0)
       stats_.loop_age.add(1e3 * seconds_from_ns(woke_ns - patch->answers_ns));
-    channel->session.tick(patch);
+    channel->session.tick(patch, channel->wrenches.newest());
     channel->states.write(channel->session.tool_state());
     if (!channel->trace.push(channel->session.trace())) channel->trace_lost.fetch_add(1);
     channel->reports.write(

@@ -25,6 +25,7 @@ struct ToolChannel {
 
   HapticSession session;                // ticked by the real-time thread only
   TripleBuffer<ContactPatch> patches;   // receive thread -> real-time thread
+  TripleBuffer<ToolWrench> wrenches;    // likewise
   TripleBuffer<ToolState> states;       // real-time thread -> publisher
   SpscRing<TraceSample, 8192> trace;    // real-time thread -> slow thread: eight seconds at 1 kHz
   TripleBuffer<SessionReport> reports;  // real-time thread -> slow thread

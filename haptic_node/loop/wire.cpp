@@ -22,7 +22,11 @@ Wire::Wire(int domain, std::vector<std::unique_ptr<ToolChannel>>& channels)
       states_(participant_),
       traces_(participant_),
       status_(participant_),
-      batches_(channels.size()) {}
+      batches_(channels.size()) {
+  for (const auto& channel : channels_)
+    if (channel->session.controller().needs_wrench() && !wrenches_)
+      wrenches_ = std::make_unique<Reader<ToolWrench>>(participant_);
+}
 
 void Wire::start() {
   threads_.emplace_back([this] { receive(); });
@@ -38,8 +42,12 @@ void Wire::finish() {
 
 void Wire::receive() noexcept {
   ContactPatch patch;
+  ToolWrench wrench;
   while (!end_.load()) {
     patches_.wait(20ms);
+    // A wrench is sent just before the patch of the same frame.
+    while (wrenches_ && wrenches_->take(wrench))
+      if (wrench.tool < channels_.size()) channels_[wrench.tool]->wrenches.write(wrench);
     bool any = false;
     while (patches_.take(patch)) {
       any = true;

@@ -49,6 +49,7 @@ class Wire {
   std::vector<std::unique_ptr<ToolChannel>>& channels_;
   Participant participant_;
   Reader<ContactPatch> patches_;
+  std::unique_ptr<Reader<ToolWrench>> wrenches_;  // null: no tool feels them
   Reader<Command> commands_;
   Writer<ToolState> states_;
   Writer<HapticTrace> traces_;

@@ -40,6 +40,8 @@ class Collisions {
   /// The longest step in which nothing near moves farther than a quarter of the smallest L; only swept contact asks for one.
   double wanted_step() const noexcept { return wanted_step_; }
 
+  /// A hand feels this body.
+  void feel(std::size_t body) noexcept { impulses_.feel(static_cast<std::uint32_t>(body)); }
   /// What a body has taken since the last call.
   BodyImpulse take_impulse(std::size_t body) noexcept {
     return impulses_.take(static_cast<std::uint32_t>(body));

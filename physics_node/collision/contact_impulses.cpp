@@ -5,12 +5,19 @@
 namespace palpate::physics {
 
 ContactImpulses::ContactImpulses(const std::vector<ContactBody>& bodies)
-    : first_(first_candidates(bodies)), taken_(bodies.size()), count_(bodies.size(), 1) {
+    : first_(first_candidates(bodies)), taken_(bodies.size()), felt_(bodies.size(), 0), count_(bodies.size(), 1) {
   const std::size_t n = first_.back();
   dv_.assign(n, Vec3::Zero());
   is_touched_.assign(n, 0);
   counted_in_.assign(n, 0);
   touched_.reserve(n);
+}
+
+ContactSum BodyImpulse::sum_about(const Vec3& p) const {
+  ContactSum sum;
+  sum.impulse << linear, angular;
+  sum.spread = spread;
+  return sum.about(-p);
 }
 
 void ContactImpulses::begin_step() noexcept {
@@ -34,6 +41,11 @@ void ContactImpulses::push(const std::vector<ContactBody>& bodies, PairEnd at, c
   BodyImpulse& taken = taken_[at.body];
   taken.linear += J;
   taken.angular += c.x()[at.n].cross(J);
+  if (felt_[at.body] != 0) {
+    ContactSum one;
+    one.add(J, c.x()[at.n]);
+    taken.spread += one.spread;
+  }
   std::uint32_t& counted = counted_in_[first_[at.body] + at.n];
   if (counted != count_[at.body]) ++taken.masses;
   counted = count_[at.body];

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "physics_node/collision/contact_sum.h"
 #include "physics_node/collision/pair_search.h"
 
 namespace palpate::physics {
@@ -11,14 +12,19 @@ namespace palpate::physics {
 struct BodyImpulse {
   Vec3 linear = Vec3::Zero();   // [N s]
   Vec3 angular = Vec3::Zero();  // about the origin [N m s]
+  Mat6 spread = Mat6::Zero();   // about the origin; only of bodies that somebody feels
   std::uint32_t masses = 0;     // that took any
   /// The same as a moment about a point. (EQUATIONS C-15)
   Vec3 about(const Vec3& p) const { return angular - p.cross(linear); }
+  ContactSum sum_about(const Vec3& p) const;
 };
 
 class ContactImpulses {
  public:
   explicit ContactImpulses(const std::vector<ContactBody>& bodies);
+
+  /// Somebody feels this body: the spread of its impulses is summed too.
+  void feel(std::uint32_t b) noexcept { felt_[b] = 1; }
 
   void begin_step() noexcept;
   /// Velocity with the impulses of this step [m/s].
@@ -53,6 +59,7 @@ class ContactImpulses {
   std::vector<std::uint8_t> is_touched_;
   std::vector<PairEnd> touched_;
   std::vector<BodyImpulse> taken_;         // by body
+  std::vector<std::uint8_t> felt_;         // by body
   std::vector<std::uint32_t> counted_in_;  // by candidate: the count in which it was last a colliding mass
   std::vector<std::uint32_t> count_;       // by body
   double driven_work_ = 0;

@@ -2,13 +2,11 @@
 // A tool made of elements: the hand leads its handle, it bends and may break, and what it feels are its collisions.
 
 #include "common/scene/scene.h"
-#include "physics_node/collision/contact_impulses.h"
-#include "physics_node/contact/handle.h"
-#include "physics_node/contact/tool.h"
+#include "physics_node/contact/led_tool.h"
 
 namespace palpate::physics {
 
-class BodyTool final : public Tool {
+class BodyTool final : public LedTool {
  public:
   /// @param body  index of the body that it is
   BodyTool(const ToolSpec& tool, std::uint32_t index, std::size_t body, MovingBody& moving);
@@ -17,14 +15,13 @@ class BodyTool final : public Tool {
   void find_contact(double) noexcept override {}
   void reset() noexcept override;
 
-  /// A step of dt that ends after `done` of the frame, in (0, 1]: leads the handle. @return work and impulse of the hand
-  HandleWork lead(double done, double dt) noexcept;
-  /// At the end of a frame: what the body took from others in it. Force and moment are the impulses over the time, so that
-  /// they do not depend on the step; then low-passed twice at low_pass_Hz.
-  void feel(const BodyImpulse& taken, double frame_seconds) noexcept;
+  LeadWork lead(double done, double dt) noexcept override;
+  /// What the body took from others in the frame. Force and moment are the impulses over the time, so that they do not
+  /// depend on the step; then low-passed twice at low_pass_Hz.
+  void end_frame(Collisions* collisions, double frame_seconds) noexcept override;
+  const TangentEstimate* tangent() const noexcept override { return &tangent_; }
 
-  /// One plane across the force felt, so placed and so stiff that a hand at the tip feels that force, and more where it
-  /// goes on: what a local model can do with a tool that is more than a point.
+  /// No facets: the hand feels the wrench.
   void write_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) noexcept override;
 
   std::size_t body() const { return body_; }
@@ -37,7 +34,8 @@ class BodyTool final : public Tool {
   std::size_t body_;
   MovingBody& moving_;
   Handle handle_;
-  double low_pass_Hz_, stiffness_;
+  double low_pass_Hz_;
+  TangentEstimate tangent_;
   bool seen_ = false, engaged_ = false;
   Pose from_, to_;              // of the frame
   Vec3 clutch_ = Vec3::Zero();  // from the hand's tip to the tool's, when the hand first took it [m]

@@ -5,6 +5,13 @@
 
 namespace palpate::physics {
 
+Eigen::Matrix<double, 6, 1> motion(const Pose& from, const Pose& to) noexcept {
+  const Eigen::AngleAxisd turn(Eigen::Quaterniond(to.q * from.q.conjugate()).normalized());
+  Eigen::Matrix<double, 6, 1> by;
+  by << to.p - from.p, turn.angle() * turn.axis();
+  return by;
+}
+
 Handle::Handle(const Body& body) : tip_(body.tip), cell_(body.handle) {
   for (const Index cell : cell_) {
     rest_.push_back(body.lattice.rest_position(cell));

@@ -14,6 +14,9 @@ struct Pose {
   Eigen::Quaterniond q = Eigen::Quaterniond::Identity();  // turned from how the body rests
 };
 
+/// From one pose to another: way [m] and turn as axis times angle [rad].
+Eigen::Matrix<double, 6, 1> motion(const Pose& from, const Pose& to) noexcept;
+
 /// Work that the hand did, and the impulse that it gave.
 struct HandleWork {
   double work = 0;              // [J]

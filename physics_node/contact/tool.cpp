@@ -7,6 +7,8 @@ namespace palpate::physics {
 void Tool::note(const ToolState& state) noexcept {
   tick_ = state.tick;
   stamp_ns_ = state.stamp_ns;
+  p_WT_ = state.p_WT;
+  q_WT_ = state.q_WT;
 }
 
 void Tool::begin_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) const noexcept {
@@ -20,13 +22,21 @@ void Tool::begin_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t no
 }
 
 void Tool::write_wrench(ToolWrench& out, std::uint64_t frame, std::int64_t now_ns, double t) const noexcept {
-  const Wrench now = wrench();
+  Wrench now = wrench();
   out.tool = index_;
   out.tick = frame;
   out.stamp_ns = now_ns;
   out.answers = tick_;
   out.answers_ns = stamp_ns_;
   out.t = t;
+  out.p_WT = p_WT_;
+  out.q_WT = q_WT_;
+  out.tip = array(tip());
+  if (const TangentEstimate* felt = tangent()) {
+    now.force = felt->wrench().head<3>();
+    now.moment = felt->wrench().tail<3>() + (tip() - set_point_).cross(now.force);
+    Eigen::Map<Mat6>(out.stiffness.data()) = felt->stiffness();  // symmetric
+  }
   out.force = array(now.force);
   out.moment = array(now.moment);
   out.set_point = array(set_point_);

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "common/message/messages.h"
+#include "physics_node/contact/tangent_estimate.h"
 #include "physics_node/step/moving_body.h"
 
 namespace palpate::physics {
@@ -30,6 +31,8 @@ class Tool {
 
   virtual void write_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) noexcept = 0;
   void write_wrench(ToolWrench& wrench, std::uint64_t frame, std::int64_t now_ns, double t) const noexcept;
+  /// How the wrench changes with the pose of the hand; null: the hand feels planes instead.
+  virtual const TangentEstimate* tangent() const noexcept { return nullptr; }
 
   virtual Vec3 tip() const noexcept = 0;                // where the hand holds it [m]
   virtual Wrench wrench() const noexcept = 0;           // low-passed
@@ -50,6 +53,8 @@ class Tool {
  private:
   std::uint64_t tick_ = 0;
   std::int64_t stamp_ns_ = 0;
+  Array3 p_WT_{};              // of the hand then [m]
+  Array4 q_WT_{1, 0, 0, 0};
 };
 
 }  // namespace palpate::physics

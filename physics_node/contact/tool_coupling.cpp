@@ -20,7 +20,7 @@ constexpr double stiffness_range = 50;     // times the first guess, either way
 
 ToolCoupling::ToolCoupling(const ToolSpec& tool, std::uint32_t index,
                            const std::vector<TouchableBody>& bodies)
-    : Tool(index, tool.set_point) {
+    : Tool(index, tool.set_point), model_(force_model_of(tool)), stiffness_(tool.stiffness) {
   contacts_.reserve(bodies.size());
   for (const auto& body : bodies) {
     contacts_.emplace_back(*body.surface, *body.moving, tool.radius);
@@ -38,12 +38,39 @@ void ToolCoupling::take(const ToolState* state, double dt) noexcept {
     note(*state);
     tip_ = vec(state->p_WT);
     proxy_ = vec(state->proxy);
-    if (engaged_) target = vec(state->force_on_hand);
+    if (engaged_) {
+      target = vec(state->force_on_hand);
+      raw_force_ = vec(state->force_now);
+    }
   }
-  raw_force_ = target;
+  if (state == nullptr || !engaged_) raw_force_.setZero();
+  if (model_ == ForceModel::direct) return;  // computed where the tip is, in find_contact()
+  if (model_ == ForceModel::raw_planes) {
+    force_ = raw_force_;
+    return;
+  }
   // First-order low pass: F := F + (1 - e^(-2 pi f dt)) (target - F).
   force_ += (1 - std::exp(-2 * std::numbers::pi * force_cutoff_Hz * dt)) * (target - force_);
   if (target.isZero() && force_.norm() < negligible_force) force_.setZero();
+}
+
+void ToolCoupling::compute_force(double t) noexcept {
+  force_.setZero();
+  proxy_ = tip_;
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t nearest = 0;
+  for (std::size_t b = 0; b < contacts_.size(); ++b) {
+    contacts_[b].look(tip_, t);
+    const double distance = contacts_[b].nearest_distance(tip_);
+    if (distance < least) least = distance, nearest = b;
+  }
+  if (!engaged_ || !std::isfinite(least)) return;
+  const LocalPlane plane = contacts_[nearest].plane_under(tip_);
+  if (!plane.found) return;
+  const double depth = plane.normal.dot(plane.point - tip_);
+  if (depth <= 0 || depth > contacts_[nearest].reach()) return;
+  force_ = raw_force_ = stiffness_ * depth * plane.normal;
+  proxy_ = tip_ + depth * plane.normal;
 }
 
 void ToolCoupling::find_contact(double t) noexcept {
@@ -52,6 +79,7 @@ void ToolCoupling::find_contact(double t) noexcept {
   indentation_.setZero();
   plane_velocity_.setZero();
   if (!seen_) return;
+  if (model_ == ForceModel::direct) compute_force(t);
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t b = 0; b < contacts_.size(); ++b) {
     contacts_[b].look(proxy_, t);
@@ -100,12 +128,16 @@ void ToolCoupling::write_patch(ContactPatch& patch, std::uint64_t frame, std::in
   if (!seen_ || contacts_.empty()) return;
   ToolContact& contact = contacts_[touched_];
   patch.n_facets = contact.write_facets(proxy_, static_cast<std::uint32_t>(touched_), patch.facets.data(),
-                                        max_patch_facets, remembers_rest());
+                                        max_patch_facets, remembers_rest() && model_ == ForceModel::norton);
   patch.contact_set = contact.contact_set();
   // The share that lies on scenery does not give.
   const double K_o = moving_share_ > 0 ? std::min(K_o_ / moving_share_, rigid_stiffness) : rigid_stiffness;
   for (std::uint32_t f = 0; f < patch.n_facets; ++f) {
     PatchFacet& facet = patch.facets[f];
+    if (model_ != ForceModel::norton) {
+      facet.stiffness = rigid_stiffness;
+      continue;
+    }
     const Vec3 n = vec(facet.normal);
     if (!remembers_rest()) facet.point = array(vec(facet.point) + std::max(0.0, force_.dot(n)) / K_o * n);
     facet.stiffness = K_o;

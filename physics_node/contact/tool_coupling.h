@@ -6,6 +6,10 @@
 // be without contact force, and how stiffly the tissue answers, K_o = F / d. For held elastic tissue the first is the
 // surface at rest, so the tissue's own swinging drops out of the loop through the hand; for a body that is free or
 // yields it is p + F / K_o. Either way the two meet where the tissue's own force equals the hand's.
+//
+// The papers' ways, for comparison: with raw_planes the plane goes out as it is deflected and as if it did not give, and the
+// hand's force comes in unfiltered; with direct physics computes the force itself, K times the depth of the tip, and the
+// hand holds it until the next one.
 // Source: HAPTICS recipe; Astley & Hayward 1998 (Norton equivalents), Mendoza & Laugier 2001 (facets for the hand).
 
 #include <memory>
@@ -52,10 +56,14 @@ class ToolCoupling final : public Tool {
   /// K_0, for the first touch, is that of an elastic half space under a round patch of the tip's radius:
   /// 2 E a / (1 - nu^2), nu = 1/3.
   void follow_stiffness(double dt) noexcept;
+  /// ForceModel::direct: F = K d n under the tip.
+  void compute_force(double t) noexcept;
   /// Does the touched body always come back to its rest shape? Then the plane at zero force is known exactly.
   bool remembers_rest() const noexcept;
   double first_stiffness(std::size_t body) const noexcept;
 
+  ForceModel model_;
+  double stiffness_;                   // of the hand's spring, K [N/m]
   std::vector<ToolContact> contacts_;  // with each body
   std::vector<const MovingBody*> moving_;
   bool seen_ = false;

@@ -100,10 +100,11 @@ void PhysicsLoop::publish_hand() {
   const auto frame = static_cast<std::uint64_t>(world_->report().frames);
   for (std::size_t n = 0; n < world_->n_tools(); ++n) {
     Tool& tool = world_->tool(n);
-    tool.write_patch(patch_, frame, now_ns());
-    wire_.patches.write(patch_);
+    // The patch last: it wakes the hand, which then finds both.
     tool.write_wrench(wrench_, frame, now_ns(), world_->t());
     wire_.wrenches.write(wrench_);
+    tool.write_patch(patch_, frame, now_ns());
+    wire_.patches.write(patch_);
   }
 }
 

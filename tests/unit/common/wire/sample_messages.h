@@ -71,6 +71,7 @@ inline void randomise(Dice& dice, ToolWrench& m) {
   dice.fill(m.tick), dice.fill(m.stamp_ns), dice.fill(m.t), dice.fill(m.force), dice.fill(m.moment);
   dice.fill(m.set_point), dice.fill(m.stiffness), dice.fill(m.n_contacts);
   dice.fill(m.answers), dice.fill(m.answers_ns), dice.fill(m.p_WT), dice.fill_unit(m.q_WT);
+  dice.fill(m.tip);
 }
 inline void randomise(Dice& dice, BodySurface& m) {
   m.body = dice.below(max_bodies);
@@ -152,7 +153,7 @@ inline auto fields(const PatchFacet& m) {
 }
 inline auto fields(const ToolWrench& m) {
   return std::tie(m.tool, m.tick, m.stamp_ns, m.answers, m.answers_ns, m.t, m.p_WT, m.q_WT, m.force, m.moment,
-                  m.set_point, m.stiffness, m.n_contacts);
+                  m.set_point, m.tip, m.stiffness, m.n_contacts);
 }
 inline auto fields(const BodySurface& m) {
   return std::tie(m.body, m.revision, m.chunk, m.n_chunks, m.total_vertices, m.total_facets, m.facets_hidden,

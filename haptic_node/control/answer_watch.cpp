@@ -1,4 +1,4 @@
-#include "haptic_node/control/patch_watch.h"
+#include "haptic_node/control/answer_watch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,8 @@
 namespace palpate::haptic {
 namespace {
 
-constexpr double farthest = 1e3;  // [m]
+constexpr double farthest = 1e3;   // [m]
+constexpr double strongest = 1e6;  // [N], [N m]
 constexpr double unit_tolerance = 1e-3;
 
 bool within(const Array3& a, double limit) noexcept {
@@ -28,42 +29,62 @@ bool facet_is_sound(const PatchFacet& facet) noexcept {
 
 }  // namespace
 
-bool patch_is_sound(const ContactPatch& patch, std::uint32_t tool) noexcept {
+bool is_sound(const ContactPatch& patch, std::uint32_t tool) noexcept {
   if (patch.tool != tool || patch.n_facets > max_patch_facets) return false;
   return std::all_of(patch.facets.begin(), patch.facets.begin() + patch.n_facets, facet_is_sound);
 }
 
-bool PatchWatch::accept(const ContactPatch* patch, std::int64_t now_ns) noexcept {
-  if (patch == nullptr || (seen_ && patch->tick == seen_tick_)) return false;
+bool is_sound(const ToolWrench& wrench, std::uint32_t tool) noexcept {
+  if (wrench.tool != tool || !within(wrench.p_WT, farthest) || !within(wrench.set_point, farthest))
+    return false;
+  if (!within(wrench.force, strongest) || !within(wrench.moment, strongest)) return false;
+  for (const double k : wrench.stiffness)
+    if (!(std::abs(k) <= rigid_stiffness)) return false;
+  double squared = 0;
+  for (const double q : wrench.q_WT) squared += q * q;
+  return std::abs(std::sqrt(squared) - 1.0) <= unit_tolerance;
+}
+
+template <class Answer>
+bool AnswerWatch<Answer>::accept(const Answer* answer, std::int64_t now_ns) noexcept {
+  if (answer == nullptr || (seen_ && answer->tick == seen_tick_)) return false;
   seen_ = true;
-  seen_tick_ = patch->tick;
-  if (!patch_is_sound(*patch, tool_)) {
+  seen_tick_ = answer->tick;
+  if (!is_sound(*answer, tool_)) {
     ++rejected_;
     return false;
   }
-  const bool newer = !ever_ || patch->tick > tick_ || silence(now_ns) > patience();
+  const bool newer = !ever_ || answer->tick > tick_ || silence(now_ns) > patience();
   if (!newer) return false;
   if (ever_) {
     const double apart = std::clamp(silence(now_ns), 1e-4, 0.1);
     period_ += (apart > period_ ? 0.3 : 0.1) * (apart - period_);
   }
   ever_ = true;
-  tick_ = patch->tick;
+  tick_ = answer->tick;
   accepted_ns_ = now_ns;
   ++taken_;
   return true;
 }
 
-double PatchWatch::silence(std::int64_t now_ns) const noexcept {
+template <class Answer>
+double AnswerWatch<Answer>::silence(std::int64_t now_ns) const noexcept {
   return seconds_from_ns(now_ns - accepted_ns_);
 }
 
-double PatchWatch::patience() const noexcept { return std::clamp(3.0 * period_, 0.03, 0.2); }
+template <class Answer>
+double AnswerWatch<Answer>::patience() const noexcept {
+  return std::clamp(3.0 * period_, 0.03, 0.2);
+}
 
-double PatchWatch::gain(std::int64_t now_ns) const noexcept {
+template <class Answer>
+double AnswerWatch<Answer>::gain(std::int64_t now_ns) const noexcept {
   if (!ever_) return 0.0;
   const double s = std::clamp((silence(now_ns) - patience()) / fade_time, 0.0, 1.0);
   return 1.0 - s * s;
 }
+
+template class AnswerWatch<ContactPatch>;
+template class AnswerWatch<ToolWrench>;
 
 }  // namespace palpate::haptic

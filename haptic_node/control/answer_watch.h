@@ -1,5 +1,5 @@
 #pragma once
-// Which patches may be believed, and for how long.
+// Which answers of physics may be believed, and for how long.
 
 #include <cstdint>
 
@@ -10,28 +10,30 @@ namespace palpate::haptic {
 /// A patch that keeps every promise of messages.h and lies within reach: all numbers finite, normals unit within
 /// 1e-3, stiffness in (0, rigid_stiffness], damping not below zero, nothing farther than 1 km. Otherwise it is
 /// rejected whole.
-bool patch_is_sound(const ContactPatch& patch, std::uint32_t tool) noexcept;
+bool is_sound(const ContactPatch& patch, std::uint32_t tool) noexcept;
+/// A wrench likewise: attitude unit within 1e-3, nothing above 1e6 N or 1e9 N/m.
+bool is_sound(const ToolWrench& wrench, std::uint32_t tool) noexcept;
 
-/// Times are the local clock's, never the sender's.
-class PatchWatch {
+/// Of ContactPatch or ToolWrench. Times are the local clock's, never the sender's.
+template <class Answer>
+class AnswerWatch {
  public:
-  explicit PatchWatch(std::uint32_t tool) noexcept : tool_(tool) {}
+  explicit AnswerWatch(std::uint32_t tool) noexcept : tool_(tool) {}
 
-  /// Looks at the newest patch, which may be the one seen before, or null.
+  /// Looks at the newest answer, which may be the one seen before, or null.
   /// @return true if it is sound and newer than the last. After a silence any other tick counts as newer: the sender
   ///         has begun again.
-  bool accept(const ContactPatch* patch, std::int64_t now_ns) noexcept;
+  bool accept(const Answer* answer, std::int64_t now_ns) noexcept;
 
   bool ever() const noexcept { return ever_; }
-  /// Measured time between patches [s], smoothed: slower patches are believed sooner than faster ones. Begins at
-  /// 50 ms.
+  /// Measured time between answers [s], smoothed: slower ones are believed sooner than faster ones. Begins at 50 ms.
   double period() const noexcept { return period_; }
   /// Silence after which forces fade: three periods, within 30 to 200 ms [s].
   double patience() const noexcept;
   static constexpr double fade_time = 0.2;  // from full force to none [s]
 
   /// What silence leaves of the force: 1, then 1 - s^2 over the fade, s in [0, 1], to exactly 0. It begins gently, since
-  /// most silences are three lost patches and end at once; a linear start was felt as a swing of 0.3 mm.
+  /// most silences are three lost answers and end at once; a linear start was felt as a swing of 0.3 mm.
   double gain(std::int64_t now_ns) const noexcept;
 
   std::uint64_t taken() const noexcept { return taken_; }
@@ -42,13 +44,16 @@ class PatchWatch {
 
   std::uint32_t tool_;
   bool ever_ = false;
-  std::uint64_t tick_ = 0;       // of the last accepted patch
-  std::uint64_t seen_tick_ = 0;  // of the last one looked at, so that a bad patch is counted once
+  std::uint64_t tick_ = 0;       // of the last accepted answer
+  std::uint64_t seen_tick_ = 0;  // of the last one looked at, so that a bad one is counted once
   bool seen_ = false;
   std::int64_t accepted_ns_ = 0;
   double period_ = 0.05;
   std::uint64_t taken_ = 0;
   std::uint64_t rejected_ = 0;
 };
+
+using PatchWatch = AnswerWatch<ContactPatch>;
+using WrenchWatch = AnswerWatch<ToolWrench>;
 
 }  // namespace palpate::haptic

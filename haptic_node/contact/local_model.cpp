@@ -1,0 +1,35 @@
+#include "haptic_node/contact/local_model.h"
+
+#include "haptic_node/contact/raw_planes.h"
+
+namespace palpate::haptic {
+
+bool LocalModel::penetrated(const HandMotion& hand) const noexcept {
+  switch (model_) {
+    case ForceModel::norton:
+      return planes_.penetrated(hand.x);
+    case ForceModel::tangent:
+      return tangent_.penetrated();
+    case ForceModel::raw_planes:
+      return raw_plane_force(patch_, hand, stiffness_, 0, limit_).n_planes > 0;
+    case ForceModel::direct:
+      return direct_force(wrench_, hand, stiffness_).n_planes > 0;
+  }
+  return true;
+}
+
+ContactResult LocalModel::tick(const HandMotion& hand, double dt) noexcept {
+  switch (model_) {
+    case ForceModel::norton:
+      return planes_.tick(hand.x, hand.v, dt);
+    case ForceModel::tangent:
+      return tangent_.tick(hand, dt);
+    case ForceModel::raw_planes:
+      return raw_plane_force(patch_, hand, stiffness_, damping_, limit_);
+    case ForceModel::direct:
+      return direct_force(wrench_, hand, stiffness_);
+  }
+  return {};
+}
+
+}  // namespace palpate::haptic

@@ -1,0 +1,67 @@
+#pragma once
+// What a tool feels between two answers of physics, by the model that the scene names. One of them works, the others cost
+// nothing.
+
+#include "common/message/messages.h"
+#include "common/scene/scene.h"
+#include "haptic_node/contact/local_contact.h"
+#include "haptic_node/contact/tangent_wrench.h"
+
+namespace palpate::haptic {
+
+class LocalModel {
+ public:
+  /// @param stiffness, damping, limit  of the spring between hand and tool [N/m], [N s/m], [N]
+  LocalModel(ForceModel model, double stiffness, double damping, double limit) noexcept
+      : model_(model),
+        stiffness_(stiffness),
+        damping_(damping),
+        limit_(limit),
+        planes_(stiffness, damping, limit),
+        tangent_(stiffness, damping, limit) {}
+
+  /// Forces come from wrenches; otherwise from patches.
+  bool needs_wrench() const noexcept { return model_ == ForceModel::tangent || model_ == ForceModel::direct; }
+  /// Bounds the energy that it gives. The other two are for comparison.
+  bool is_passive() const noexcept { return model_ == ForceModel::norton || model_ == ForceModel::tangent; }
+
+  void take(const ContactPatch& patch, double period) noexcept {
+    if (model_ == ForceModel::norton)
+      planes_.take(patch, period);
+    else
+      patch_ = patch;
+  }
+  void take(const ToolWrench& wrench, double period) noexcept {
+    if (model_ == ForceModel::tangent)
+      tangent_.take(wrench, period);
+    else
+      wrench_ = wrench;
+  }
+
+  /// By the newest answer the tool is in the tissue: arming there would begin with a force.
+  bool penetrated(const HandMotion& hand) const noexcept;
+
+  /// Contract: real time.
+  ContactResult tick(const HandMotion& hand, double dt) noexcept;
+
+  /// The force becomes `keep` (0..1) of what it is at x.
+  void weaken(const Vec3& x, double keep) noexcept {
+    planes_.weaken(x, keep);
+    tangent_.weaken(keep);
+  }
+  /// The next contact begins at zero force.
+  void release() noexcept { planes_.release(), tangent_.release(); }
+
+  /// Work of moving planes and springs on the hand since the start [J].
+  double work() const noexcept { return planes_.plane_work() + tangent_.work(); }
+
+ private:
+  ForceModel model_;
+  double stiffness_, damping_, limit_;
+  LocalContact planes_;
+  TangentWrench tangent_;
+  ContactPatch patch_{};  // raw_planes
+  ToolWrench wrench_{};   // direct
+};
+
+}  // namespace palpate::haptic

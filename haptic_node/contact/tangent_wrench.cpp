@@ -1,0 +1,163 @@
+#include "haptic_node/contact/tangent_wrench.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "common/message/vec3.h"
+
+namespace palpate::haptic {
+namespace {
+
+constexpr double lever =
+    0.05;  // [m]: a turn counts as the way of a point this far off, a moment as its force there
+constexpr double least_share =
+    1e-6;  // of the largest eigenvalue: below it the spring does not hold that direction
+constexpr double force_rate = 80.0;  // most that an answer changes the force [N/s]
+constexpr double outran_way = 0.05;  // from the answer's pose, beyond which it says nothing [m]
+constexpr int most_halvings = 12;
+constexpr double negligible = 1e-9;  // [N]
+constexpr double cone =
+    0.5;  // m: how much of the stretch may lie beside the answer's, by the root of the energy
+
+/// [m, m, m, rad, rad, rad] to metres throughout, and its inverse.
+Vec6 in_metres(const Vec6& motion) noexcept {
+  Vec6 m = motion;
+  m.tail<3>() *= lever;
+  return m;
+}
+Vec6 in_newtons(const Vec6& wrench) noexcept {
+  Vec6 w = wrench;
+  w.tail<3>() /= lever;
+  return w;
+}
+Mat6 in_newtons_per_metre(const Mat6& K) noexcept {
+  Mat6 k = 0.5 * (K + K.transpose());
+  k.topRightCorner<3, 3>() /= lever;
+  k.bottomLeftCorner<3, 3>() /= lever;
+  k.bottomRightCorner<3, 3>() /= lever * lever;
+  return k;
+}
+
+/// A symmetric matrix without what is not positive, its pseudo-inverse, and the projector on what it holds.
+struct Parts {
+  Mat6 K = Mat6::Zero(), inverse = Mat6::Zero(), range = Mat6::Zero();
+};
+Parts positive_parts(const Mat6& K, double most) noexcept {
+  Parts parts;
+  const Eigen::SelfAdjointEigenSolver<Mat6> solver(K);
+  if (solver.info() != Eigen::Success) return parts;
+  const double largest = solver.eigenvalues()(5);
+  if (!(largest > 0)) return parts;
+  const double scale = std::min(1.0, most / largest);
+  for (int i = 0; i < 6; ++i) {
+    const double value = solver.eigenvalues()(i);
+    if (value <= least_share * largest) continue;
+    const Vec6 e = solver.eigenvectors().col(i);
+    parts.K += scale * value * e * e.transpose();
+    parts.inverse += 1 / (scale * value) * e * e.transpose();
+    parts.range += e * e.transpose();
+  }
+  return parts;
+}
+
+}  // namespace
+
+void TangentWrench::take(const ToolWrench& wrench, double period) noexcept {
+  x_0_ = vec(wrench.p_WT);
+  q_0_ = Eigen::Quaterniond(wrench.q_WT[0], wrench.q_WT[1], wrench.q_WT[2], wrench.q_WT[3]).normalized();
+  const Vec3 force = vec(wrench.force);
+  Vec6 W;
+  W << force, vec(wrench.moment) + (vec(wrench.set_point) - vec(wrench.tip)).cross(force);  // about the tip
+  const Mat6 sent = Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(wrench.stiffness.data());
+  const Parts now = positive_parts(in_newtons_per_metre(sent), stiffness_);
+  K_0_ = now.K;
+  W_0_ = in_newtons(W);
+  d_0_ = now.inverse * W_0_;
+  W_0_ = K_0_ * d_0_;  // what no spring holds is not felt
+  has_ = true;
+  remaining_ = period;
+  // The stretch in directions that no spring holds is only the way that the hand went there.
+  d_ = positive_parts(K_, std::numeric_limits<double>::infinity()).range * d_;
+}
+
+/// The stretch that a contact can have, by projection on a cone about that of the answer: with y = K^1/2 d, a along y_0 and b
+/// beside it,   y_c = y where b <= m a,   0 where m b <= -a,   else t (y_0 / |y_0| + m b_0),  t = (a + m b) / (1 + m^2),
+/// b_0 the unit vector beside y_0.
+/// W = K d_c is the gradient of |y_c|^2 / 2, so holding back from pulling makes no energy.
+Vec6 TangentWrench::pushing(const Vec6& d, const Mat6& K, const Vec6& axis) noexcept {
+  const Vec6 W_e = K * axis;
+  const double squared = axis.dot(W_e);
+  if (!(squared > 0)) return Vec6::Zero();
+  const double along = d.dot(W_e) / std::sqrt(squared);
+  const double beside = std::sqrt(std::max(0.0, d.dot(K * d) - along * along));
+  if (beside <= cone * along) return d;
+  if (cone * beside <= -along) return Vec6::Zero();
+  const double t = (along + cone * beside) / (1 + cone * cone);
+  return t * ((1 - cone * along / beside) / std::sqrt(squared) * axis + cone / beside * d);
+}
+
+double TangentWrench::energy(const Vec6& d, const Mat6& K, const Vec6& axis) noexcept {
+  const Vec6 d_c = pushing(d, K, axis);
+  return 0.5 * d_c.dot(K * d_c);
+}
+
+/// Toward the answer's spring, as far as force and tank allow.
+void TangentWrench::follow(const Vec6& d_goal, double dt) noexcept {
+  double part = remaining_ <= dt ? 1.0 : dt / remaining_;
+  remaining_ = std::max(0.0, remaining_ - dt);
+  const Vec6 W = K_ * pushing(d_, K_, axis_);
+  const double before = energy(d_, K_, axis_);
+  const double felt = std::min(1.0, limit_ / std::max(W.head<3>().norm(), 1e-12));
+  for (int n = 0; n <= most_halvings; ++n) {
+    const Vec6 d = d_ + part * (d_goal - d_);
+    const Mat6 K = K_ + part * (K_0_ - K_);
+    const Vec6 axis = axis_ + part * (d_0_ - axis_);
+    const double change = (K * pushing(d, K, axis) - W).norm();
+    const double work = felt * (energy(d, K, axis) - before);
+    if (change <= force_rate * dt && work <= tank_.level()) {
+      d_ = d;
+      K_ = K;
+      axis_ = axis;
+      tank_.book(work);
+      return;
+    }
+    part *= change > force_rate * dt ? std::min(0.5, force_rate * dt / change) : 0.5;
+  }
+}
+
+ContactResult TangentWrench::tick(const HandMotion& hand, double dt) noexcept {
+  ContactResult result;
+  result.proxy = hand.x;
+  if (moved_once_) d_ -= in_metres(motion_between(last_x_, last_q_, hand.x, hand.q));
+  moved_once_ = true;
+  last_x_ = hand.x;
+  last_q_ = hand.q;
+  if (has_) {
+    const Vec6 since = in_metres(motion_between(x_0_, q_0_, hand.x, hand.q));
+    result.outran = W_0_.squaredNorm() > 0 && since.norm() > outran_way;
+    const Vec6 d_goal = d_0_ - since;
+    // A new contact begins with the answer's stiffness and no stretch.
+    if (energy(d_, K_, axis_) <= 0) K_ = K_0_, axis_ = d_0_, d_.setZero();
+    follow(result.outran ? Vec6(Vec6::Zero()) : pushing(d_goal, K_0_, d_0_), dt);
+  }
+  const Vec6 W = K_ * pushing(d_, K_, axis_);
+  const Vec3 F = W.head<3>();
+  const double size = F.norm();
+  if (size > negligible) {
+    const Vec3 n = F / size;
+    const double damper = std::clamp(-damping_ * hand.v.dot(n), -size, 0.5 * size);
+    result.force = F + damper * n;
+    result.torque = lever * W.tail<3>();
+    result.stored = energy(d_, K_, axis_);
+    result.n_planes = 1;
+    result.depth = size / stiffness_;
+    result.proxy = hand.x + result.force / stiffness_;
+  } else {
+    d_.setZero();  // has left the tissue
+  }
+  tank_.pass(dt, result.n_planes > 0);
+  return result;
+}
+
+}  // namespace palpate::haptic

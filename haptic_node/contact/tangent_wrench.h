@@ -1,0 +1,75 @@
+#pragma once
+// What a tool that is more than a point feels between two answers of physics: stick, knife, needle, any body.
+//
+// Physics says which wrench W_0 it found at which pose of the hand and how it changes there, K = -dW/dX (6 x 6). That is
+// a spring of six dimensions, stretched by d, which the hand compresses as it moves by xi:
+//
+//   W = K d,     d := d - xi each tick,     d -> K^+ W_0 - (motion since W_0's pose) at each answer
+//
+// It only pushes: the stretch stays within a cone about the answer's, of 27 degrees by energy. An answer moves
+// stretch and stiffness over about a period, no faster than 80 N/s, and work that this does on the hand is paid from the
+// tank: tissue that answers late cannot feed the hand.
+// Source: Astley & Hayward 1998 and Cavusoglu & Tendick 2000 (linear models of slow tissue); the six-dimensional form, the
+// cone and the tank are ours.
+
+#include <limits>
+
+#include "common/message/messages.h"
+#include "haptic_node/contact/contact_result.h"
+#include "haptic_node/contact/hand_motion.h"
+#include "haptic_node/contact/work_tank.h"
+
+namespace palpate::haptic {
+
+class TangentWrench {
+ public:
+  /// @param stiffness  most that the spring may have in any direction [N/m]; W_0 at its pose stays what it is
+  /// @param damping    along the force [N s/m]
+  /// @param limit      force beyond which the spring does not push harder [N]
+  TangentWrench(double stiffness, double damping,
+                double limit = std::numeric_limits<double>::infinity()) noexcept
+      : stiffness_(stiffness), damping_(damping), limit_(limit) {}
+
+  /// A new answer, reached after about `period` seconds. It must have passed WrenchWatch. Costs two 6 x 6 eigenproblems.
+  void take(const ToolWrench& wrench, double period) noexcept;
+
+  /// True if the newest answer says that the tissue pushes.
+  bool penetrated() const noexcept { return has_ && W_0_.head<3>().norm() > touch_N; }
+
+  /// Contract: real time.
+  ContactResult tick(const HandMotion& hand, double dt) noexcept;
+
+  /// The stretch becomes `keep` (0..1) of what it is.
+  void weaken(double keep) noexcept { d_ *= keep; }
+  /// Forgets the spring: the next contact begins at zero force.
+  void release() noexcept { d_.setZero(), K_.setZero(); }
+
+  /// Work of moving springs on the hand since the start [J].
+  double work() const noexcept { return tank_.booked(); }
+
+ private:
+  static constexpr double touch_N = 0.01;
+
+  void follow(const Vec6& d_goal, double dt) noexcept;
+  static Vec6 pushing(const Vec6& d, const Mat6& K, const Vec6& axis) noexcept;
+  static double energy(const Vec6& d, const Mat6& K, const Vec6& axis) noexcept;
+
+  double stiffness_, damping_, limit_;
+  // the newest answer
+  bool has_ = false;
+  Vec3 x_0_ = Vec3::Zero();
+  Eigen::Quaterniond q_0_ = Eigen::Quaterniond::Identity();
+  Vec6 W_0_ = Vec6::Zero(), d_0_ = Vec6::Zero();
+  Mat6 K_0_ = Mat6::Zero();
+  double remaining_ = 0;  // until it is reached [s]
+  // the spring that is felt
+  Vec6 d_ = Vec6::Zero();
+  Vec6 axis_ = Vec6::Zero();  // of the cone: the answer's stretch, followed
+  Mat6 K_ = Mat6::Zero();
+  bool moved_once_ = false;
+  Vec3 last_x_ = Vec3::Zero();
+  Eigen::Quaterniond last_q_ = Eigen::Quaterniond::Identity();
+  WorkTank tank_;
+};
+
+}  // namespace palpate::haptic

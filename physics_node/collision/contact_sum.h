@@ -1,0 +1,27 @@
+#pragma once
+// Impulses on something in a frame: their sum, their moment, and which springs in their place would look like.
+
+#include <Eigen/Core>
+
+#include "common/scene/scene.h"
+
+namespace palpate::physics {
+
+using Vec6 = Eigen::Matrix<double, 6, 1>;
+using Mat6 = Eigen::Matrix<double, 6, 6>;
+
+/// T that moves the point that moments are about: W' = T W, K' = T K T^T.
+/// @param from_new  the old point seen from the new one [m]
+Mat6 lever(const Vec3& from_new) noexcept;
+
+/// About some point, world axes.
+struct ContactSum {
+  Vec6 impulse = Vec6::Zero();  // sum J_i g_i, g_i = (n_i, r_i x n_i) [N s], [N m s]
+  Mat6 spread = Mat6::Zero();   // S = sum |J_i| g_i g_i^T
+  /// Adds an impulse at an arm from the point.
+  void add(const Vec3& J, const Vec3& arm) noexcept;
+  /// The same about another point. @param from_new  where the old point is, seen from the new one
+  ContactSum about(const Vec3& from_new) const noexcept;
+};
+
+}  // namespace palpate::physics

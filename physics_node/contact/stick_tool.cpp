@@ -1,0 +1,162 @@
+#include "physics_node/contact/stick_tool.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "common/message/vec3.h"
+
+namespace palpate::physics {
+namespace {
+
+constexpr double margin = 0.010;         // around the stick, within which masses are listed [m]
+constexpr double search_period = 0.020;  // after which tissue may have come near by itself [s]
+constexpr double on_surface = 1e-6;      // of the stick, so that a mass was carried in the step before [m]
+constexpr double exit_speed =
+    1.0;  // most at which a mass inside is brought out, beyond the stick's own motion [m/s]
+
+}  // namespace
+
+StickTool::StickTool(const ToolSpec& tool, std::uint32_t index,
+                     const std::vector<std::unique_ptr<MovingBody>>& bodies)
+    : LedTool(index, tool.set_point),
+      length_(tool.length),
+      radius_(tool.radius),
+      attitude_(tool.attitude),
+      low_pass_Hz_(tool.low_pass_Hz),
+      tangent_(tool.low_pass_Hz, 0.5 * tool.stiffness) {
+  for (const auto& body : bodies) {
+    Near near;
+    near.moving = body.get();
+    const auto most = static_cast<std::size_t>(body->body().lattice.n_masses());
+    near.all.resize(most);
+    std::iota(near.all.begin(), near.all.end(), 0U);
+    near.cell.resize(most);
+    near.mass.resize(most);
+    for (auto* array : {&near.rest, &near.x, &near.v, &near.v_move}) array->assign(most, Vec3::Zero());
+    near_.push_back(std::move(near));
+  }
+}
+
+void StickTool::reset() noexcept {
+  seen_ = false;
+  n_near_ = contacts_ = 0;
+  searched_when_ = -1e9;
+  sum_ = {};
+  raw_ = once_ = twice_ = Wrench{};
+  tangent_.reset();
+}
+
+Stick StickTool::stick_at(const Pose& pose) const noexcept {
+  return {pose.p, -length_ * (pose.q * attitude_ * Vec3::UnitZ()), radius_};
+}
+
+void StickTool::take(const ToolState* state, double) noexcept {
+  from_ = to_;
+  done_ = 0;
+  if (state == nullptr) return;  // a silent hand holds still
+  note(*state);
+  to_ = {vec(state->p_WT),
+         Eigen::Quaterniond(state->q_WT[0], state->q_WT[1], state->q_WT[2], state->q_WT[3])};
+  if (!seen_) from_ = to_;
+  seen_ = true;
+}
+
+void StickTool::list(Near& near) noexcept {
+  const Stick stick = stick_at(to_);
+  const double reach = radius_ + 2 * margin;
+  const Lattice& lattice = near.moving->body().lattice;
+  near.n = 0;
+  for (const RowSegment& row : lattice.rows) {
+    for (Index cell = row.first; cell < row.first + row.count; ++cell) {
+      if (near.moving->body().inverse_mass[static_cast<std::size_t>(cell)] == 0) continue;
+      const Vec3 x = near.moving->position(cell);
+      if ((x - stick.axis_point(stick.nearest(x))).squaredNorm() > reach * reach) continue;
+      if (near.n == near.cell.size()) return;
+      near.cell[near.n] = cell;
+      near.rest[near.n] = lattice.rest_position(cell);
+      near.mass[near.n] = law_at(near.moving->body(), cell).mass;
+      ++near.n;
+    }
+  }
+}
+
+void StickTool::find_contact(double t) noexcept {
+  if (!seen_) return;
+  const Stick now = stick_at(to_);
+  const double moved =
+      std::max((now.A - searched_A_).norm(), (now.A + now.D - searched_A_ - searched_D_).norm());
+  if (moved <= 0.5 * margin && t - searched_when_ < search_period && t >= searched_when_) return;
+  n_near_ = 0;
+  for (Near& near : near_) {
+    list(near);
+    n_near_ += near.n;
+  }
+  searched_A_ = now.A;
+  searched_D_ = now.D;
+  searched_when_ = t;
+}
+
+LeadWork StickTool::lead_body(Near& near, const Stick& before, const Stick& now, double dt) noexcept {
+  LeadWork sum;
+  near.moving->read({near.all.data(), near.n}, near.cell, near.rest, dt, near.x, near.v, near.v_move);
+  for (std::size_t i = 0; i < near.n; ++i) {
+    const StickHit hit = sweep(before, now, near.x[i], near.x[i] + dt * near.v_move[i]);
+    if (!hit.hit) continue;
+    const Vec3& n = hit.normal;
+    const double v_s = n.dot(hit.axis_motion) / dt;
+    const double depth =
+        std::min(hit.depth, dt * (exit_speed + hit.axis_motion.norm() / dt + near.v_move[i].norm()));
+    const double dv = depth / dt, m = near.mass[i];
+    const bool carried =
+        (near.x[i] - before.axis_point(before.nearest(near.x[i]))).norm() < radius_ + on_surface;
+    near.moving->push(near.cell[i], dv * n, dt, carried);
+    if (carried) {
+      // As of a mass that is led (handle.h), along n only: the rest of its motion is its own.
+      const double v = n.dot(near.v_move[i]) + dv, v_0 = n.dot(2 * near.v[i] - near.v_move[i]);
+      sum.work += m * (dv * v + 0.5 * (v * v - v_0 * v_0) - (v - v_0) * v);
+    } else {
+      const double J = m * dv;
+      sum.work += J * v_s;
+      sum.lost += J * v_s - J * n.dot(near.v[i]) - 0.5 * J * dv;
+    }
+    const Vec3 at = near.x[i] + dt * (near.v_move[i] + dv * n);
+    sum_.add(-m * dv * n, at - to_.p);
+    ++contacts_;
+  }
+  return sum;
+}
+
+LeadWork StickTool::lead(double done, double dt) noexcept {
+  LeadWork sum;
+  const Stick before = stick_at(pose_at(done_)), now = stick_at(pose_at(done));
+  done_ = done;
+  contacts_ = 0;
+  if (n_near_ == 0) return sum;
+  for (Near& near : near_) {
+    if (near.n == 0) continue;
+    const LeadWork one = lead_body(near, before, now, dt);
+    sum.work += one.work;
+    sum.lost += one.lost;
+  }
+  return sum;
+}
+
+void StickTool::end_frame(Collisions*, double frame_seconds) noexcept {
+  raw_.force = sum_.impulse.head<3>() / frame_seconds;
+  raw_.moment = sum_.impulse.tail<3>() / frame_seconds + (to_.p - set_point_).cross(raw_.force);
+  const double part = 1 - std::exp(-2 * std::numbers::pi * low_pass_Hz_ * frame_seconds);
+  once_.force += part * (raw_.force - once_.force);
+  once_.moment += part * (raw_.moment - once_.moment);
+  twice_.force += part * (once_.force - twice_.force);
+  twice_.moment += part * (once_.moment - twice_.moment);
+  tangent_.frame(sum_, motion(from_, to_), frame_seconds);
+  sum_ = {};
+}
+
+void StickTool::write_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) noexcept {
+  begin_patch(patch, frame, now_ns);
+}
+
+}  // namespace palpate::physics

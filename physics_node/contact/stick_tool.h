@@ -1,0 +1,74 @@
+#pragma once
+// A rigid stick: the hand has it, tissue gives way. Masses that it meets are carried by its surface without friction until
+// they leave it by themselves; what they press is what the hand feels.
+//
+//   B = A - L R e_z   (EQUATIONS C-34),     x := x + dt dv n,  J = m dv,     F = -sum J / T,   M = -sum (x - A) x J / T
+//
+// Source: Takada & Abe et al. (P2, P3): collided vertices moved to the stick, their forces summed over the list. Deviation:
+// the test is a swept capsule (C-33) and the side by which a mass leaves is the one it came from (C-35).
+
+#include <vector>
+
+#include "physics_node/contact/led_tool.h"
+#include "physics_node/contact/stick.h"
+
+namespace palpate::physics {
+
+class StickTool final : public LedTool {
+ public:
+  /// @param bodies  outlive the tool
+  StickTool(const ToolSpec& tool, std::uint32_t index,
+            const std::vector<std::unique_ptr<MovingBody>>& bodies);
+
+  void take(const ToolState* state, double dt) noexcept override;
+  /// Lists the masses near the stick; the list is used again until the stick or tissue may have left it.
+  void find_contact(double t) noexcept override;
+  void reset() noexcept override;
+
+  LeadWork lead(double done, double dt) noexcept override;
+  void end_frame(Collisions* collisions, double frame_seconds) noexcept override;
+  bool is_near() const noexcept override { return n_near_ > 0; }
+  const TangentEstimate* tangent() const noexcept override { return &tangent_; }
+
+  /// No facets: the hand feels the wrench.
+  void write_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) noexcept override;
+
+  Vec3 tip() const noexcept override { return to_.p; }
+  Wrench wrench() const noexcept override { return twice_; }
+  Wrench raw_wrench() const noexcept override { return raw_; }
+  std::uint32_t contacts() const noexcept override { return contacts_; }  // collided masses in the last frame
+  Stick stick_at(const Pose& pose) const noexcept;
+
+ private:
+  /// Masses of one body near the stick; arrays of one length.
+  struct Near {
+    MovingBody* moving = nullptr;
+    std::vector<std::uint32_t> all;  // 0, 1, 2 ...
+    std::vector<Index> cell;
+    std::vector<Vec3> rest, x, v, v_move;
+    std::vector<double> mass;
+    std::size_t n = 0;
+  };
+  void list(Near& near) noexcept;
+  LeadWork lead_body(Near& near, const Stick& before, const Stick& now, double dt) noexcept;
+  Pose pose_at(double done) const noexcept {
+    return {from_.p + done * (to_.p - from_.p), from_.q.slerp(done, to_.q)};
+  }
+
+  double length_, radius_;
+  Eigen::Quaterniond attitude_;
+  double low_pass_Hz_;
+  bool seen_ = false;
+  Pose from_, to_;   // of the frame
+  double done_ = 0;  // of the frame, so far
+  std::vector<Near> near_;
+  std::size_t n_near_ = 0;
+  Vec3 searched_A_ = Vec3::Constant(1e9), searched_D_ = Vec3::Zero();
+  double searched_when_ = -1e9;
+  ContactSum sum_;  // of the frame, about the tip at its end
+  Wrench raw_, once_, twice_;
+  TangentEstimate tangent_;
+  std::uint32_t contacts_ = 0;
+};
+
+}  // namespace palpate::physics

@@ -1,0 +1,191 @@
+#include "haptic_node/contact/tangent_wrench.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "common/message/vec3.h"
+
+namespace palpate::haptic {
+namespace {
+
+constexpr double dt = 1e-3, K_hand = 800;
+
+/// A spring of 200 N/m along z and of 0.5 N m/rad about y that pushes with 0.4 N and 0.02 N m at the origin.
+ToolWrench sample_wrench() {
+  ToolWrench wrench;
+  wrench.tick = 1;
+  wrench.force = {0, 0, 0.4};
+  wrench.moment = {0, 0.02, 0};
+  wrench.stiffness[14] = 200;
+  wrench.stiffness[28] = 0.5;
+  return wrench;
+}
+
+HandMotion hand_at(const Vec3& x, double about_y = 0) {
+  HandMotion hand;
+  hand.x = x;
+  hand.q = Eigen::AngleAxisd(about_y, Vec3::UnitY());
+  return hand;
+}
+
+ContactResult rest(TangentWrench& spring, const HandMotion& hand, int ticks) {
+  ContactResult felt;
+  for (int i = 0; i < ticks; ++i) felt = spring.tick(hand, dt);
+  return felt;
+}
+
+TEST(TangentWrench, FeelsTheAnswerAtItsPose) {
+  TangentWrench spring(K_hand, 1);
+  spring.take(sample_wrench(), 0.01);
+  const ContactResult felt = rest(spring, hand_at(Vec3::Zero()), 200);
+  EXPECT_LT((felt.force - Vec3(0, 0, 0.4)).norm(), 1e-9);
+  EXPECT_LT((felt.torque - Vec3(0, 0.02, 0)).norm(), 1e-9);
+  EXPECT_NEAR(felt.stored, 0.5 * (0.4 * 0.4 / 200 + 0.02 * 0.02 / 0.5), 1e-9);
+}
+
+TEST(TangentWrench, FollowsTheHandByItsStiffness) {
+  TangentWrench spring(K_hand, 0);
+  spring.take(sample_wrench(), 0.01);
+  rest(spring, hand_at(Vec3::Zero()), 200);
+  const ContactResult pressed = spring.tick(hand_at({0.003, -0.002, -0.0005}), dt);
+  EXPECT_NEAR(pressed.force.z(), 0.4 + 200 * 0.0005, 1e-9);
+  EXPECT_LT(pressed.force.head<2>().norm(), 1e-12) << "sideways there is no spring";
+  const ContactResult turned = spring.tick(hand_at({0.003, -0.002, -0.0005}, -0.01), dt);
+  EXPECT_NEAR(turned.torque.y(), 0.02 + 0.5 * 0.01, 1e-9);
+  EXPECT_NEAR(turned.force.z(), 0.5, 1e-9);
+}
+
+TEST(TangentWrench, TellsTheMomentAboutTheTip) {
+  TangentWrench spring(K_hand, 0);
+  ToolWrench wrench = sample_wrench();
+  wrench.tip = {0.1, 0, 0};
+  wrench.p_WT = {0.5, 0, 0};  // where the hand is does not matter for moments
+  wrench.set_point = {0, 0, 0};
+  wrench.moment = array(Vec3(wrench.tip[0], 0, 0).cross(Vec3(0, 0, 0.4)) + Vec3(0, 0.02, 0));
+  spring.take(wrench, 0.01);
+  const ContactResult felt = rest(spring, hand_at({0.5, 0, 0}), 200);
+  EXPECT_LT((felt.torque - Vec3(0, 0.02, 0)).norm(), 1e-9);
+}
+
+TEST(TangentWrench, PushesAndNeverPulls) {
+  TangentWrench spring(K_hand, 0);
+  spring.take(sample_wrench(), 0.01);
+  rest(spring, hand_at(Vec3::Zero()), 200);
+  double last = 0.4;
+  for (int i = 1; i <= 100; ++i) {
+    const ContactResult felt = spring.tick(hand_at({0, 0, 1e-4 * i}), dt);
+    EXPECT_GE(felt.force.z(), 0);
+    EXPECT_LE(felt.force.z(), last + 1e-12);
+    last = felt.force.z();
+  }
+  EXPECT_EQ(rest(spring, hand_at({0, 0, 0.01}), 50).force, Vec3(Vec3::Zero()));
+}
+
+TEST(TangentWrench, IsNoStifferThanTheHandMayFeel) {
+  TangentWrench spring(K_hand, 0);
+  ToolWrench wrench = sample_wrench();
+  wrench.stiffness[14] = 1e5;
+  wrench.stiffness[28] = 0;
+  wrench.moment = {};
+  spring.take(wrench, 0.01);
+  EXPECT_NEAR(rest(spring, hand_at(Vec3::Zero()), 300).force.z(), 0.4, 1e-9) << "the force itself stays";
+  EXPECT_NEAR(spring.tick(hand_at({0, 0, -1e-4}), dt).force.z(), 0.4 + K_hand * 1e-4, 1e-9);
+}
+
+TEST(TangentWrench, ChangesNoFasterThanAnswersMay) {
+  TangentWrench spring(K_hand, 0);
+  ToolWrench wrench = sample_wrench();
+  spring.take(wrench, dt);
+  rest(spring, hand_at(Vec3::Zero()), 200);
+  const double before = spring.work();
+  wrench.force = {0, 0, 40};
+  spring.take(wrench, dt);
+  double last = 0.4, longest = 0;
+  for (int i = 0; i < 100; ++i) {
+    const double now = spring.tick(hand_at(Vec3::Zero()), dt).force.z();
+    longest = std::max(longest, now - last);
+    last = now;
+  }
+  EXPECT_LE(longest, 0.08 + 1e-9);
+  EXPECT_LE(spring.work() - before, WorkTank::capacity + 0.1 * WorkTank::trickle + 1e-12);
+  EXPECT_GT(last, 0.45);
+}
+
+/// One answer is one spring: what a hand gets on any way round it has put in before, and the tank at the most.
+TEST(TangentWrench, GivesNoEnergyOnAClosedWay) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> g;
+    // Two contacts: a wrench and a stiffness that belong together.
+    ToolWrench wrench;
+    wrench.tick = 1;
+    Vec6 W = Vec6::Zero();
+    Mat6 K = Mat6::Zero();
+    for (int i = 0; i < 2; ++i) {
+      const Vec3 n = Vec3(0.4 * g(random), 0.4 * g(random), 1).normalized();
+      const Vec3 arm = 0.03 * Vec3(g(random), g(random), g(random));
+      Vec6 contact;
+      contact << n, arm.cross(n);
+      W += 0.3 * contact;
+      K += 150 * contact * contact.transpose();
+    }
+    wrench.force = array(Vec3(W.head<3>()));
+    wrench.moment = array(Vec3(W.tail<3>()));
+    Eigen::Map<Mat6>(wrench.stiffness.data()) = K;
+    TangentWrench spring(1e6, 0);
+    spring.take(wrench, 0.01);
+    ContactResult felt = rest(spring, hand_at(Vec3::Zero()), 300);
+    const double at_rest = felt.stored;
+    const Vec3 a = 0.002 * Vec3(g(random), g(random), g(random)),
+               b = 0.002 * Vec3(g(random), g(random), g(random));
+    const Vec3 axis = Vec3(g(random), g(random), g(random)).normalized();
+    const double work_before = spring.work();
+    double given = 0;
+    HandMotion last = hand_at(Vec3::Zero());
+    constexpr int n = 12000;
+    for (int i = 1; i <= n; ++i) {
+      const double s = 2 * M_PI * i / n;
+      HandMotion hand;
+      hand.x = std::sin(s) * a + (1 - std::cos(s)) * b;
+      hand.q = Eigen::AngleAxisd(0.02 * std::sin(2 * s), axis);
+      const ContactResult before = felt;
+      felt = spring.tick(hand, dt);
+      const Vec6 motion = motion_between(last.x, last.q, hand.x, hand.q);
+      given += 0.5 * (before.force + felt.force).dot(motion.head<3>()) +
+               0.5 * (before.torque + felt.torque).dot(motion.tail<3>());
+      last = hand;
+    }
+    // The trapezoid rule over a force with corners makes 1e-6.
+    EXPECT_LE(given - (spring.work() - work_before) + felt.stored - at_rest, 4e-6) << "seed " << seed;
+  }
+}
+
+TEST(TangentWrench, ForgetsThePlaceWhereNothingHolds) {
+  TangentWrench spring(K_hand, 0);
+  ToolWrench wrench = sample_wrench();
+  spring.take(wrench, dt);
+  rest(spring, hand_at(Vec3::Zero()), 300);
+  // A long way along the surface, with answers that follow.
+  for (int i = 1; i <= 200; ++i) {
+    const Vec3 x(2e-4 * i, 0, 0);
+    wrench.p_WT = array(x);
+    wrench.tip = array(x);
+    wrench.set_point = array(x);
+    wrench.tick += 1;
+    spring.take(wrench, dt);
+    EXPECT_NEAR(spring.tick(hand_at(x), dt).force.z(), 0.4, 1e-6);
+  }
+  // The surface turns under the tool: what was slid before does not come back as a stretch.
+  const double before = spring.work();
+  wrench.stiffness[0] = 200;
+  wrench.force = {0.1, 0, 0.4};
+  spring.take(wrench, dt);
+  const ContactResult felt = rest(spring, hand_at({0.04, 0, 0}), 300);
+  EXPECT_NEAR(felt.force.x(), 0.1, 1e-6);
+  EXPECT_LT(spring.work() - before, 2 * (0.1 * 0.1 / 200));
+}
+
+}  // namespace
+}  // namespace palpate::haptic

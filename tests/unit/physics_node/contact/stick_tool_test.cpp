@@ -1,0 +1,144 @@
+#include "physics_node/contact/stick_tool.h"
+
+#include <gtest/gtest.h>
+
+#include "common/message/vec3.h"
+#include "physics_node/world.h"
+#include "tests/support/physics/pressed_world.h"
+
+namespace palpate::physics {
+namespace {
+
+using namespace test;
+
+constexpr double r = 0.003, L = 0.08;
+
+/// A stick that lies along x over the slab; its tip begins at x = -40 mm.
+Scene stick_on_slab(const std::string& physics = "") {
+  Recipe recipe = pressed_slab_recipe();
+  recipe.physics = physics;
+  recipe.world =
+      "[[tool]]\nname = \"stick\"\nshape = \"stick\"\nlength_mm = 80\nradius_mm = 3\ntheta_deg = [0, -90, "
+      "0]\n"
+      "device = \"hand\"\nlow_pass_Hz = 40\n"
+      "[device.hand]\ndriver = \"simulated\"\nwaypoints = [[0, -40, 0, 50], [1, -40, 0, 40]]\n";
+  return scene_of(recipe);
+}
+
+std::optional<ToolState> hand_at(const Vec3& p, std::uint64_t tick) {
+  ToolState state;
+  state.tick = tick;
+  state.p_WT = array(p);
+  state.engaged = 1;
+  return state;
+}
+
+/// Moves the tip straight; @return frames so far
+std::uint64_t lead(World& world, const Vec3& from, const Vec3& to, int frames, std::uint64_t tick) {
+  for (int n = 1; n <= frames; ++n) {
+    const auto hand = hand_at(from + (to - from) * (static_cast<double>(n) / frames), ++tick);
+    world.frame(std::span(&hand, 1));
+  }
+  return tick;
+}
+
+/// The deepest mass inside the stick [m].
+double deepest(const World& world) {
+  const auto& tool = dynamic_cast<const StickTool&>(world.tool(0));
+  const Stick stick = tool.stick_at({tool.tip(), Eigen::Quaterniond::Identity()});
+  double depth = 0;
+  const Lattice& lattice = world.body(0).body().lattice;
+  for (const RowSegment& row : lattice.rows)
+    for (Index c = row.first; c < row.first + row.count; ++c) {
+      const Vec3 x = world.body(0).position(c);
+      depth = std::max(depth, r - (x - stick.axis_point(stick.nearest(x))).norm());
+    }
+  return depth;
+}
+
+TEST(StickTool, LiesWhereItsAnglesPutIt) {
+  World world(stick_on_slab());
+  lead(world, {-0.04, 0, 0.05}, {-0.04, 0, 0.05}, 2, 0);
+  const Stick stick = dynamic_cast<const StickTool&>(world.tool(0))
+                          .stick_at({world.tool(0).tip(), Eigen::Quaterniond::Identity()});
+  EXPECT_LT((stick.A - Vec3(-0.04, 0, 0.05)).norm(), 1e-12);
+  EXPECT_LT((stick.D - Vec3(L, 0, 0)).norm(), 1e-12);
+}
+
+TEST(StickTool, FeelsNothingInTheAir) {
+  World world(stick_on_slab());
+  lead(world, {-0.04, 0, slab_top + 0.02}, {-0.04, 0, slab_top + 0.0031}, 100, 0);
+  EXPECT_EQ(world.tool(0).raw_wrench().force, Vec3(Vec3::Zero()));
+  EXPECT_EQ(world.tool(0).contacts(), 0u);
+}
+
+/// F = dE/dz: what the hand feels at rest is what the tissue's elastic energy grows by. (EQUATIONS C-35)
+TEST(StickTool, FeelsTheGradientOfTheElasticEnergy) {
+  World world(stick_on_slab());
+  const auto settle = [&](const Vec3& from, const Vec3& to, std::uint64_t tick) {
+    tick = lead(world, from, to, 200, tick);
+    return lead(world, to, to, 1500, tick);
+  };
+  const double z = slab_top + r;
+  const Vec3 deep(-0.04, 0, z - 0.002), deeper(-0.04, 0, z - 0.0022);
+  std::uint64_t tick = lead(world, {-0.04, 0, z + 0.002}, {-0.04, 0, z + 0.001}, 50, 0);
+  tick = settle({-0.04, 0, z + 0.001}, deep, tick);
+  const double E_0 = world.body(0).energies(Vec3::Zero()).elastic;
+  const Vec3 F_0 = world.tool(0).force();
+  tick = settle(deep, deeper, tick);
+  const double E_1 = world.body(0).energies(Vec3::Zero()).elastic;
+  const Vec3 F_1 = world.tool(0).force();
+  EXPECT_GT(F_0.z(), 0.2) << "the press must be felt, or this shows nothing";
+  EXPECT_NEAR((E_1 - E_0) / 0.0002, 0.5 * (F_0.z() + F_1.z()), 0.02 * F_1.z());
+  EXPECT_LT(F_1.head<2>().norm(), 0.02 * F_1.z());
+  EXPECT_LT(deepest(world), 1e-6);
+  EXPECT_LT(std::abs(world.ledger().balance_error()), 0.01);
+  // The stick lies over the whole slab, whose middle is the set point.
+  EXPECT_LT(std::abs(world.tool(0).wrench().moment.y()), 0.02 * F_1.z() * L);
+}
+
+TEST(StickTool, LetsNothingThrough) {
+  for (const double speed : {0.2, 1.0, 2.0}) {
+    World world(stick_on_slab());
+    const double way = 0.012, z = slab_top + r + 0.001;
+    const int frames = std::max(2, static_cast<int>(way / speed / world.frame_seconds()));
+    std::uint64_t tick = lead(world, {-0.04, 0, z}, {-0.04, 0, z}, 2, 0);
+    tick = lead(world, {-0.04, 0, z}, {-0.04, 0, z - way}, frames, tick);
+    lead(world, {-0.04, 0, z - way}, {-0.04, 0, z - way}, 30, tick);
+    EXPECT_LT(deepest(world), 1e-6) << speed << " m/s";
+    EXPECT_EQ(world.report().nonfinite, 0) << speed << " m/s";
+    // The row that it came down on is under it still; its neighbours, 4 mm aside, close above it.
+    const Lattice& lattice = world.body(0).body().lattice;
+    for (const RowSegment& row : lattice.rows)
+      for (Index c = row.first; c < row.first + row.count; ++c) {
+        if (std::abs(lattice.rest_position(c).y()) > 1e-9) continue;
+        EXPECT_LT(world.body(0).position(c).z(), world.tool(0).tip().z()) << speed << " m/s";
+      }
+  }
+}
+
+TEST(StickTool, TellsATangentThatPredictsTheForce) {
+  World world(stick_on_slab());
+  const double z = slab_top + r;
+  std::uint64_t tick = lead(world, {-0.04, 0, z + 0.001}, {-0.04, 0, z - 0.0015}, 250, 0);
+  // Slow strokes, from which the stiffness is learnt.
+  for (int n = 0; n < 6; ++n) {
+    tick = lead(world, {-0.04, 0, z - 0.0015}, {-0.04, 0, z - 0.0025}, 200, tick);
+    tick = lead(world, {-0.04, 0, z - 0.0025}, {-0.04, 0, z - 0.0015}, 200, tick);
+  }
+  tick = lead(world, {-0.04, 0, z - 0.0015}, {-0.04, 0, z - 0.0015}, 500, tick);
+  ToolWrench wrench;
+  world.tool(0).write_wrench(wrench, 1, 1, world.t());
+  const double predicted = wrench.force[2] + wrench.stiffness[14] * 0.001;
+  tick = lead(world, {-0.04, 0, z - 0.0015}, {-0.04, 0, z - 0.0025}, 400, tick);
+  lead(world, {-0.04, 0, z - 0.0025}, {-0.04, 0, z - 0.0025}, 500, tick);
+  EXPECT_NEAR(world.tool(0).force().z(), predicted, 0.15 * predicted);
+  EXPECT_EQ(wrench.tip, wrench.p_WT);
+}
+
+TEST(StickTool, IsRefusedWhereItCouldNotWork) {
+  EXPECT_THROW(World(stick_on_slab("integrator = \"backward_euler\"")), std::exception);
+}
+
+}  // namespace
+}  // namespace palpate::physics
