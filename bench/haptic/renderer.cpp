@@ -1,8 +1,6 @@
 #include "bench/haptic/renderer.h"
 
-#include <algorithm>
-
-#include "common/message/vec3.h"
+#include "haptic_node/contact/raw_planes.h"
 
 namespace palpate::bench {
 
@@ -20,24 +18,19 @@ const char* name_of(RenderMode mode) noexcept {
 
 Rendered raw_plane_force(const ContactPatch& patch, const Vec3& x, const Vec3& v,
                          const haptic::ControllerSettings& settings) noexcept {
+  const haptic::ContactResult felt = haptic::raw_plane_force(
+      patch, {x, v, Eigen::Quaterniond::Identity()}, settings.stiffness, settings.damping, settings.force_limit);
   Rendered out;
-  out.proxy = x;
-  if (patch.n_facets == 0) return out;
-  const Vec3 n = vec(patch.facets[0].normal);
-  const double depth = -n.dot(x - vec(patch.facets[0].point));
-  if (depth <= 0) return out;
-  const double force = settings.stiffness * depth - settings.damping * n.dot(v);
-  out.force = std::clamp(force, 0.0, settings.force_limit) * n;
-  out.reported = out.force;
-  out.proxy = x + depth * n;
-  out.stored = 0.5 * settings.stiffness * depth * depth;
-  out.touching = true;
+  out.force = out.reported = felt.force;
+  out.proxy = felt.proxy;
+  out.stored = felt.stored;
+  out.touching = felt.n_planes > 0;
   return out;
 }
 
 Rendered local_force(haptic::Controller& controller, std::int64_t now_ns, const haptic::DeviceSample& sample,
-                     const ContactPatch* patch) noexcept {
-  const haptic::ControllerOutput answer = controller.tick(now_ns, sample, patch);
+                     const ContactPatch* patch, const ToolWrench* wrench) noexcept {
+  const haptic::ControllerOutput answer = controller.tick(now_ns, sample, patch, wrench);
   Rendered out;
   out.force = answer.write ? answer.force : Vec3(Vec3::Zero());
   out.reported = answer.reported;

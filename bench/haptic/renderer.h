@@ -32,6 +32,6 @@ Rendered raw_plane_force(const ContactPatch& patch, const Vec3& x, const Vec3& v
 
 /// The production controller's answer to one tick. Energy is that of a spring whose force ends at the limit.
 Rendered local_force(haptic::Controller& controller, std::int64_t now_ns, const haptic::DeviceSample& sample,
-                     const ContactPatch* patch) noexcept;
+                     const ContactPatch* patch, const ToolWrench* wrench = nullptr) noexcept;
 
 }  // namespace palpate::bench

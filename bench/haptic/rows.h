@@ -23,8 +23,9 @@ enum class Effort { quick, full };
 struct Runs {
   Effort effort = Effort::full;
   int jobs = 1;
-  std::vector<CaseResult> seen;  // all cases with the production controller so far, for S6
-  std::vector<CaseResult> raw;   // with raw planes
+  std::vector<CaseResult> seen;   // all cases with the production controller so far, for S6
+  std::vector<CaseResult> raw;    // with raw planes
+  std::vector<CaseResult> world;  // with real tissue
 };
 
 // rows_matrix.cpp
@@ -52,6 +53,17 @@ Row bad_devices_are_stopped();  // F5
 // rows_contact.cpp
 Row edges_and_corners();  // S8
 Row sphere_is_round();    // S8
+
+// rows_world.cpp: with the real physics library as the object
+Row world_is_stable(Runs& runs);        // S2, S6
+Row world_force_is_true(Runs& runs);    // S4
+Row world_silence_fades();              // F1
+Row world_return_is_no_kick();          // F2
+Row world_raw_is_unstable(Runs& runs);  // S0
+Row stick_gains_nothing(Runs& runs);    // S12
+
+// rows_six.cpp
+Row torque_is_bounded(const Runs& runs);  // S12
 
 // rows_exact.cpp
 Row proxy_is_exact(const Runs& runs);        // S9

@@ -86,7 +86,14 @@ std::vector<Row> all_rows(Runs& runs) {
           silence_fades(),
           return_is_no_kick(),
           rubbish_is_harmless(runs),
-          bad_devices_are_stopped()};
+          bad_devices_are_stopped(),
+          world_raw_is_unstable(runs),
+          world_is_stable(runs),
+          world_force_is_true(runs),
+          world_silence_fades(),
+          world_return_is_no_kick(),
+          torque_is_bounded(runs),
+          stick_gains_nothing(runs)};
 }
 
 }  // namespace palpate::bench

@@ -3,8 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/message/vec3.h"
+
 namespace palpate::bench {
 namespace {
+
+/// How physics answers a hand that feels in this way.
+ForceModel model_of(const Case& c) {
+  if (c.mode == RenderMode::raw_planes) return ForceModel::raw_planes;
+  if (c.mode == RenderMode::direct) return ForceModel::direct;
+  return c.slab->stick ? ForceModel::tangent : ForceModel::norton;
+}
 
 haptic::ControllerSettings settings_of(const Case& c) {
   haptic::ControllerSettings settings;
@@ -12,6 +21,7 @@ haptic::ControllerSettings settings_of(const Case& c) {
   settings.damping = c.damping;
   settings.force_limit = c.device.force_limit;
   settings.resolution = c.device.resolution;
+  if (c.slab != nullptr) settings.model = model_of(c);
   return settings;
 }
 
@@ -32,13 +42,49 @@ Trial::Trial(const Case& c, Path path)
       now_ns_(start_ns - static_cast<std::int64_t>(lead_in * 1e9)),
       next_frame_ns_(now_ns_) {
   controller_.set_state(haptic::HapticState::ready);
+  if (c.slab != nullptr)
+    world_ = std::make_unique<WorldObject>(slab_scene(*c.slab, model_of(c), c.rate_Hz, c.stiffness, c.damping));
+}
+
+Trial::HandReport Trial::report() {
+  HandReport hand{rendered_.reported.z(), plant_.measured(), rendered_.proxy, {}};
+  if (!world_) return hand;
+  hand.state.tick = ++tick_;
+  hand.state.stamp_ns = now_ns_;
+  hand.state.p_WT = array(hand.x);
+  hand.state.v_WT = array(controller_.motion().v());
+  hand.state.proxy = array(hand.proxy);
+  hand.state.force_on_hand = array(rendered_.reported);
+  hand.state.force_now = array(rendered_.force);
+  hand.state.engaged = case_.mode != RenderMode::local || controller_.engaged() ? 1U : 0U;
+  return hand;
+}
+
+/// A frame of the real physics, with the newest that it knows of the hand.
+void Trial::answer_of_world() {
+  constexpr std::int64_t silence_ns = 50'000'000;  // as palpate-physics has it
+  HandReport came;
+  if (up_.receive(now_ns_, came)) {
+    if (came.state.tick > known_.state.tick) known_ = came;
+    known_ns_ = now_ns_;
+  }
+  Answer answer;
+  const bool fresh = known_.state.tick > 0 && now_ns_ - known_ns_ <= silence_ns;
+  world_->frame(fresh ? &known_.state : nullptr, now_ns_, answer.patch, answer.wrench);
+  answer.patch.tick = answer.wrench.tick = ++frame_;
+  if (!physics_alive) return;
+  if (alter_patch) alter_patch(answer.patch, known_.proxy);
+  down_.send(now_ns_, answer);
 }
 
 /// Both directions of the link; physics frames.
 void Trial::exchange() {
-  up_.send(now_ns_, {rendered_.reported.z(), plant_.measured(), rendered_.proxy});
-  if (now_ns_ >= next_frame_ns_) {
-    next_frame_ns_ += static_cast<std::int64_t>(1e9 / case_.rate_Hz);
+  up_.send(now_ns_, report());
+  const bool due = now_ns_ >= next_frame_ns_;
+  if (due) next_frame_ns_ += static_cast<std::int64_t>(1e9 / case_.rate_Hz);
+  if (due && world_) {
+    answer_of_world();
+  } else if (due) {
     up_.receive(now_ns_, known_);
     // Without a local model physics computes the force itself, from the last position that it knows.
     if (case_.mode == RenderMode::direct)
@@ -46,7 +92,7 @@ void Trial::exchange() {
           std::clamp(case_.stiffness * (tissue_.surface() - known_.x.z()), 0.0, settings_.force_limit);
     tissue_.take(known_.force);
     if (physics_alive) {
-      Answer answer{tissue_.patch(++frame_), known_.force};
+      Answer answer{tissue_.patch(++frame_), known_.force, {}};
       if (alter_patch) alter_patch(answer.patch, known_.proxy);
       down_.send(now_ns_, answer);
     }
@@ -63,7 +109,8 @@ void Trial::render() {
   sample.powered = powered_;
   if (spoil_sample) spoil_sample(sample);
   if (case_.mode == RenderMode::local) {
-    rendered_ = local_force(controller_, now_ns_, sample, newest_ ? &newest_->patch : nullptr);
+    rendered_ = local_force(controller_, now_ns_, sample, newest_ ? &newest_->patch : nullptr,
+                            newest_ && world_ ? &newest_->wrench : nullptr);
     powered_ = powered_ || rendered_.want_power;
     return;
   }

@@ -12,6 +12,7 @@
 #include "bench/haptic/plant.h"
 #include "bench/haptic/renderer.h"
 #include "bench/haptic/tissue.h"
+#include "bench/haptic/world_object.h"
 
 namespace palpate::bench {
 
@@ -19,6 +20,8 @@ struct Case {
   DeviceModel device = device_models[0];
   HandSpring hand = hand_springs[0];
   ObjectModel object = object_models[0];
+  const SlabModel* slab =
+      nullptr;          // the real physics library instead of `object`, whose stiffness is then only aimed by
   double rate_Hz = 60;  // of patches
   LinkModel link;       // each way
   double stiffness = 500;
@@ -65,6 +68,7 @@ class Trial {
   const EnergyBook& energy() const noexcept { return energy_; }
   const haptic::Controller& controller() const noexcept { return controller_; }
   const Rendered& rendered() const noexcept { return rendered_; }
+  const WorldObject* world() const noexcept { return world_.get(); }
   /// Largest force change in a tick; the same less K (v T + q), v the hand's speed then, q the resolution [N].
   double force_step() const noexcept { return force_step_; }
   double force_step_beyond_motion() const noexcept { return step_beyond_; }
@@ -75,13 +79,17 @@ class Trial {
     double force = 0;       // along z [N]
     Vec3 x = Vec3::Zero();  // [m]
     Vec3 proxy = Vec3::Zero();
+    ToolState state{};  // of which the three above are parts
   };
   struct Answer {  // physics -> hand
     ContactPatch patch;
     double force = 0;  // computed by physics; RenderMode::direct holds it [N]
+    ToolWrench wrench{};
   };
 
   void exchange();
+  HandReport report();
+  void answer_of_world();
   void render();
   void book_force_step(const Vec3& force);
   void advance_plant();
@@ -90,6 +98,7 @@ class Trial {
   Path path_;
   Plant plant_;
   Tissue tissue_;
+  std::unique_ptr<WorldObject> world_;  // null: `tissue_`
   haptic::ControllerSettings settings_;
   haptic::Controller controller_;
   haptic::MotionWatch motion_;  // of raw planes and direct: the same velocity as the controller's
@@ -101,6 +110,8 @@ class Trial {
   std::int64_t next_frame_ns_;
   std::uint64_t frame_ = 0;
   HandReport known_;  // to physics
+  std::int64_t known_ns_ = 0;
+  std::uint64_t tick_ = 0;
   std::optional<Answer> newest_;
   bool powered_ = false;
   std::array<Vec3, 3> in_flight_{Vec3::Zero(), Vec3::Zero(),

@@ -12,13 +12,14 @@ namespace palpate::haptic {
 class LocalModel {
  public:
   /// @param stiffness, damping, limit  of the spring between hand and tool [N/m], [N s/m], [N]
-  LocalModel(ForceModel model, double stiffness, double damping, double limit) noexcept
+  /// @param torque_limit  0: the device gives none [N m]
+  LocalModel(ForceModel model, double stiffness, double damping, double limit, double torque_limit) noexcept
       : model_(model),
         stiffness_(stiffness),
         damping_(damping),
         limit_(limit),
         planes_(stiffness, damping, limit),
-        tangent_(stiffness, damping, limit) {}
+        tangent_(stiffness, damping, limit, torque_limit) {}
 
   /// Forces come from wrenches; otherwise from patches.
   bool needs_wrench() const noexcept { return model_ == ForceModel::tangent || model_ == ForceModel::direct; }

@@ -12,7 +12,8 @@ namespace {
 constexpr double lever =
     0.05;  // [m]: a turn counts as the way of a point this far off, a moment as its force there
 constexpr double least_share =
-    1e-6;  // of the largest eigenvalue: below it the spring does not hold that direction
+    1e-3;  // of the largest eigenvalue: below it the spring does not hold that direction
+constexpr double soft_share = 0.15;  // nor is any that it holds softer: a small force would store much there
 constexpr double force_rate = 80.0;  // most that an answer changes the force [N/s]
 constexpr double outran_way = 0.05;  // from the answer's pose, beyond which it says nothing [m]
 constexpr int most_halvings = 12;
@@ -39,9 +40,9 @@ Mat6 in_newtons_per_metre(const Mat6& K) noexcept {
   return k;
 }
 
-/// A symmetric matrix without what is not positive, its pseudo-inverse, and the projector on what it holds.
+/// The positive part of a symmetric matrix, bounded in stiffness, and its pseudo-inverse.
 struct Parts {
-  Mat6 K = Mat6::Zero(), inverse = Mat6::Zero(), range = Mat6::Zero();
+  Mat6 K = Mat6::Zero(), inverse = Mat6::Zero();
 };
 Parts positive_parts(const Mat6& K, double most) noexcept {
   Parts parts;
@@ -51,14 +52,24 @@ Parts positive_parts(const Mat6& K, double most) noexcept {
   if (!(largest > 0)) return parts;
   const double scale = std::min(1.0, most / largest);
   for (int i = 0; i < 6; ++i) {
-    const double value = solver.eigenvalues()(i);
-    if (value <= least_share * largest) continue;
+    if (solver.eigenvalues()(i) <= least_share * largest) continue;
+    const double value = std::max(solver.eigenvalues()(i), soft_share * largest);
     const Vec6 e = solver.eigenvectors().col(i);
     parts.K += scale * value * e * e.transpose();
     parts.inverse += 1 / (scale * value) * e * e.transpose();
-    parts.range += e * e.transpose();
   }
   return parts;
+}
+
+/// The projector on what a spring holds.
+Mat6 range_of(const Mat6& K) noexcept {
+  Mat6 range = Mat6::Zero();
+  const Eigen::SelfAdjointEigenSolver<Mat6> solver(K);
+  if (solver.info() != Eigen::Success) return range;
+  for (int i = 0; i < 6; ++i)
+    if (solver.eigenvalues()(i) > least_share * solver.eigenvalues()(5))
+      range += solver.eigenvectors().col(i) * solver.eigenvectors().col(i).transpose();
+  return range;
 }
 
 }  // namespace
@@ -70,7 +81,13 @@ void TangentWrench::take(const ToolWrench& wrench, double period) noexcept {
   Vec6 W;
   W << force, vec(wrench.moment) + (vec(wrench.set_point) - vec(wrench.tip)).cross(force);  // about the tip
   const Mat6 sent = Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(wrench.stiffness.data());
-  const Parts now = positive_parts(in_newtons_per_metre(sent), stiffness_);
+  Mat6 K = in_newtons_per_metre(sent);
+  if (torque_limit_ <= 0) {
+    K.rightCols<3>().setZero();
+    K.bottomRows<3>().setZero();
+    W.tail<3>().setZero();
+  }
+  const Parts now = positive_parts(K, stiffness_);
   K_0_ = now.K;
   W_0_ = in_newtons(W);
   d_0_ = now.inverse * W_0_;
@@ -78,7 +95,7 @@ void TangentWrench::take(const ToolWrench& wrench, double period) noexcept {
   has_ = true;
   remaining_ = period;
   // The stretch in directions that no spring holds is only the way that the hand went there.
-  d_ = positive_parts(K_, std::numeric_limits<double>::infinity()).range * d_;
+  d_ = range_of(K_) * d_;
 }
 
 /// The stretch that a contact can have, by projection on a cone about that of the answer: with y = K^1/2 d, a along y_0 and b
@@ -97,9 +114,20 @@ Vec6 TangentWrench::pushing(const Vec6& d, const Mat6& K, const Vec6& axis) noex
   return t * ((1 - cone * along / beside) / std::sqrt(squared) * axis + cone / beside * d);
 }
 
-double TangentWrench::energy(const Vec6& d, const Mat6& K, const Vec6& axis) noexcept {
-  const Vec6 d_c = pushing(d, K, axis);
-  return 0.5 * d_c.dot(K * d_c);
+/// What is left of a wrench by the limits, 0..1. @param W  [N], the moment as a force
+double TangentWrench::within_limits(const Vec6& W) const noexcept {
+  const double force = W.head<3>().norm(), torque = lever * W.tail<3>().norm();
+  double r = 1;
+  if (force > limit_) r = limit_ / force;
+  if (torque > torque_limit_) r = std::min(r, torque_limit_ / torque);
+  return r;
+}
+
+/// S (2 r - r^2) of a spring that would store S and whose wrench ends at r.
+double TangentWrench::energy(const Vec6& d, const Mat6& K, const Vec6& axis) const noexcept {
+  const Vec6 d_c = pushing(d, K, axis), W = K * d_c;
+  const double r = within_limits(W);
+  return 0.5 * d_c.dot(W) * (2 * r - r * r);
 }
 
 /// Toward the answer's spring, as far as force and tank allow.
@@ -108,13 +136,12 @@ void TangentWrench::follow(const Vec6& d_goal, double dt) noexcept {
   remaining_ = std::max(0.0, remaining_ - dt);
   const Vec6 W = K_ * pushing(d_, K_, axis_);
   const double before = energy(d_, K_, axis_);
-  const double felt = std::min(1.0, limit_ / std::max(W.head<3>().norm(), 1e-12));
   for (int n = 0; n <= most_halvings; ++n) {
     const Vec6 d = d_ + part * (d_goal - d_);
     const Mat6 K = K_ + part * (K_0_ - K_);
     const Vec6 axis = axis_ + part * (d_0_ - axis_);
     const double change = (K * pushing(d, K, axis) - W).norm();
-    const double work = felt * (energy(d, K, axis) - before);
+    const double work = energy(d, K, axis) - before;
     if (change <= force_rate * dt && work <= tank_.level()) {
       d_ = d;
       K_ = K;
@@ -141,7 +168,8 @@ ContactResult TangentWrench::tick(const HandMotion& hand, double dt) noexcept {
     if (energy(d_, K_, axis_) <= 0) K_ = K_0_, axis_ = d_0_, d_.setZero();
     follow(result.outran ? Vec6(Vec6::Zero()) : pushing(d_goal, K_0_, d_0_), dt);
   }
-  const Vec6 W = K_ * pushing(d_, K_, axis_);
+  Vec6 W = K_ * pushing(d_, K_, axis_);
+  W *= within_limits(W);
   const Vec3 F = W.head<3>();
   const double size = F.norm();
   if (size > negligible) {

@@ -25,10 +25,12 @@ class TangentWrench {
  public:
   /// @param stiffness  most that the spring may have in any direction [N/m]; W_0 at its pose stays what it is
   /// @param damping    along the force [N s/m]
-  /// @param limit      force beyond which the spring does not push harder [N]
+  /// @param limit, torque_limit  beyond which the spring does not push or turn harder: both are shortened together [N],
+  ///                   [N m]. Torque limit 0: the device gives none, and turns neither make nor store anything.
   TangentWrench(double stiffness, double damping,
-                double limit = std::numeric_limits<double>::infinity()) noexcept
-      : stiffness_(stiffness), damping_(damping), limit_(limit) {}
+                double limit = std::numeric_limits<double>::infinity(),
+                double torque_limit = std::numeric_limits<double>::infinity()) noexcept
+      : stiffness_(stiffness), damping_(damping), limit_(limit), torque_limit_(torque_limit) {}
 
   /// A new answer, reached after about `period` seconds. It must have passed WrenchWatch. Costs two 6 x 6 eigenproblems.
   void take(const ToolWrench& wrench, double period) noexcept;
@@ -52,9 +54,11 @@ class TangentWrench {
 
   void follow(const Vec6& d_goal, double dt) noexcept;
   static Vec6 pushing(const Vec6& d, const Mat6& K, const Vec6& axis) noexcept;
-  static double energy(const Vec6& d, const Mat6& K, const Vec6& axis) noexcept;
+  double energy(const Vec6& d, const Mat6& K, const Vec6& axis) const noexcept;
 
-  double stiffness_, damping_, limit_;
+  double within_limits(const Vec6& W) const noexcept;
+
+  double stiffness_, damping_, limit_, torque_limit_;
   // the newest answer
   bool has_ = false;
   Vec3 x_0_ = Vec3::Zero();

@@ -56,19 +56,22 @@ void TangentEstimate::frame(const ContactSum& sum, const Vec6& motion, double se
   spread_ = to_new_tip * spread_ * to_new_tip.transpose();
   spread_ += part * (sum.spread / seconds - spread_);
 
+  since_contact_ = sum.spread.isZero(0) ? since_contact_ + seconds : 0.0;
+  const bool present = since_contact_ < presence;
   Affine now;
   now.W = sum.impulse / seconds;
-  way_ += motion.head<3>();
+  // Way without contact makes no force: counted, it would look like soft tissue.
+  if (present) way_ += motion.head<3>();
   learn(now.W.head<3>(), way_, part, seconds);
 
-  since_contact_ = sum.spread.isZero(0) ? since_contact_ + seconds : 0.0;
   const double F = force_twice_.norm();
   const double all = spread_.topLeftCorner<3, 3>().trace();
-  if (since_contact_ < presence && all > 0 && F > negligible) {
+  if (present && all > 0 && F > negligible) {
     const Vec3 n = force_twice_ / F;
     const double along = n.dot(spread_.topLeftCorner<3, 3>() * n);
     now.K = k_ / std::max(along, least_along * all) * spread_;
   }
+  K_ = now.K;
   once_.approach(now, part);
   twice_.approach(once_, part);
 }

@@ -11,7 +11,7 @@
 //
 //   W := W - K xi,   then   W += a (W_t - W),  K += a (K_t - K)      xi the hand's motion in the frame
 //
-// so that on elastic tissue the wrench told belongs to the pose told. Source: ours; the linear local model of slow tissue
+// so that on elastic tissue the wrench told belongs to the pose told. K_t itself is the tangent that is told. Source: ours; the linear local model of slow tissue
 // is Cavusoglu & Tendick 2000.
 
 #include "physics_node/collision/contact_sum.h"
@@ -32,7 +32,7 @@ class TangentEstimate {
   void frame(const ContactSum& sum, const Vec6& motion, double seconds) noexcept;
 
   const Vec6& wrench() const noexcept { return twice_.W; }  // about the tip [N], [N m]
-  const Mat6& stiffness() const noexcept { return twice_.K; }
+  const Mat6& stiffness() const noexcept { return K_; }
   double scale() const noexcept { return k_; }  // k [N/m]
 
  private:
@@ -47,6 +47,7 @@ class TangentEstimate {
   double low_pass_Hz_, first_, k_;
   Affine once_, twice_;
   Mat6 spread_ = Mat6::Zero();
+  Mat6 K_ = Mat6::Zero();                                        // K_t of the last frame
   double since_contact_ = 1e9;                                   // [s]
   Vec3 force_once_ = Vec3::Zero(), force_twice_ = Vec3::Zero();  // as measured [N]
   Vec3 way_ = Vec3::Zero();                                      // of the tip since the start [m]

@@ -28,24 +28,29 @@ TEST_P(InAMatrix, KeepsItsLimitsAndItsForceSteps) {
   if (!runs.seen.empty()) expect(force_steps_are_small(runs));
 }
 
-INSTANTIATE_TEST_SUITE_P(HapticLoop, InAMatrix,
-                         ::testing::Values(std::pair{"NegativeControls", &direct_and_raw_are_unstable},
-                                           std::pair{"StaticWall", &wall_is_stable},
-                                           std::pair{"StiffestWall", &stiffest_wall},
-                                           std::pair{"TissueThatYields", &matrix_is_stable},
-                                           std::pair{"NoHand", &push_without_a_hand_gains_nothing},
-                                           std::pair{"StiffHandSpring", &stiff_matrix_is_stable},
-                                           std::pair{"UnrulyLinks", &unruly_links_are_borne},
-                                           std::pair{"TrueForce", &force_is_true},
-                                           std::pair{"Pulse", &pulse_is_felt},
-                                           std::pair{"Saturation", &saturation_is_quiet}),
-                         [](const auto& which) { return std::string(which.param.first); });
+INSTANTIATE_TEST_SUITE_P(
+    HapticLoop, InAMatrix,
+    ::testing::Values(std::pair{"NegativeControls", &direct_and_raw_are_unstable},
+                      std::pair{"StaticWall", &wall_is_stable}, std::pair{"StiffestWall", &stiffest_wall},
+                      std::pair{"TissueThatYields", &matrix_is_stable},
+                      std::pair{"NoHand", &push_without_a_hand_gains_nothing},
+                      std::pair{"StiffHandSpring", &stiff_matrix_is_stable},
+                      std::pair{"UnrulyLinks", &unruly_links_are_borne},
+                      std::pair{"RawPlanesOnRealTissue", &world_raw_is_unstable},
+                      std::pair{"RealTissue", &world_is_stable},
+                      std::pair{"TrueForceOfRealTissue", &world_force_is_true},
+                      std::pair{"Stick", &stick_gains_nothing}, std::pair{"TrueForce", &force_is_true},
+                      std::pair{"Pulse", &pulse_is_felt}, std::pair{"Saturation", &saturation_is_quiet}),
+    [](const auto& which) { return std::string(which.param.first); });
 
 TEST(HapticLoop, PushesGentlyWhenPlanesTeleport) { expect(teleports_push_gently()); }
 TEST(HapticLoop, FeelsEdgesAndCornersAsTheyAre) { expect(edges_and_corners()); }
 TEST(HapticLoop, FeelsASphereAsRound) { expect(sphere_is_round()); }
 TEST(HapticLoop, IsFreeInFreeSpace) { expect(free_space_is_free()); }
 TEST(HapticLoop, FadesWhenPhysicsDies) { expect(silence_fades()); }
+TEST(HapticLoop, BoundsTorques) { expect(torque_is_bounded(quick())); }
+TEST(HapticLoop, FadesWhenRealTissueFallsSilent) { expect(world_silence_fades()); }
+TEST(HapticLoop, DoesNotKickWhenRealTissueReturns) { expect(world_return_is_no_kick()); }
 TEST(HapticLoop, DoesNotKickWhenPhysicsReturns) { expect(return_is_no_kick()); }
 TEST(HapticLoop, StopsBadDevices) { expect(bad_devices_are_stopped()); }
 TEST(HapticLoop, HasAnExactProxy) { expect(proxy_is_exact(quick())); }

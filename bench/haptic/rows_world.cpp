@@ -1,0 +1,209 @@
+// The rows of the matrix again, in three dimensions, with the real physics library in place of a mass on a spring.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/haptic/rows.h"
+
+namespace palpate::bench {
+namespace {
+
+/// Steps of force beyond K (v T + q) that a tick may make [N].
+constexpr double limit_step = 0.1;
+
+Case case_of(const SlabModel& slab) {
+  Case c;
+  c.slab = &slab;
+  c.object = {slab.name, 1.0, 0.0, slab.about};
+  c.hand = hand_springs[1];
+  c.stiffness = 500;
+  return c;
+}
+
+std::vector<Case> world_cases(Effort effort, RenderMode mode, const DeviceModel& device) {
+  const bool full = effort == Effort::full;
+  const std::vector<double> delays =
+      full ? std::vector<double>{0, 5e-3, 20e-3, 50e-3} : std::vector<double>{5e-3, 50e-3};
+  const std::vector<double> rates =
+      full ? std::vector<double>{20, 60, 150, 1000} : std::vector<double>{60, 1000};
+  std::vector<Case> cases;
+  for (const SlabModel& slab : slab_models)
+    for (const HandSpring& hand : {hand_springs[0], hand_springs[1], hand_springs[2]})
+      for (const double rate : rates)
+        for (const double delay : delays)
+          for (const double loss : full ? std::vector<double>{0, 0.1} : std::vector<double>{0.1}) {
+            if (!full && &hand != &hand_springs[0] && hand.name != hand_springs[cases.size() % 3].name)
+              continue;
+            Case c = case_of(slab);
+            c.device = device;
+            c.hand = hand;
+            c.rate_Hz = rate;
+            c.link.delay = delay;
+            c.link.loss = loss;
+            c.mode = mode;
+            c.seed = cases.size() + 1;
+            cases.push_back(c);
+          }
+  return cases;
+}
+
+std::string figure_of(const Tally& t) {
+  return fmt::format(
+      "{} cases: {} above 200 um, {} above 100 um, {} break an energy bound; most {:.0f} um, G {:.3f} mJ; "
+      "step {:.3f} N, "
+      "{:.3f} N beyond K v T",
+      t.cases, t.above_200_um, t.above_100_um, t.energy_broken, 1e6 * t.swing_most, 1e3 * t.surplus_most,
+      t.force_step_most, t.step_beyond_most);
+}
+
+}  // namespace
+
+Row world_is_stable(Runs& runs) {
+  std::vector<Case> cases;
+  for (const DeviceModel& device : {device_models[0], device_models[1]}) {
+    const auto more = world_cases(runs.effort, RenderMode::local, device);
+    cases.insert(cases.end(), more.begin(), more.end());
+  }
+  const auto results = run_cases(cases, runs.jobs);
+  runs.world.insert(runs.world.end(), results.begin(), results.end());
+  const Tally t = tally(results);
+  return {"S2",
+          "real tissue, 3-D: slabs of 30 and 100 kPa and one that yields; Touch and Premium, 3 hands, K 500",
+          "none above 200 um, <= 1 % above 100 um, energy bounds in all, steps <= K (v T + q) + 0.1 N",
+          figure_of(t),
+          t.above_200_um == 0 && t.above_100_um * 100 <= t.cases && t.energy_broken == 0 &&
+              t.step_beyond_most <= limit_step};
+}
+
+Row world_raw_is_unstable(Runs& runs) {
+  const std::vector<Case> cases = world_cases(runs.effort, RenderMode::raw_planes, device_models[0]);
+  const Tally t = tally(run_cases(cases, runs.jobs));
+  return {"S0", "negative control on real tissue: raw planes, K 500, Touch",
+          "> a quarter of the cases above 200 um",
+          fmt::format("{} of {} cases above 200 um", t.above_200_um, t.cases), t.above_200_um * 4 > t.cases};
+}
+
+/// Against the same press at 1 kHz without delay; and that against the spring of the hand, which must hold it.
+Row world_force_is_true(Runs& runs) {
+  double worst = 0, at_rest = 0;
+  int cases = 0;
+  for (const SlabModel& slab : slab_models) {
+    Case c = case_of(slab);
+    c.device = device_models[3];
+    c.rate_Hz = 1000;
+    const CaseResult reference = run_case(c);
+    at_rest = std::max(at_rest, std::abs(reference.force_most / reference.force_least - 1));
+    for (const double rate :
+         runs.effort == Effort::full ? std::vector<double>{20, 60, 150} : std::vector<double>{60})
+      for (const double delay : {5e-3, 50e-3}) {
+        c.rate_Hz = rate;
+        c.link.delay = delay;
+        worst = std::max(worst, std::abs(run_case(c).force / reference.force - 1));
+        ++cases;
+      }
+  }
+  return {"S4", "real tissue: the force held at other rates and delays against 1 kHz without delay",
+          "within 2 %",
+          fmt::format("{} cases: off by {:.2f} %; at 1 kHz it holds still within {:.2f} %", cases,
+                      100 * worst, 100 * at_rest),
+          worst <= 0.02 && at_rest <= 0.02};
+}
+
+Row world_silence_fades() {
+  constexpr double when = 2.0;
+  double latest = 0, step = -1, surplus = 0;
+  bool monotone = true, went_stale = true;
+  for (const SlabModel& slab : slab_models)
+    for (const double rate : {20.0, 1000.0}) {
+      Case c = case_of(slab);
+      c.rate_Hz = rate;
+      Trial trial(c, press_path(c));
+      trial.run(when);
+      trial.physics_alive = false;
+      double last_message = when, last = 1e9, gone = 10;
+      const auto taken = [&] {
+        return trial.controller().patches().taken() + trial.controller().wrenches().taken();
+      };
+      std::uint64_t seen = taken();
+      bool stale = false;
+      trial.run(when + 0.7, [&] {
+        if (taken() != seen) seen = taken(), last_message = trial.t();
+        const bool now_stale = trial.controller().state() == haptic::HapticState::stale;
+        const double f = trial.rendered().force.norm();
+        if (now_stale && stale) monotone = monotone && f <= last * (1 + 1e-12);
+        stale = stale || now_stale;
+        last = f;
+        if (f == 0) gone = std::min(gone, trial.t());
+      });
+      latest = std::max(latest, gone - last_message);
+      went_stale = went_stale && stale;
+      step = std::max(step, trial.force_step_beyond_motion());
+      surplus = std::max(surplus, trial.energy().surplus());
+    }
+  return {"F1", "real tissue: physics dies in contact, 20 and 1000 Hz",
+          "stale; falls steadily to 0 N within 400 ms; steps <= K (v T + q) + 0.1 N; G <= 0.1 mJ",
+          fmt::format("0 N after {:.0f} ms at most, {}; beyond K v T {:.3f} N; G {:.3f} mJ", 1e3 * latest,
+                      monotone ? "never rising" : "rising", step, 1e3 * surplus),
+          latest <= 0.4 && monotone && went_stale && step <= limit_step && surplus <= EnergyBook::G_allowed};
+}
+
+Row world_return_is_no_kick() {
+  double inside = 0, step = -1, excess = -1, least_again = 1e9;
+  for (const SlabModel& slab : slab_models)
+    for (const double away : {0.1, 1.0}) {
+      Case c = case_of(slab);
+      c.rate_Hz = 150;
+      const Path press = press_path(c, 1.0, 3.0);
+      Trial trial(c, [press](double t) { return t < 5 ? press(t) : press(t - 5); });
+      trial.run(2.0);
+      trial.physics_alive = false;
+      trial.run(2.0 + away);
+      trial.restart_physics();
+      trial.run(7.0, [&] {
+        if (away > 0.5 && trial.t() <= 4) inside = std::max(inside, trial.rendered().force.norm());
+      });
+      least_again = std::min(least_again, trial.rendered().force.norm());
+      step = std::max(step, trial.force_step_beyond_motion());
+      excess = std::max(excess, trial.energy().plane_excess());
+    }
+  return {
+      "F2", "real tissue: physics falls silent for 0.1 and 1 s with the tool inside",
+      "after 1 s: 0 N until the tool has left; steps <= K (v T + q) + 0.1 N; bound on plane work kept; felt "
+      "again later",
+      fmt::format(
+          "inside {:g} N; beyond K v T {:.3f} N; plane work {:+.3f} mJ of its bound; {:.2f} N again at least",
+          inside, step, 1e3 * excess, least_again),
+      inside == 0 && step <= limit_step && excess <= 1e-9 && least_again > 0.3};
+}
+
+/// A stick of the real physics, pressed into a slab: six dimensions. It may swing, but not gain.
+Row stick_gains_nothing(Runs& runs) {
+  double surplus = 0, excess = -1, swing = 0, step = -1;
+  int cases = 0;
+  for (const HandSpring& hand : {hand_springs[1], hand_springs[2]})
+    for (const double rate :
+         runs.effort == Effort::full ? std::vector<double>{20, 60, 150, 1000} : std::vector<double>{1000})
+      for (const double delay : {0.0, 50e-3}) {
+        Case c = case_of(stick_slab);
+        c.hand = hand;
+        c.rate_Hz = rate;
+        c.link.delay = delay;
+        const CaseResult r = run_case(c);
+        surplus = std::max(surplus, r.surplus);
+        excess = std::max(excess, r.plane_excess);
+        swing = std::max(swing, r.swing);
+        step = std::max(step, r.step_beyond);
+        ++cases;
+      }
+  return {
+      "S12", "real tissue: a stick pressed into a slab of 100 kPa, wrench and tangent",
+      "G <= 0.1 mJ and the bound on the work of springs in all; whether it is still is told, not asked",
+      fmt::format(
+          "{} cases: G {:.3f} mJ, work {:+.3f} mJ of its bound, {:.3f} N beyond K v T; swings by {:.1f} mm",
+          cases, 1e3 * surplus, 1e3 * excess, step, 1e3 * swing),
+      surplus <= EnergyBook::G_allowed && excess <= 1e-9};
+}
+
+}  // namespace palpate::bench
