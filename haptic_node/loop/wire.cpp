@@ -92,8 +92,12 @@ void Wire::drain(std::uint32_t tool, bool all) noexcept {
 
 void Wire::listen() noexcept {
   Command command;
-  while (commands_.take(command))
+  while (commands_.take(command)) {
     if (command.kind == CommandKind::stop) stop_commanded_.store(true);
+    if (command.kind != CommandKind::device || command.value != 1.0) continue;
+    for (const auto& channel : channels_)
+      if (channel->name == command.name.data()) channel->reset_asked.store(true);
+  }
 }
 
 void Wire::trace_and_listen() noexcept {
