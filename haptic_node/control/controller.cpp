@@ -128,6 +128,15 @@ void Controller::step_ready(std::int64_t now_ns, const DeviceSample& sample) noe
   state_ = HapticState::run;
 }
 
+/// After arming the gain rises over arm_ramp; in contact only as fast as the plane's tank pays for dg S, S the energy of
+/// the springs at full gain.
+void Controller::step_run() noexcept {
+  if (gain_ >= 1) return;
+  double rise = std::min(1.0 - gain_, settings_.period / arm_ramp);
+  if (full_ > 0) rise = model_.pay(rise * full_) / full_;
+  gain_ += rise;
+}
+
 /// Patches that return during the fade find the planes moved back so far that the force goes on as faded; once it
 /// has gone, only leaving the tissue brings it back.
 void Controller::step_stale(std::int64_t now_ns, bool new_patch) noexcept {
@@ -147,7 +156,8 @@ void Controller::step_stale(std::int64_t now_ns, bool new_patch) noexcept {
 }
 
 /// In nominal ticks: after a stall the ramp is not skipped.
-void Controller::step_safe() noexcept {
+void Controller::step_safe(std::int64_t now_ns, const DeviceSample& sample) noexcept {
+  refusal_ = why_not(now_ns, sample);
   gain_ = std::max(0.0, gain_ - settings_.period / safe_ramp);
   safe_for_ += settings_.period;
   const double rest = resume_inside_ ? safe_ramp : safe_rest;
@@ -165,13 +175,13 @@ void Controller::step_state(std::int64_t now_ns, const DeviceSample& sample, boo
       step_ready(now_ns, sample);
       break;
     case HapticState::run:
-      gain_ = std::min(1.0, gain_ + settings_.period / arm_ramp);
+      step_run();
       break;
     case HapticState::stale:
       step_stale(now_ns, new_patch);
       break;
     case HapticState::safe:
-      step_safe();
+      step_safe(now_ns, sample);
       break;
     default:
       break;
@@ -183,7 +193,8 @@ double Controller::share_of_felt() noexcept {
   if (!model_.is_passive()) return 1;
   const double force = felt_.force.norm(), limit = guard_.limit();
   const double r = force > limit ? limit / force : 1.0;
-  const double applied = felt_.stored * (2 * r - r * r) * gain_ * stop_gain_;
+  full_ = felt_.stored * (2 * r - r * r);
+  const double applied = full_ * gain_ * stop_gain_;
   const double share = energy_.share(motion_.hand(), settings_.period, applied, model_.work());
   stored_ = energy_.left();
   return share;

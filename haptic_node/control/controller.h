@@ -23,7 +23,7 @@ namespace palpate::haptic {
 enum class HapticState : std::uint32_t { off, open, calibrating, ready, armed, run, stale, safe, fault };
 const char* name_of(HapticState state) noexcept;
 
-/// Why forces are not switched on in state `ready`.
+/// Why forces are not switched on in the states `ready` and `safe`.
 enum class ArmRefusal : std::uint32_t { none, no_sample, not_calibrated, not_held, no_patch, inside, moving };
 const char* text_of(ArmRefusal refusal) noexcept;
 
@@ -101,8 +101,9 @@ class Controller {
   void step_state(std::int64_t now_ns, const DeviceSample& sample, bool new_patch) noexcept;
   ArmRefusal why_not(std::int64_t now_ns, const DeviceSample& sample) const noexcept;
   void step_ready(std::int64_t now_ns, const DeviceSample& sample) noexcept;
+  void step_run() noexcept;
   void step_stale(std::int64_t now_ns, bool new_patch) noexcept;
-  void step_safe() noexcept;
+  void step_safe(std::int64_t now_ns, const DeviceSample& sample) noexcept;
   double share_of_felt() noexcept;
   bool take_answer(std::int64_t now_ns, const ContactPatch* patch, const ToolWrench* wrench) noexcept;
   /// What the silence of physics leaves of the force.
@@ -120,7 +121,8 @@ class Controller {
   ForceReport report_;
   EnergyLimit energy_;
   ContactResult felt_;
-  double stored_ = 0;
+  double full_ = 0;    // in the springs at full gain [J]
+  double stored_ = 0;  // as they are applied [J]
 
   HapticState state_ = HapticState::off;
   ArmRefusal refusal_ = ArmRefusal::no_sample;

@@ -122,7 +122,8 @@ std::string HapticNode::note() const {
   for (std::size_t i = 0; i < reports_.size(); ++i) {
     note += fmt::format("; {}: {}", channels_[i]->name,
                         resets_[i].busy() ? "opening" : name_of(reports_[i].state));
-    if (reports_[i].state == HapticState::ready && reports_[i].refusal != ArmRefusal::none)
+    const bool waits = reports_[i].state == HapticState::ready || reports_[i].state == HapticState::safe;
+    if (waits && reports_[i].refusal != ArmRefusal::none)
       note += fmt::format(" ({})", text_of(reports_[i].refusal));
   }
   note.resize(std::min(note.size(), status_.note.size() - 1));
