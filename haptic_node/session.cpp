@@ -51,6 +51,7 @@ ControllerSettings settings_of(const Scene& scene, std::uint32_t tool_index, con
       torque = std::min(torque, info.cont_torque * calibration.scale() / calibration.force_scale());
     settings.torque_limit = std::min(tool.torque_limit, torque);
   }
+  if ((info.caps & HDEV_CAP_HW_WATCHDOG) != 0) settings.hold = info.hw_watchdog_s;
   settings.resolution = info.pos_resolution * calibration.scale();
   return settings;
 }
@@ -92,14 +93,26 @@ HapticSession::~HapticSession() { close(); }
 
 void HapticSession::attach() noexcept { device_.rt_attach(); }
 
+void HapticSession::go_on_from(const HapticSession& before) noexcept {
+  before_ = counts_ = before.counts_;
+  start_ns_ = before.start_ns_;
+  first_run_ns_ = before.first_run_ns_;
+}
+
+double HapticSession::patch_age() const noexcept {
+  const PatchWatch& patches = controller_.patches();
+  return patches.ever() ? patches.silence(tool_state_.stamp_ns) : -1.0;
+}
+
 void HapticSession::service() noexcept {
-  if (want_power_.exchange(false)) device_.enable_force(true);
+  if (want_power_.exchange(false) && !lost_.load()) device_.enable_force(true);
 }
 
 DeviceSample HapticSession::sample_device() noexcept {
   const hdev_status status = device_.read(raw_);
   DeviceSample sample;
   sample.lost = status == HDEV_E_LOST;
+  if (sample.lost) lost_.store(true);
   sample.fault = raw_.fault;
   if (status == HDEV_E_FAULT && sample.fault == 0) sample.fault = HDEV_FAULT_INTERNAL;
   sample.has_new = status == HDEV_OK && (!read_once_ || raw_.seq != seq_);
@@ -122,8 +135,8 @@ DeviceSample HapticSession::sample_device() noexcept {
 
 /// E += F . dx + M . turn, with what was held while the hand moved. What the motors really did.
 void HapticSession::book_energy(const Vec3& x_d, const Eigen::Quaterniond& q_w) noexcept {
-  if (counts_.ticks > 0 && x_d.allFinite()) counts_.energy += force_d_.dot(x_d - last_x_d_);
-  if (counts_.ticks > 0 && !torque_w_.isZero()) counts_.energy += torque_w_.dot(turn_between(last_q_, q_w));
+  if (counts_.ticks > before_.ticks && x_d.allFinite()) counts_.energy += force_d_.dot(x_d - last_x_d_);
+  if (counts_.ticks > before_.ticks && !torque_w_.isZero()) counts_.energy += torque_w_.dot(turn_between(last_q_, q_w));
   last_q_ = q_w;
   if (x_d.allFinite()) last_x_d_ = x_d;
   counts_.energy_max = std::max(counts_.energy_max, counts_.energy);
@@ -182,7 +195,7 @@ void HapticSession::tick(const ContactPatch* newest, const ToolWrench* wrench) n
 
   // 2. the force
   const ControllerOutput out = controller_.tick(now, sample, newest, wrench);
-  if (out.stop_motors) device_.stop();
+  if (out.stop_motors) stop_motors();
   write_force(out);
   if (first_run_ns_ == 0 && state() == HapticState::run) first_run_ns_ = now;
 
@@ -196,13 +209,15 @@ void HapticSession::tick(const ContactPatch* newest, const ToolWrench* wrench) n
 
   // 4. what the others are told
   counts_.ticks += 1;
-  counts_.stale_events = controller_.stale_events();
-  counts_.safe_events = controller_.safe_events();
-  counts_.faults = controller_.faults();
-  counts_.patches_taken = controller_.patches().taken();
-  counts_.patches_rejected = controller_.patches().rejected() + controller_.wrenches().rejected();
-  counts_.samples_rejected = controller_.motion().rejected();
-  counts_.outran = controller_.outran();
+  counts_.stale_events = before_.stale_events + controller_.stale_events();
+  counts_.safe_events = before_.safe_events + controller_.safe_events();
+  counts_.faults = before_.faults + controller_.faults();
+  counts_.patches_taken = before_.patches_taken + controller_.patches().taken();
+  counts_.patches_rejected = before_.patches_rejected + controller_.patches().rejected() + controller_.wrenches().rejected();
+  counts_.samples_rejected = before_.samples_rejected + controller_.motion().rejected();
+  counts_.outran = before_.outran + controller_.outran();
+  counts_.surplus = controller_.surplus();
+  counts_.surplus_max = std::max(counts_.surplus_max, counts_.surplus);
   fill_messages(now, out);
 }
 

@@ -19,13 +19,15 @@ struct SessionCounts {
   std::uint64_t ticks = 0;
   std::uint64_t stale_events = 0;  // patches stopped while forces were on
   std::uint64_t safe_events = 0;   // forces ramped down for a stall, an old sample, overspeed
-  std::uint64_t faults = 0;        // of the device; at most one, it is latched
+  std::uint64_t faults = 0;        // of the device; each is latched until a person opens it anew
   std::uint64_t patches_taken = 0;
   std::uint64_t patches_rejected = 0;  // malformed, rejected whole; wrenches as well
   std::uint64_t samples_rejected = 0;  // of the device: not finite, or a jump
   std::uint64_t outran = 0;            // ticks in which the tool was beyond what its patch covers
   double energy = 0;                   // given to the hand through the port so far [J]
   double energy_max = 0;               // largest of that [J]
+  double surplus = 0;                  // of that, made out of nothing, now [J]
+  double surplus_max = 0;              // largest of that [J]
 };
 
 class HapticSession {
@@ -43,6 +45,10 @@ class HapticSession {
   HapticSession(const HapticSession&) = delete;
   HapticSession& operator=(const HapticSession&) = delete;
 
+  /// Before the first tick: this session takes the place of one that has ended in a fault. Ticks, counts, energy and
+  /// device time go on.
+  void go_on_from(const HapticSession& before) noexcept;
+
   /// Once, on the thread that will tick, if that is a real-time one.
   void attach() noexcept;
 
@@ -54,12 +60,15 @@ class HapticSession {
   /// With Power::by_service: switches the motors on when a tick has asked for it. Not the ticking thread.
   void service() noexcept;
 
-  /// Motors off now, from any thread.
-  void stop_motors() noexcept { device_.stop(); }
+  /// Motors off now, from any thread and from signal handlers. A device that is lost is not called any more.
+  void stop_motors() noexcept {
+    if (!lost_.load()) device_.stop();
+  }
 
   /// The force ramps to zero within 20 ms of further ticks; then stopped() is true.
   void begin_stop() noexcept { controller_.begin_stop(); }
   bool stopped() const noexcept { return controller_.stopped() || state() == HapticState::fault; }
+  bool is_lost() const noexcept { return lost_.load(); }
 
   /// Zero force, motors off, device released. Safe to repeat; the destructor does it.
   void close() noexcept;
@@ -69,6 +78,8 @@ class HapticSession {
   const TraceSample& trace() const noexcept { return trace_; }
   const SessionCounts& counts() const noexcept { return counts_; }
   const hdev_info& device_info() const noexcept { return device_.info(); }
+  /// Since the newest patch was accepted [s]; below 0: none yet.
+  double patch_age() const noexcept;
   const Controller& controller() const noexcept { return controller_; }
   double rate_Hz() const noexcept { return rate_Hz_; }
   /// When forces were first on [ns of the clock]; 0: not yet. The simulated hand's path starts then.
@@ -96,11 +107,13 @@ class HapticSession {
   Vec3 torque_w_ = Vec3::Zero();  // now at the device [N m], turned to the world
   Eigen::Quaterniond last_q_ = Eigen::Quaterniond::Identity();  // in the world
   std::atomic<bool> want_power_{false};
+  std::atomic<bool> lost_{false};  // unplugged: only close() may be called
   std::int64_t start_ns_ = 0;
   std::int64_t first_run_ns_ = 0;
   ToolState tool_state_{};
   TraceSample trace_{};
   SessionCounts counts_;
+  SessionCounts before_;  // of the sessions that this one goes on from
 };
 
 }  // namespace palpate::haptic

@@ -29,13 +29,27 @@ std::string_view phase_text(NodePhase phase) {
   return "unknown";
 }
 
+constexpr double passive_J = 0.1e-3;  // energy made out of nothing that measuring alone may show
+
+/// What the note says of its tools, after what it says of rights: why forces are not on.
+std::string reason_text(const NodeStatus& status) {
+  const std::string note(status.note.data());
+  const auto tools = note.find("; ");
+  return tools == std::string::npos ? std::string() : fmt::format(" ({})", note.substr(tools + 2));
+}
+
 std::string node_text(NodeKind node, const StatusBoard::Entry& entry) {
   if (!entry.newest) return fmt::format(" | {} starting", name_of(node));
   const NodeStatus& status = *entry.newest;
-  if (!entry.running()) return fmt::format(" | {} {}", name_of(node), phase_text(status.phase));
+  if (!entry.running()) {
+    std::string text = fmt::format(" | {} {}", name_of(node), phase_text(status.phase));
+    if (node == NodeKind::haptic) text += reason_text(status);
+    return text;
+  }
   std::string text = fmt::format(" | {} {:.0f} Hz", name_of(node), status.rate_Hz);
   if (node == NodeKind::physics) text += fmt::format(" x{:.2f}", status.real_time_factor);
   if (node == NodeKind::haptic) text += fmt::format(" loop {:.1f} ms", status.loop_age_ms_p50);
+  if (status.surplus_J > passive_J) text += fmt::format(", NOT PASSIVE {:.2f} mJ", 1e3 * status.surplus_J);
   return text;
 }
 

@@ -10,6 +10,7 @@
 
 namespace palpate::deploy {
 
+/// A hand that gets energy made out of nothing is named; a hand without forces says why.
 /// For example "  12.4 s | physics 1000 Hz x1.00 | haptic 1000 Hz loop 1.2 ms | render 30 Hz | 2 warnings".
 std::string status_text(const StatusBoard& board, const std::vector<NodeKind>& nodes, double seconds);
 

@@ -51,6 +51,9 @@ class LocalContact {
   /// Forgets all planes: the next contact begins at zero force.
   void release() noexcept { n_ = 0; }
 
+  /// Springs that grow stiffer do work as moving planes do. @return what may be done of `work` [J], booked
+  double pay(double work) noexcept { return tank_.pay(work); }
+
   /// Work of moving planes on the hand since the start [J].
   double plane_work() const noexcept { return tank_.booked(); }
 

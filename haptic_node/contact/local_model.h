@@ -53,6 +53,12 @@ class LocalModel {
   /// The next contact begins at zero force.
   void release() noexcept { planes_.release(), tangent_.release(); }
 
+  /// The force is about to grow by itself: how much of `work` may be done so now, booked [J].
+  double pay(double work) noexcept {
+    if (!is_passive()) return work;
+    return model_ == ForceModel::norton ? planes_.pay(work) : tangent_.pay(work);
+  }
+
   /// Work of moving planes and springs on the hand since the start [J].
   double work() const noexcept { return planes_.plane_work() + tangent_.work(); }
 

@@ -46,6 +46,9 @@ class TangentWrench {
   /// Forgets the spring: the next contact begins at zero force.
   void release() noexcept { d_.setZero(), K_.setZero(); }
 
+  /// @return what the tank allows of `work` [J], booked
+  double pay(double work) noexcept { return tank_.pay(work); }
+
   /// Work of moving springs on the hand since the start [J].
   double work() const noexcept { return tank_.booked(); }
 

@@ -30,6 +30,13 @@ class WorkTank {
     booked_ += work;
   }
 
+  /// @return what there is of `work` [J], booked
+  double pay(double work) noexcept {
+    const double paid = std::min(work, level_);
+    book(paid);
+    return paid;
+  }
+
   double level() const noexcept { return level_; }
   double booked() const noexcept { return booked_; }  // sum of all work of planes since the start [J]
 

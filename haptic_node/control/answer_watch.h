@@ -36,12 +36,13 @@ class AnswerWatch {
   /// most silences are three lost answers and end at once; a linear start was felt as a swing of 0.3 mm.
   double gain(std::int64_t now_ns) const noexcept;
 
+  /// Since the newest patch was accepted [s]; large before the first.
+  double silence(std::int64_t now_ns) const noexcept;
+
   std::uint64_t taken() const noexcept { return taken_; }
   std::uint64_t rejected() const noexcept { return rejected_; }
 
  private:
-  double silence(std::int64_t now_ns) const noexcept;
-
   std::uint32_t tool_;
   bool ever_ = false;
   std::uint64_t tick_ = 0;       // of the last accepted answer

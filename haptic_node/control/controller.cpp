@@ -35,6 +35,26 @@ const char* name_of(HapticState state) noexcept {
   return "";
 }
 
+const char* text_of(ArmRefusal refusal) noexcept {
+  switch (refusal) {
+    case ArmRefusal::none:
+      return "";
+    case ArmRefusal::no_sample:
+      return "the device has not answered yet";
+    case ArmRefusal::not_calibrated:
+      return "not calibrated";
+    case ArmRefusal::not_held:
+      return "nobody holds it";
+    case ArmRefusal::no_patch:
+      return "physics is silent";
+    case ArmRefusal::inside:
+      return "inside the tissue, move out";
+    case ArmRefusal::moving:
+      return "too fast, hold still";
+  }
+  return "";
+}
+
 Controller::Controller(const ControllerSettings& settings) noexcept
     : settings_(settings),
       motion_(settings.period),
@@ -74,28 +94,47 @@ void Controller::enter_safe(bool may_resume_inside) noexcept {
 
 void Controller::look_for_trouble(MotionVerdict verdict, const DeviceSample& sample, double dt) noexcept {
   const bool forcing = engaged() || state_ == HapticState::safe;
+  // Who lets go feels nothing from this tick on. A device that dropped its force in a stall is not pushed anew.
+  if (forcing && (!sample.held || (settings_.hold > 0 && dt > settings_.hold))) gain_ = 0;
   if (verdict == MotionVerdict::unsafe || (forcing && !sample.held))
     enter_safe(false);
   else if ((forcing && dt > stall) || (engaged() && !sample.powered))
     enter_safe(true);
 }
 
+ArmRefusal Controller::why_not(std::int64_t now_ns, const DeviceSample& sample) const noexcept {
+  if (!motion_.ever()) return ArmRefusal::no_sample;
+  if (!sample.calibrated) return ArmRefusal::not_calibrated;
+  if (!sample.held) return ArmRefusal::not_held;
+  if (freshness(now_ns) < 1.0) return ArmRefusal::no_patch;
+  if (!resume_inside_ && model_.penetrated(motion_.hand())) return ArmRefusal::inside;
+  if (state_ == HapticState::ready && motion_.v().norm() > arming_speed && !sample.powered)
+    return ArmRefusal::moving;
+  return ArmRefusal::none;
+}
+
+/// From outside the tissue the gain goes from 0 to 1 over arm_ramp. After a stall inside it the planes start at the hand and
+/// move out by their own budget, and a second ramp would only add to that.
 void Controller::step_ready(std::int64_t now_ns, const DeviceSample& sample) noexcept {
   gain_ = 0;
-  const bool may = freshness(now_ns) >= 1.0 && motion_.ever() && sample.calibrated && sample.held;
-  const bool outside = may && (resume_inside_ || !model_.penetrated(motion_.hand()));
-  if (!outside || (state_ == HapticState::ready && motion_.v().norm() > arming_speed && !sample.powered)) {
-    state_ = HapticState::ready;
-    return;
-  }
-  state_ = HapticState::armed;
-  if (!sample.powered) return;
+  refusal_ = why_not(now_ns, sample);
+  state_ = refusal_ == ArmRefusal::none ? HapticState::armed : HapticState::ready;
+  if (state_ == HapticState::ready || !sample.powered) return;
   model_.release();
   guard_.restart();
   torque_guard_.restart();
+  gain_ = resume_inside_ ? 1 : 0;
   resume_inside_ = false;
-  gain_ = 1;
   state_ = HapticState::run;
+}
+
+/// After arming the gain rises over arm_ramp; in contact only as fast as the plane's tank pays for dg S, S the energy of
+/// the springs at full gain.
+void Controller::step_run() noexcept {
+  if (gain_ >= 1) return;
+  double rise = std::min(1.0 - gain_, settings_.period / arm_ramp);
+  if (full_ > 0) rise = model_.pay(rise * full_) / full_;
+  gain_ += rise;
 }
 
 /// Patches that return during the fade find the planes moved back so far that the force goes on as faded; once it
@@ -117,7 +156,8 @@ void Controller::step_stale(std::int64_t now_ns, bool new_patch) noexcept {
 }
 
 /// In nominal ticks: after a stall the ramp is not skipped.
-void Controller::step_safe() noexcept {
+void Controller::step_safe(std::int64_t now_ns, const DeviceSample& sample) noexcept {
+  refusal_ = why_not(now_ns, sample);
   gain_ = std::max(0.0, gain_ - settings_.period / safe_ramp);
   safe_for_ += settings_.period;
   const double rest = resume_inside_ ? safe_ramp : safe_rest;
@@ -134,11 +174,14 @@ void Controller::step_state(std::int64_t now_ns, const DeviceSample& sample, boo
     case HapticState::armed:
       step_ready(now_ns, sample);
       break;
+    case HapticState::run:
+      step_run();
+      break;
     case HapticState::stale:
       step_stale(now_ns, new_patch);
       break;
     case HapticState::safe:
-      step_safe();
+      step_safe(now_ns, sample);
       break;
     default:
       break;
@@ -150,7 +193,8 @@ double Controller::share_of_felt() noexcept {
   if (!model_.is_passive()) return 1;
   const double force = felt_.force.norm(), limit = guard_.limit();
   const double r = force > limit ? limit / force : 1.0;
-  const double applied = felt_.stored * (2 * r - r * r) * gain_ * stop_gain_;
+  full_ = felt_.stored * (2 * r - r * r);
+  const double applied = full_ * gain_ * stop_gain_;
   const double share = energy_.share(motion_.hand(), settings_.period, applied, model_.work());
   stored_ = energy_.left();
   return share;

@@ -4,8 +4,8 @@
 //
 //   off -> open -> calibrating -> ready --(patch, outside the tissue, hand at rest)--> armed --(motors on)--> run
 //   run --(patches stop)--> stale --(patches return)--> run, or ready once the force has faded to nothing
-//   any --(stall, old samples, overspeed, motors off)--> safe --(quiet again)--> ready
-//   any --(device lost or faulty, three impossible samples)--> fault, for good
+//   any --(stall, old samples, overspeed, motors off, let go)--> safe --(quiet again)--> ready
+//   any --(device lost or faulty, three impossible samples)--> fault, for good: a person opens the device anew
 
 #include <cstdint>
 
@@ -23,6 +23,10 @@ namespace palpate::haptic {
 enum class HapticState : std::uint32_t { off, open, calibrating, ready, armed, run, stale, safe, fault };
 const char* name_of(HapticState state) noexcept;
 
+/// Why forces are not switched on in the states `ready` and `safe`.
+enum class ArmRefusal : std::uint32_t { none, no_sample, not_calibrated, not_held, no_patch, inside, moving };
+const char* text_of(ArmRefusal refusal) noexcept;
+
 struct ControllerSettings {
   std::uint32_t tool = 0;
   ForceModel model = ForceModel::norton;
@@ -32,6 +36,7 @@ struct ControllerSettings {
   double force_limit = 3;   // in the world [N]
   double torque_limit = 0;  // in the world; 0: the device gives none [N m]
   double resolution = 0;    // of a sample, in the world [m]
+  double hold = 0;  // silence after which the device has dropped its force by itself; 0: it never does [s]
 };
 
 struct ControllerOutput {
@@ -50,6 +55,7 @@ class Controller {
   static constexpr double safe_ramp = 20e-3;   // to no force [s]
   static constexpr double safe_rest = 0.1;     // without trouble before forces may come back [s]
   static constexpr double arming_speed = 0.1;  // [m/s]
+  static constexpr double arm_ramp = 0.5;      // to the whole force after arming, from outside the tissue [s]
 
   explicit Controller(const ControllerSettings& settings) noexcept;
 
@@ -66,6 +72,7 @@ class Controller {
   bool stopped() const noexcept { return stopping_ && stop_gain_ <= 0; }
 
   HapticState state() const noexcept { return state_; }
+  ArmRefusal refusal() const noexcept { return refusal_; }
   bool engaged() const noexcept { return state_ == HapticState::run || state_ == HapticState::stale; }
   const MotionWatch& motion() const noexcept { return motion_; }
   const PatchWatch& patches() const noexcept { return patches_; }
@@ -92,9 +99,11 @@ class Controller {
   void enter_safe(bool may_resume_inside) noexcept;
   void look_for_trouble(MotionVerdict verdict, const DeviceSample& sample, double dt) noexcept;
   void step_state(std::int64_t now_ns, const DeviceSample& sample, bool new_patch) noexcept;
+  ArmRefusal why_not(std::int64_t now_ns, const DeviceSample& sample) const noexcept;
   void step_ready(std::int64_t now_ns, const DeviceSample& sample) noexcept;
+  void step_run() noexcept;
   void step_stale(std::int64_t now_ns, bool new_patch) noexcept;
-  void step_safe() noexcept;
+  void step_safe(std::int64_t now_ns, const DeviceSample& sample) noexcept;
   double share_of_felt() noexcept;
   bool take_answer(std::int64_t now_ns, const ContactPatch* patch, const ToolWrench* wrench) noexcept;
   /// What the silence of physics leaves of the force.
@@ -112,9 +121,11 @@ class Controller {
   ForceReport report_;
   EnergyLimit energy_;
   ContactResult felt_;
-  double stored_ = 0;
+  double full_ = 0;    // in the springs at full gain [J]
+  double stored_ = 0;  // as they are applied [J]
 
   HapticState state_ = HapticState::off;
+  ArmRefusal refusal_ = ArmRefusal::no_sample;
   bool resume_inside_ = false;  // after a stall: planes start at the hand, no need to leave the tissue first
   double safe_for_ = 0;         // since the last trouble [s]
   double gain_ = 1;             // of the state: fade or ramp

@@ -36,22 +36,26 @@ double common_rate(const Scene& scene) {
 }  // namespace
 
 HapticNode::HapticNode(const NodeOptions& options, const Scene& scene)
-    : options_(options), scene_checksum_(scene.checksum), rate_Hz_(common_rate(scene)) {
+    : options_(options), scene_(scene), rate_Hz_(common_rate(scene)) {
   set_log_name("haptic");
   ask_for_rights();
   for (std::uint32_t tool = 0; tool < scene.tools.size(); ++tool) {
     channels_.push_back(std::make_unique<ToolChannel>(scene, tool, options.device));
-    names_.push_back(scene.tools[tool].name);
-    const hdev_info& info = channels_.back()->session.device_info();
+    const HapticSession& session = *channels_.back()->session.get();
+    const hdev_info& info = session.device_info();
     log_info("{}: {} ({}), up to {:.1f} N", scene.tools[tool].name, info.model, info.vendor,
-             channels_.back()->session.controller().force_limit());
+             session.controller().force_limit());
+    resets_.emplace_back(*channels_.back(),
+                         [this, tool] { return open_session(scene_, tool, options_.device); });
   }
+  crash_stop_ = std::make_unique<CrashStop>(channels_);
   reports_.resize(channels_.size());
+  flights_.resize(channels_.size());
   wire_ = std::make_unique<Wire>(options.domain, channels_);
   loop_ = std::make_unique<RealtimeLoop>(channels_, rate_Hz_);
   status_.node = NodeKind::haptic;
   status_.pid = static_cast<std::uint32_t>(getpid());
-  status_.scene_checksum = scene_checksum_;
+  status_.scene_checksum = scene_.checksum;
 }
 
 void HapticNode::ask_for_rights() {
@@ -67,7 +71,28 @@ void HapticNode::ask_for_rights() {
 
 /// Motors are switched on here, not in the real-time thread, as drivers may take their time.
 void HapticNode::serve() {
-  for (const auto& channel : channels_) channel->session.service();
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    if (HapticSession* session = channels_[i]->session.get(); session != nullptr && !CrashStop::ending())
+      session->service();
+    resets_[i].step(reports_[i].state);
+  }
+}
+
+/// OUT/flight_TOOL.csv, flight_TOOL_2.csv, ...: as many as a person may want to look at.
+void HapticNode::keep_flights() {
+  constexpr int most = 9;
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    if (options_.out.empty() || flights_[i] >= most || !channels_[i]->flight.has_kept()) continue;
+    flights_[i] += 1;
+    const std::string number = flights_[i] == 1 ? std::string() : fmt::format("_{}", flights_[i]);
+    const std::string path = fmt::format("{}/flight_{}{}.csv", options_.out, channels_[i]->name, number);
+    try {
+      channels_[i]->flight.write_kept(path);
+      log_info("{}: its last seconds are in {}", channels_[i]->name, path);
+    } catch (const InputError& error) {
+      log_error("{}", error.what());
+    }
+  }
 }
 
 void HapticNode::look_at_tools() {
@@ -77,8 +102,10 @@ void HapticNode::look_at_tools() {
     const bool fault = report->state == HapticState::fault && reports_[i].state != HapticState::fault;
     const bool first = report->first_run_ns > 0 && reports_[i].first_run_ns == 0;
     reports_[i] = *report;
-    if (first) log_info("{}: forces are on", names_[i]);
-    if (fault) log_error("{}: device fault, forces are off until the node is started again", names_[i]);
+    if (first) log_info("{}: forces are on", channels_[i]->name);
+    if (fault)
+      log_error("{}: device fault, forces are off; `palpate reset {}` opens the device anew",
+                channels_[i]->name, channels_[i]->name);
   }
 }
 
@@ -90,14 +117,22 @@ bool HapticNode::is_over() const {
   });
 }
 
-void HapticNode::publish_status(NodePhase phase) {
-  const std::int64_t now = now_ns();
-  status_.phase = phase;
+std::string HapticNode::note() const {
   std::string note = rights_text(rights_);
   for (std::size_t i = 0; i < reports_.size(); ++i) {
-    note += fmt::format("; {}: {}", names_[i], name_of(reports_[i].state));
-    if (reports_[i].state == HapticState::fault) status_.phase = NodePhase::failed;
+    note += fmt::format("; {}: {}", channels_[i]->name,
+                        resets_[i].busy() ? "opening" : name_of(reports_[i].state));
+    const bool waits = reports_[i].state == HapticState::ready || reports_[i].state == HapticState::safe;
+    if (waits && reports_[i].refusal != ArmRefusal::none)
+      note += fmt::format(" ({})", text_of(reports_[i].refusal));
   }
+  note.resize(std::min(note.size(), status_.note.size() - 1));
+  return note;
+}
+
+/// What loop, tools and wire have counted so far.
+void HapticNode::take_counts(std::int64_t now) {
+  status_.warnings = 0;
   if (const LoopStats* stats = loop_->stats()) {
     const double wall = seconds_from_ns(stats->last_ns - last_status_ns_);
     if (last_status_ns_ > 0 && wall > 0) {
@@ -111,17 +146,37 @@ void HapticNode::publish_status(NodePhase phase) {
     status_.late = stats->skipped;
     status_.lateness = stats->lateness;
     status_.loop_age_ms_p50 = stats->loop_age.percentile(0.5);
-    status_.warnings = static_cast<std::uint32_t>(stats->watchdog_stops);
+    status_.warnings += static_cast<std::uint32_t>(stats->watchdog_stops);
   }
-  for (const auto& report : reports_)
-    status_.warnings += static_cast<std::uint32_t>(report.counts.stale_events + report.counts.safe_events);
+  SessionCounts sum;
+  for (const auto& report : reports_) {
+    sum.stale_events += report.counts.stale_events;
+    sum.safe_events += report.counts.safe_events;
+    sum.faults += report.counts.faults;
+    sum.energy = std::max(sum.energy, report.counts.energy);
+    sum.surplus = std::max(sum.surplus, report.counts.surplus);
+  }
+  status_.energy_J = sum.energy;
+  status_.surplus_J = sum.surplus;
+  status_.stale_events = static_cast<std::uint32_t>(sum.stale_events);
+  status_.safe_events = static_cast<std::uint32_t>(sum.safe_events);
+  status_.faults = static_cast<std::uint32_t>(sum.faults);
+  status_.warnings += status_.stale_events + status_.safe_events;
   const ReaderCounts patches = wire_->patch_counts();
   status_.samples_received = patches.received;
   status_.samples_lost = patches.lost;
   status_.rejected = patches.rejected;
-  note.resize(std::min(note.size(), status_.note.size() - 1));
+}
+
+void HapticNode::publish_status(NodePhase phase) {
+  const bool failed = std::any_of(reports_.begin(), reports_.end(), [](const SessionReport& report) {
+    return report.state == HapticState::fault;
+  });
+  status_.phase = failed ? NodePhase::failed : phase;
+  take_counts(now_ns());
+  const std::string text = note();
   status_.note.fill('\0');
-  std::copy(note.begin(), note.end(), status_.note.begin());
+  std::copy(text.begin(), text.end(), status_.note.begin());
   wire_->write_status(status_);
 }
 
@@ -130,11 +185,12 @@ int HapticNode::run() {
   wire_->start();
   loop_->start();
   std::int64_t next_status = 0;
-  // 1. power and state of the tools  2. status
+  // 1. state of the tools, power, resets, flights  2. status
   while (!is_over()) {
     std::this_thread::sleep_for(2ms);
-    serve();
     look_at_tools();
+    serve();
+    keep_flights();
     if (now_ns() < next_status) continue;
     next_status = now_ns() + status_period_ns;
     const bool running = std::all_of(reports_.begin(), reports_.end(),
@@ -147,14 +203,19 @@ int HapticNode::run() {
 /// Forces to zero first, then the motors, then what is told about it.
 int HapticNode::leave() {
   loop_->finish();
-  for (const auto& channel : channels_) channel->session.close();
+  for (const auto& channel : channels_) {
+    if (HapticSession* session = channel->session.get()) session->close();
+    channel->flight.end();
+  }
   look_at_tools();
+  keep_flights();
   wire_->finish();
   publish_status(NodePhase::stopping);
   if (!options_.out.empty())
     write_haptic_summary(options_.out, *loop_->stats(), reports_, wire_->trace_lost());
-  const bool faulty = std::any_of(reports_.begin(), reports_.end(),
-                                  [](const SessionReport& report) { return report.counts.faults > 0; });
+  const bool faulty = std::any_of(reports_.begin(), reports_.end(), [](const SessionReport& report) {
+    return report.state == HapticState::fault;
+  });
   return faulty ? exit_failed : exit_ok;
 }
 

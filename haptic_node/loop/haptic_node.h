@@ -7,6 +7,8 @@
 
 #include "common/message/messages.h"
 #include "common/process/node_main.h"
+#include "haptic_node/loop/crash_stop.h"
+#include "haptic_node/loop/device_reset.h"
 #include "haptic_node/loop/realtime.h"
 #include "haptic_node/loop/realtime_loop.h"
 #include "haptic_node/loop/tool_channel.h"
@@ -27,19 +29,24 @@ class HapticNode {
   void ask_for_rights();
   void serve();
   void look_at_tools();
+  void keep_flights();
+  std::string note() const;
+  void take_counts(std::int64_t now);
   bool is_over() const;
   void publish_status(NodePhase phase);
   int leave();
 
   NodeOptions options_;
-  std::uint64_t scene_checksum_;
+  Scene scene_;  // to open devices anew
   double rate_Hz_;
   RealtimeRights rights_;
   std::vector<std::unique_ptr<ToolChannel>> channels_;
   std::vector<SessionReport> reports_;
-  std::vector<std::string> names_;
+  std::vector<DeviceReset> resets_;
+  std::vector<int> flights_;  // written so far, by tool
   std::unique_ptr<Wire> wire_;
   std::unique_ptr<RealtimeLoop> loop_;
+  std::unique_ptr<CrashStop> crash_stop_;
   NodeStatus status_;
   std::int64_t last_status_ns_ = 0;
   std::uint64_t last_status_ticks_ = 0;

@@ -32,11 +32,15 @@ nlohmann::json haptic_summary(const LoopStats& stats, const std::vector<SessionR
     sum.samples_rejected += tool.counts.samples_rejected;
     sum.outran += tool.counts.outran;
     sum.energy_max = std::max(sum.energy_max, tool.counts.energy_max);
+    sum.surplus_max = std::max(sum.surplus_max, tool.counts.surplus_max);
   }
   nlohmann::json haptic = {{"ticks", stats.ticks},
                            {"missed_deadlines", stats.skipped},
                            {"watchdog_stops", stats.watchdog_stops},
+                           {"page_faults", stats.page_faults},
+                           {"preempted", stats.preempted},
                            {"energy_max_J", sum.energy_max},
+                           {"surplus_max_J", sum.surplus_max},
                            {"stale_events", sum.stale_events},
                            {"safe_events", sum.safe_events},
                            {"faults", sum.faults},
@@ -49,6 +53,7 @@ nlohmann::json haptic_summary(const LoopStats& stats, const std::vector<SessionR
   if (seconds > 0) haptic["rate_Hz"] = static_cast<double>(stats.ticks) / seconds;
   if (stats.period.total() > 0) haptic["period_us"] = percentiles(stats.period);
   if (stats.compute.total() > 0) haptic["compute_us"] = percentiles(stats.compute);
+  if (stats.compute_cpu.total() > 0) haptic["compute_cpu_us"] = percentiles(stats.compute_cpu);
   if (stats.loop_age.total() > 0) haptic["loop_age_ms"] = percentiles(stats.loop_age);
   return {{"haptic", haptic}};
 }

@@ -4,7 +4,6 @@
 #include <chrono>
 
 #include "common/time/clock.h"
-#include "common/time/ticker.h"
 #include "haptic_node/loop/realtime.h"
 
 namespace palpate::haptic {
@@ -26,49 +25,80 @@ void RealtimeLoop::finish() {
   if (watchdog_.joinable()) watchdog_.join();
 }
 
+/// A tool whose session is taken back has no motors on.
 bool RealtimeLoop::all_stopped() const noexcept {
-  return std::all_of(channels_.begin(), channels_.end(),
-                     [](const auto& channel) { return channel->session.stopped(); });
+  return std::all_of(channels_.begin(), channels_.end(), [](const auto& channel) {
+    const HapticSession* session = channel->session.hold(ToolChannel::loop);
+    const bool stopped = session == nullptr || session->stopped();
+    channel->session.let_go(ToolChannel::loop);
+    return stopped;
+  });
+}
+
+void RealtimeLoop::tick_tool(ToolChannel& channel, HapticSession& session, std::int64_t woke_ns) noexcept {
+  if (const std::uint64_t generation = channel.session.generation(); channel.attached != generation) {
+    channel.attached = generation;
+    session.attach();
+  }
+  if (stopping_) session.begin_stop();
+  bool is_new = false;
+  const ContactPatch* patch = channel.patches.newest(&is_new);
+  if (is_new && patch->answers_ns > 0)
+    stats_.loop_age.add(1e3 * seconds_from_ns(woke_ns - patch->answers_ns));
+  const HapticState before = session.state();
+  session.tick(patch, channel.wrenches.newest());
+  channel.states.write(session.tool_state());
+  if (!channel.trace.push(session.trace())) channel.trace_lost.fetch_add(1);
+  channel.flight.add({session.trace(), session.state(), session.counts().surplus, session.patch_age()});
+  const bool fault = session.state() == HapticState::fault && before != HapticState::fault;
+  if (fault || watchdog_stops_.load(std::memory_order_relaxed) != stats_.watchdog_stops)
+    channel.flight.trigger();
+  channel.reports.write(
+      {session.state(), session.controller().refusal(), session.counts(), session.first_run_ns()});
 }
 
 void RealtimeLoop::tick_tools(std::int64_t woke_ns) noexcept {
   for (const auto& channel : channels_) {
-    bool is_new = false;
-    const ContactPatch* patch = channel->patches.newest(&is_new);
-    if (is_new && patch->answers_ns > 0)
-      stats_.loop_age.add(1e3 * seconds_from_ns(woke_ns - patch->answers_ns));
-    channel->session.tick(patch, channel->wrenches.newest());
-    channel->states.write(channel->session.tool_state());
-    if (!channel->trace.push(channel->session.trace())) channel->trace_lost.fetch_add(1);
-    channel->reports.write(
-        {channel->session.state(), channel->session.counts(), channel->session.first_run_ns()});
+    if (HapticSession* session = channel->session.hold(ToolChannel::loop))
+      tick_tool(*channel, *session, woke_ns);
+    channel->session.let_go(ToolChannel::loop);
   }
+}
+
+/// @param cpu_ns  of this thread when it woke
+void RealtimeLoop::measure(const Ticker::Wake& wake, std::int64_t cpu_ns) noexcept {
+  if (stats_.last_ns > 0) stats_.period.add(1e-3 * static_cast<double>(wake.woke_ns - stats_.last_ns));
+  stats_.last_ns = wake.woke_ns;
+  stats_.ticks += 1;
+  stats_.skipped += wake.skipped;
+  stats_.lateness[octave_bin((wake.woke_ns - wake.due_ns) / 1000, histogram_bins)] += 1;
+  stats_.watchdog_stops = watchdog_stops_.load(std::memory_order_relaxed);
+  stats_.compute.add(1e-3 * static_cast<double>(now_ns() - wake.woke_ns));
+  stats_.compute_cpu.add(1e-3 * static_cast<double>(thread_cpu_ns() - cpu_ns));
+  if (stats_.ticks % publish_every != 0) return;
+  const ThreadUsage usage = usage_of_this_thread();
+  if (stats_.ticks <= static_cast<std::uint64_t>(rate_Hz_)) warm_ = usage;
+  stats_.page_faults = usage.page_faults - warm_.page_faults;
+  stats_.preempted = usage.preempted - warm_.preempted;
+  published_.write(stats_);
 }
 
 void RealtimeLoop::run() noexcept {
   enter_realtime(priority);
-  for (const auto& channel : channels_) channel->session.attach();
   Ticker ticker(rate_Hz_);
   stats_.start_ns = now_ns();
   std::int64_t stop_ns = 0;
   // 1. wait  2. tick every tool  3. measure
   for (;;) {
     const Ticker::Wake wake = ticker.wait();
+    const std::int64_t cpu_ns = thread_cpu_ns();
     if (stop_.load(std::memory_order_relaxed) && stop_ns == 0) {
       stop_ns = wake.woke_ns;
-      for (const auto& channel : channels_) channel->session.begin_stop();
+      stopping_ = true;
     }
     tick_tools(wake.woke_ns);
     heartbeat_.fetch_add(1, std::memory_order_release);
-
-    if (stats_.last_ns > 0) stats_.period.add(1e-3 * static_cast<double>(wake.woke_ns - stats_.last_ns));
-    stats_.last_ns = wake.woke_ns;
-    stats_.ticks += 1;
-    stats_.skipped += wake.skipped;
-    stats_.lateness[octave_bin((wake.woke_ns - wake.due_ns) / 1000, histogram_bins)] += 1;
-    stats_.watchdog_stops = watchdog_stops_.load(std::memory_order_relaxed);
-    stats_.compute.add(1e-3 * static_cast<double>(now_ns() - wake.woke_ns));
-    if (stats_.ticks % publish_every == 0) published_.write(stats_);
+    measure(wake, cpu_ns);
     if (stop_ns > 0 && (all_stopped() || wake.woke_ns - stop_ns > finish_within_ns)) break;
   }
   published_.write(stats_);
@@ -88,7 +118,10 @@ void RealtimeLoop::watch() noexcept {
       seen_ns = now_ns();
       stopped = false;
     } else if (!stopped && now_ns() - seen_ns > watchdog_ns) {
-      for (const auto& channel : channels_) channel->session.stop_motors();
+      for (const auto& channel : channels_) {
+        if (HapticSession* session = channel->session.hold(ToolChannel::watchdog)) session->stop_motors();
+        channel->session.let_go(ToolChannel::watchdog);
+      }
       watchdog_stops_.fetch_add(1);
       stopped = true;
     }

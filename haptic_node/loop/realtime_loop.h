@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "common/exchange/triple_buffer.h"
+#include "common/time/ticker.h"
 #include "haptic_node/loop/loop_stats.h"
+#include "haptic_node/loop/thread_usage.h"
 #include "haptic_node/loop/tool_channel.h"
 
 namespace palpate::haptic {
@@ -36,6 +38,8 @@ class RealtimeLoop {
   void run() noexcept;
   void watch() noexcept;
   void tick_tools(std::int64_t woke_ns) noexcept;
+  void tick_tool(ToolChannel& channel, HapticSession& session, std::int64_t woke_ns) noexcept;
+  void measure(const Ticker::Wake& wake, std::int64_t cpu_ns) noexcept;
   bool all_stopped() const noexcept;
 
   std::vector<std::unique_ptr<ToolChannel>>& channels_;
@@ -46,7 +50,9 @@ class RealtimeLoop {
   std::atomic<bool> done_{false};
   std::atomic<std::uint64_t> heartbeat_{0};
   std::atomic<std::uint64_t> watchdog_stops_{0};
-  LoopStats stats_;  // the real-time thread's own
+  bool stopping_ = false;  // the real-time thread's own, as what follows
+  LoopStats stats_;
+  ThreadUsage warm_;  // what the thread had used up after its first second
   TripleBuffer<LoopStats> published_;
 };
 

@@ -3,33 +3,52 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
+#include <string>
 
+#include "common/exchange/handover.h"
 #include "common/exchange/spsc_ring.h"
 #include "common/exchange/triple_buffer.h"
 #include "common/message/messages.h"
 #include "common/time/clock.h"
+#include "haptic_node/loop/flight_recorder.h"
 #include "haptic_node/session.h"
 
 namespace palpate::haptic {
 
 struct SessionReport {
   HapticState state = HapticState::off;
+  ArmRefusal refusal = ArmRefusal::none;
   SessionCounts counts;
   std::int64_t first_run_ns = 0;
 };
 
-struct ToolChannel {
-  ToolChannel(const Scene& scene, std::uint32_t tool, const std::string& driver)
-      : session(
-            scene, tool, driver, [](void*) { return now_ns(); }, nullptr, HapticSession::Power::by_service) {}
+/// A session in real time whose motors are switched on by a slow thread. @throws InputError as HapticSession does
+inline std::unique_ptr<HapticSession> open_session(const Scene& scene, std::uint32_t tool,
+                                                   const std::string& driver) {
+  return std::make_unique<HapticSession>(
+      scene, tool, driver, [](void*) { return now_ns(); }, nullptr, HapticSession::Power::by_service);
+}
 
-  HapticSession session;                // ticked by the real-time thread only
-  TripleBuffer<ContactPatch> patches;   // receive thread -> real-time thread
-  TripleBuffer<ToolWrench> wrenches;    // likewise
-  TripleBuffer<ToolState> states;       // real-time thread -> publisher
-  SpscRing<TraceSample, 8192> trace;    // real-time thread -> slow thread: eight seconds at 1 kHz
-  TripleBuffer<SessionReport> reports;  // real-time thread -> slow thread
+struct ToolChannel {
+  enum User : std::size_t { loop, watchdog, n_users };
+
+  ToolChannel(const Scene& scene, std::uint32_t tool, const std::string& driver)
+      : name(scene.tools[tool].name),
+        session(open_session(scene, tool, driver)),
+        flight(session.get()->rate_Hz()) {}
+
+  std::string name;
+  Handover<HapticSession, n_users> session;  // the node's slow thread owns it, the real-time thread ticks it
+  TripleBuffer<ContactPatch> patches;        // receive thread -> real-time thread
+  TripleBuffer<ToolWrench> wrenches;         // likewise
+  TripleBuffer<ToolState> states;            // real-time thread -> publisher
+  SpscRing<TraceSample, 8192> trace;         // real-time thread -> slow thread: eight seconds at 1 kHz
+  TripleBuffer<SessionReport> reports;       // real-time thread -> slow thread
+  FlightRecorder flight;                     // real-time thread -> slow thread
   std::atomic<std::uint64_t> trace_lost{0};
+  std::atomic<bool> reset_asked{false};  // by a person, to end a fault
+  std::uint64_t attached = 0;            // generation of the session that the real-time thread has attached
 };
 
 }  // namespace palpate::haptic

@@ -22,9 +22,10 @@ Wire::Wire(int domain, std::vector<std::unique_ptr<ToolChannel>>& channels)
       states_(participant_),
       traces_(participant_),
       status_(participant_),
-      batches_(channels.size()) {
+      batches_(channels.size()),
+      last_patch_(channels.size(), 0) {
   for (const auto& channel : channels_)
-    if (channel->session.controller().needs_wrench() && !wrenches_)
+    if (channel->session.get()->controller().needs_wrench() && !wrenches_)
       wrenches_ = std::make_unique<Reader<ToolWrench>>(participant_);
 }
 
@@ -40,6 +41,14 @@ void Wire::finish() {
   threads_.clear();
 }
 
+/// By the ticks of physics: DDS does not tell a best-effort reader what it has missed, but gives nothing out of order. A
+/// smaller tick is a physics that has begun again.
+void Wire::count_gap(const ContactPatch& patch) noexcept {
+  std::uint64_t& last = last_patch_[patch.tool];
+  if (last > 0 && patch.tick > last + 1) patches_lost_ += patch.tick - last - 1;
+  last = patch.tick;
+}
+
 void Wire::receive() noexcept {
   ContactPatch patch;
   ToolWrench wrench;
@@ -51,9 +60,14 @@ void Wire::receive() noexcept {
     bool any = false;
     while (patches_.take(patch)) {
       any = true;
-      if (patch.tool < channels_.size()) channels_[patch.tool]->patches.write(patch);
+      if (patch.tool >= channels_.size()) continue;
+      count_gap(patch);
+      channels_[patch.tool]->patches.write(patch);
     }
-    if (any) counts_.write(patches_.counts());
+    if (!any) continue;
+    ReaderCounts counts = patches_.counts();
+    counts.lost = patches_lost_;
+    counts_.write(counts);
   }
 }
 
@@ -92,8 +106,12 @@ void Wire::drain(std::uint32_t tool, bool all) noexcept {
 
 void Wire::listen() noexcept {
   Command command;
-  while (commands_.take(command))
+  while (commands_.take(command)) {
     if (command.kind == CommandKind::stop) stop_commanded_.store(true);
+    if (command.kind != CommandKind::device || command.value != 1.0) continue;
+    for (const auto& channel : channels_)
+      if (channel->name == command.name.data()) channel->reset_asked.store(true);
+  }
 }
 
 void Wire::trace_and_listen() noexcept {

@@ -41,6 +41,7 @@ class Wire {
   };
 
   void receive() noexcept;
+  void count_gap(const ContactPatch& patch) noexcept;
   void publish() noexcept;
   void trace_and_listen() noexcept;
   void drain(std::uint32_t tool, bool all) noexcept;
@@ -55,6 +56,8 @@ class Wire {
   Writer<HapticTrace> traces_;
   Writer<NodeStatus> status_;
   std::vector<Batch> batches_;
+  std::vector<std::uint64_t> last_patch_;  // tick, by tool; the receive thread's
+  std::uint64_t patches_lost_ = 0;         // the receive thread's
   std::vector<std::thread> threads_;
   std::atomic<bool> end_{false};
   std::atomic<bool> stop_commanded_{false};

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+
 #include "deploy/palpate/status_board.h"
 #include "deploy/palpate/status_line.h"
 
@@ -60,6 +63,16 @@ TEST(StatusText, SaysWhatEachNodeDoes) {
   const std::vector<NodeKind> nodes = {NodeKind::physics, NodeKind::haptic, NodeKind::render};
   EXPECT_EQ(status_text(board, nodes, 12.34),
             "  12.3 s | physics 1000 Hz x0.98 | haptic 1000 Hz loop 1.2 ms | render starting | 2 warnings");
+  haptic.surplus_J = 0.234e-3;
+  board.note(haptic);
+  EXPECT_EQ(status_text(board, {NodeKind::haptic}, 0),
+            "   0.0 s | haptic 1000 Hz loop 1.2 ms, NOT PASSIVE 0.23 mJ");
+  haptic.phase = NodePhase::ready;
+  const std::string note = "rt: fifo=no mlock=no; tip: ready (inside the tissue, move out)";
+  std::copy(note.begin(), note.end(), haptic.note.begin());
+  board.note(haptic);
+  EXPECT_EQ(status_text(board, {NodeKind::haptic}, 0),
+            "   0.0 s | haptic ready (tip: ready (inside the tissue, move out))");
   board.note(status_of(NodeKind::render, NodePhase::loading, 3));
   EXPECT_EQ(status_text(board, {NodeKind::render}, 0), "   0.0 s | render loading");
 }

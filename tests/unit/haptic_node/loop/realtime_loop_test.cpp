@@ -1,58 +1,17 @@
 // The real-time thread in wall time. This machine may be busy: only what must hold however late it runs is asked.
 
-#include "haptic_node/loop/realtime_loop.h"
-
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "haptic_node/loop/haptic_summary.h"
-#include "tests/unit/haptic_node/virtual_world.h"
+#include "tests/unit/haptic_node/loop/running_loop.h"
 
 namespace palpate::haptic::test {
 namespace {
 
-using namespace std::chrono_literals;
-
-struct Running {
-  explicit Running(const Scene& scene) {
-    channels.push_back(std::make_unique<ToolChannel>(scene, 0, ""));
-    loop = std::make_unique<RealtimeLoop>(channels, 1000);
-    loop->start();
-  }
-  /// As the slow thread and physics would, for a while.
-  void live(std::chrono::milliseconds span, bool with_patches) {
-    const auto end = std::chrono::steady_clock::now() + span;
-    while (std::chrono::steady_clock::now() < end) {
-      if (with_patches) {
-        if (const ToolState* state = channels[0]->states.newest()) {
-          patch.answers = state->tick;
-          patch.answers_ns = state->stamp_ns;
-        }
-        patch.tick += 1;
-        channels[0]->patches.write(patch);
-      }
-      channels[0]->session.service();
-      TraceSample sample;
-      while (channels[0]->trace.pop(sample)) {
-        in_order = in_order && sample.tick == last_tick + 1;
-        last_tick = sample.tick;
-      }
-      std::this_thread::sleep_for(2ms);
-    }
-  }
-
-  std::vector<std::unique_ptr<ToolChannel>> channels;
-  std::unique_ptr<RealtimeLoop> loop;
-  ContactPatch patch = flat_patch(1);
-  std::uint64_t last_tick = 0;
-  bool in_order = true;
-};
-
 TEST(RealtimeLoop, TicksArmsAndTracesWithoutAGap) {
-  Running running(scene_with(HandModel::arm, press(0.003)));
+  RunningLoop running(scene_with(HandModel::arm, press(0.003)));
   running.live(1500ms, true);
   running.loop->finish();
   running.live(1ms, false);
@@ -61,7 +20,7 @@ TEST(RealtimeLoop, TicksArmsAndTracesWithoutAGap) {
   EXPECT_EQ(stats->ticks, running.last_tick);
   EXPECT_TRUE(running.in_order);
   EXPECT_EQ(running.channels[0]->trace_lost.load(), 0u);
-  EXPECT_GT(running.channels[0]->session.first_run_ns(), 0);
+  EXPECT_GT(running.channels[0]->session.get()->first_run_ns(), 0);
   std::uint64_t waking = 0;
   for (const auto count : stats->lateness) waking += count;
   EXPECT_EQ(waking, stats->ticks);
@@ -72,14 +31,14 @@ TEST(RealtimeLoop, TicksArmsAndTracesWithoutAGap) {
 }
 
 TEST(RealtimeLoop, EndsWithNoForceAndClosedDevices) {
-  Running running(scene_with(HandModel::rigid, {{0, {0, 0, 0.005}}, {0.2, {0, 0, -0.004}}}));
+  RunningLoop running(scene_with(HandModel::rigid, {{0, {0, 0, 0.005}}, {0.2, {0, 0, -0.004}}}));
   running.live(600ms, true);
   const auto begin = std::chrono::steady_clock::now();
   running.loop->finish();
   EXPECT_LT(std::chrono::steady_clock::now() - begin, 1s);
-  for (const double f : running.channels[0]->session.trace().force) EXPECT_EQ(f, 0.0);
-  running.channels[0]->session.close();
-  EXPECT_EQ(running.channels[0]->session.state(), HapticState::off);
+  for (const double f : running.channels[0]->session.get()->trace().force) EXPECT_EQ(f, 0.0);
+  running.channels[0]->session.get()->close();
+  EXPECT_EQ(running.channels[0]->session.get()->state(), HapticState::off);
 }
 
 TEST(HapticSummary, HasTheKeysOfASummary) {

@@ -1,0 +1,67 @@
+// Patches lost on the way, by the loss that DDS itself can inject: counted rightly, and no fault.
+// PALPATE_LOSS_SECONDS in the environment: how long each is measured.
+
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+
+#include "common/wire/loopback_config.h"
+#include "tests/system/hand_session.h"
+
+namespace palpate::test {
+namespace {
+
+class HandLoss : public HandSession, public testing::WithParamInterface<int> {};
+
+TEST_P(HandLoss, IsCountedWithinAFifthAndIsNoFault) {
+  // 1. the programs, not the test, lose GetParam() of 1000 packets that they send
+  std::string config(loopback_config());
+  const std::string_view end_of_domain = "  </Domain>";
+  config.insert(config.find(end_of_domain), "<Internal><Test><XmitLossiness>" + std::to_string(GetParam()) +
+                                                "</XmitLossiness></Test></Internal>\n");
+  std::ofstream(folder / "lossy.xml") << config;
+  setenv("CYCLONEDDS_URI", ("file://" + (folder / "lossy.xml").string()).c_str(), 1);
+  haptic = start(PALPATE_HAPTIC);
+  std::this_thread::sleep_for(500ms);
+  start_physics();
+  unsetenv("CYCLONEDDS_URI");
+
+  // 2. contact for a while, then physics says how many patches it has sent; statuses are reliable
+  Participant participant(domain);
+  Reader<NodeStatus> statuses(participant);
+  NodeStatus hand, tissue;
+  const auto listen = [&] {
+    NodeStatus status;
+    while (statuses.take(status)) (status.node == NodeKind::haptic ? hand : tissue) = status;
+  };
+  ASSERT_TRUE(presses()) << log();
+  const char* given = std::getenv("PALPATE_LOSS_SECONDS");
+  const double seconds = given != nullptr ? std::atof(given) : 6;
+  for (const std::int64_t begin_ns = now_ns(); seconds_from_ns(now_ns() - begin_ns) < seconds; listen())
+    statuses.wait(50ms);
+  const std::uint32_t stale = hand.stale_events;
+  end(physics, SIGTERM);
+  const std::int64_t ended_ns = now_ns();
+  while (seconds_from_ns(now_ns() - ended_ns) < 0.6) statuses.wait(50ms), listen();
+  ASSERT_EQ(tissue.phase, NodePhase::stopping);
+
+  // 3. one tool: a patch a frame
+  const auto sent = static_cast<double>(tissue.ticks);
+  const double truth = sent - static_cast<double>(hand.samples_received);
+  const auto counted = static_cast<double>(hand.samples_lost);
+  std::printf(
+      "%d of 1000 packets lost on purpose: of %.0f patches %.0f did not come (%.1f %%), %.0f counted; %u "
+      "stale, %u "
+      "safe, %u faults\n",
+      GetParam(), sent, truth, 100 * truth / sent, counted, stale, hand.safe_events, hand.faults);
+  EXPECT_GT(truth, 0.5e-3 * GetParam() * sent) << "the loss is there";
+  // Patches sent before the nodes had found each other, and the last ones, were not there to be counted.
+  EXPECT_NEAR(counted, truth, 0.2 * truth + 10);
+  EXPECT_EQ(hand.faults, 0u);
+  expect_no_kick();
+}
+
+INSTANTIATE_TEST_SUITE_P(PerMille, HandLoss, testing::Values(10, 100));
+
+}  // namespace
+}  // namespace palpate::test
