@@ -70,7 +70,7 @@ bool is_rotation(const Eigen::Matrix3d& R) {
 }  // namespace
 
 HapticSession::HapticSession(const Scene& scene, std::uint32_t tool_index, const std::string& driver_override,
-                             ClockFunction now_ns, void* user, Power power)
+                             ClockFunction now_ns, void* user, Power power, int domain)
     : now_ns_(now_ns),
       user_(user),
       power_(power),
@@ -79,7 +79,8 @@ HapticSession::HapticSession(const Scene& scene, std::uint32_t tool_index, const
       device_(DriverLibrary::load(driver_of(spec_of(scene, tool_index), driver_override),
                                   place_of(spec_of(scene, tool_index))),
               driver_options(spec_of(scene, tool_index), calibration_,
-                             driver_of(spec_of(scene, tool_index), driver_override), scene.seed),
+                             driver_of(spec_of(scene, tool_index), driver_override),
+                             DriverPlace{scene.seed, tool_index, domain}),
               now_ns, user, place_of(spec_of(scene, tool_index))),
       controller_(settings_of(scene, tool_index, calibration_, device_.info())) {
   controller_.set_state(HapticState::ready);

@@ -40,7 +40,7 @@ HapticNode::HapticNode(const NodeOptions& options, const Scene& scene)
   set_log_name("haptic");
   ask_for_rights();
   for (std::uint32_t tool = 0; tool < scene.tools.size(); ++tool) {
-    channels_.push_back(std::make_unique<ToolChannel>(scene, tool, options.device));
+    channels_.push_back(std::make_unique<ToolChannel>(scene, tool, options.device, options.domain));
     names_.push_back(scene.tools[tool].name);
     const hdev_info& info = channels_.back()->session.device_info();
     log_info("{}: {} ({}), up to {:.1f} N", scene.tools[tool].name, info.model, info.vendor,

@@ -19,9 +19,10 @@ struct SessionReport {
 };
 
 struct ToolChannel {
-  ToolChannel(const Scene& scene, std::uint32_t tool, const std::string& driver)
+  ToolChannel(const Scene& scene, std::uint32_t tool, const std::string& driver, int domain = -1)
       : session(
-            scene, tool, driver, [](void*) { return now_ns(); }, nullptr, HapticSession::Power::by_service) {}
+            scene, tool, driver, [](void*) { return now_ns(); }, nullptr, HapticSession::Power::by_service,
+            domain) {}
 
   HapticSession session;                // ticked by the real-time thread only
   TripleBuffer<ContactPatch> patches;   // receive thread -> real-time thread
