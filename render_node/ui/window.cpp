@@ -91,10 +91,11 @@ PanelWishes Window::draw(const PanelFacts& facts, Image* seen) {
   const double seconds = std::max(now - last_draw_, 1e-3);
   PanelFacts shown = facts;
   shown.pointer = pointers_.empty() ? nullptr : &pointers_[led_];
+  const auto wheel = static_cast<double>(ImGui::GetIO().MouseWheel);  // the end of the frame forgets it
   const auto wishes = stage_->draw(shown, width, height, static_cast<float>(seconds));
   last_draw_ = now;
   lay_out_pointers();
-  follow_hand(seconds);
+  follow_hand(wheel, seconds);
   if (seen != nullptr) *seen = read_pixels(width, height);
   glfwSwapBuffers(glfw_->window);
   return wishes;
@@ -113,7 +114,7 @@ void Window::lay_out_pointers() {
   }
 }
 
-void Window::follow_hand(double seconds) {
+void Window::follow_hand(double wheel, double seconds) {
   const ImGuiIO& io = ImGui::GetIO();
   Camera& camera = stage_->camera();
   const bool moved = io.MouseDelta.x != 0 || io.MouseDelta.y != 0;
@@ -122,16 +123,16 @@ void Window::follow_hand(double seconds) {
   if (!io.WantCaptureMouse) {
     if (moved && io.MouseDown[0]) camera.rotate(dx, dy);
     if (moved && io.MouseDown[1]) camera.pan(dx, dy);
-    if (io.MouseWheel != 0 && !holds) camera.zoom(static_cast<double>(io.MouseWheel));
+    if (wheel != 0 && !holds) camera.zoom(wheel);
   }
-  if (!pointers_.empty()) lead_tool(seconds);
+  if (!pointers_.empty()) lead_tool(wheel, seconds);
   if (io.WantTextInput) return;
   if (ImGui::IsKeyPressed(GLFW_KEY_W, false)) stage_->options().wire = !stage_->options().wire;
   if (ImGui::IsKeyPressed(GLFW_KEY_R, false)) camera.reset();
   if (ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false)) leave_ = true;
 }
 
-void Window::lead_tool(double seconds) {
+void Window::lead_tool(double wheel, double seconds) {
   const ImGuiIO& io = ImGui::GetIO();
   if (!io.WantTextInput && ImGui::IsKeyPressed(GLFW_KEY_TAB, false)) {
     pointers_[led_].let_go();
@@ -142,7 +143,7 @@ void Window::lead_tool(double seconds) {
   input.cursor = {static_cast<double>(io.MousePos.x), static_cast<double>(io.MousePos.y)};
   const bool in_window = ImGui::IsMousePosValid() && !io.WantCaptureMouse;
   input.follows = in_window && !io.MouseDown[0] && !io.MouseDown[1];
-  input.wheel = in_window ? static_cast<double>(io.MouseWheel) : 0.0;
+  input.wheel = in_window ? wheel : 0.0;
   input.fine = io.KeyShift;
   input.turn = {key(GLFW_KEY_DOWN) - key(GLFW_KEY_UP), key(GLFW_KEY_RIGHT) - key(GLFW_KEY_LEFT),
                 key(GLFW_KEY_PAGE_UP) - key(GLFW_KEY_PAGE_DOWN)};

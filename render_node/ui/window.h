@@ -44,8 +44,8 @@ class Window {
  private:
   struct Glfw;
   void lay_out_pointers();
-  void follow_hand(double seconds);
-  void lead_tool(double seconds);
+  void follow_hand(double wheel, double seconds);
+  void lead_tool(double wheel, double seconds);
   std::unique_ptr<Glfw> glfw_;  // first made, last gone
   std::unique_ptr<Stage> stage_;
   const Scene& scene_;
