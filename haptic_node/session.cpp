@@ -39,6 +39,7 @@ ControllerSettings settings_of(const Scene& scene, std::uint32_t tool_index, con
   settings.stiffness = tool.stiffness;
   settings.damping = tool.damping;
   settings.model = force_model_of(tool);
+  settings.friction = tool.friction;
   if (info.max_stiffness > 0)
     settings.stiffness = std::min(tool.stiffness, info.max_stiffness / calibration.stiffness_gain());
   double limit = std::min(spec.force_limit, info.max_force);

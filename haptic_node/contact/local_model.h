@@ -12,12 +12,12 @@ namespace palpate::haptic {
 class LocalModel {
  public:
   /// @param stiffness, damping, limit  of the spring between hand and tool [N/m], [N s/m], [N]
-  LocalModel(ForceModel model, double stiffness, double damping, double limit) noexcept
+  LocalModel(ForceModel model, double stiffness, double damping, double limit, double friction = 0) noexcept
       : model_(model),
         stiffness_(stiffness),
         damping_(damping),
         limit_(limit),
-        planes_(stiffness, damping, limit),
+        planes_(stiffness, damping, limit, friction),
         tangent_(stiffness, damping, limit) {}
 
   /// Forces come from wrenches; otherwise from patches.

@@ -77,6 +77,12 @@ TEST_F(DriverSwap, PlaysTheTraceOfARunAndFeelsTheSame) {
                     "--no-frames --seconds 2 --set device.hand.driver=replay --set device.hand.file=" + file),
             0)
       << said("played");
+  const std::string record = (folder / "hand" / "record.h5").string();
+  ASSERT_EQ(palpate("simulate", "record",
+                    "--no-frames --seconds 2 --set device.hand.driver=replay --set device.hand.file=" + record),
+            0)
+      << said("record");
+  EXPECT_NEAR(peak("record"), peak("hand"), 0.01 * peak("hand"));
   EXPECT_GT(peak("hand"), 0.1);
   EXPECT_NEAR(peak("played"), peak("hand"), 0.01 * peak("hand"));
 }
@@ -132,6 +138,21 @@ TEST_F(DriverSwap, PressesThroughThreeProcessesWithTheMouse) {
   EXPECT_GT(peak("pointed"), 0.1);
 }
 
+TEST_F(DriverSwap, LeavesTheKeysOfTheScenesOwnDriverOut) {
+  // The scene is made to name a model of the simulated hand, which no other driver knows.
+  const fs::path scene = folder / "own.toml";
+  std::ifstream from(SCENES "/box_press.toml");
+  std::ofstream to(scene);
+  for (std::string line; std::getline(from, line);)
+    to << line << (line == "driver    = \"simulated\"" ? "\nmodel = \"touch\"\n" : "\n");
+  to.close();
+  std::ofstream(folder / "path.csv") << "t_s,x_mm,y_mm,z_mm\n0,0,0,30\n9,0,0,30\n";
+  const std::string command = std::string(PALPATE) + " simulate " + scene.string() + " --no-frames --seconds 0.05 --out " +
+                              (folder / "own").string() + " --set device.hand.driver=replay --set device.hand.file=" +
+                              (folder / "path.csv").string() + " >" + (folder / "own.log").string() + " 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0) << said("own");
+}
+
 TEST_F(DriverSwap, HasNoMouseInSimulatedTime) {
   EXPECT_EQ(palpate("simulate", "none", "--device mouse"), 2);
   EXPECT_THAT(said("none"), HasSubstr("driver \"mouse\": there is no window to point in"));
@@ -146,6 +167,7 @@ TEST_F(DriverSwap, SaysWhatADriverLacksBeforeAnythingIsFelt) {
                         "load (/no/libHD.so: cannot open shared object file"));
   EXPECT_EQ(palpate("simulate", "none", "--device replay"), 2);
   EXPECT_THAT(said("none"), HasSubstr("driver \"replay\": no \"file\"; name a table of poses"));
+  EXPECT_FALSE(fs::exists(folder / "none")) << "a driver that refuses leaves no folder";
   EXPECT_EQ(palpate("run", "none", "--device omega"), 2);
   EXPECT_THAT(said("none"), HasSubstr("no driver \"omega\"; drivers here: forcedimension, inverse3"));
 }
