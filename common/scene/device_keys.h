@@ -6,7 +6,8 @@
 
 namespace palpate {
 
-inline constexpr std::array<std::string_view, 9> device_keys = {
-    "driver", "rate_Hz", "force_limit_N", "rotation", "scale", "force_scale", "offset_mm", "waypoints", "hand"};
+inline constexpr std::array<std::string_view, 9> device_keys = {"driver",    "rate_Hz",   "force_limit_N",
+                                                                "rotation",  "scale",     "force_scale",
+                                                                "offset_mm", "waypoints", "hand"};
 
 }  // namespace palpate

@@ -129,8 +129,9 @@ void add_run(CLI::App& app, int& exit_code) {
   command->add_option("scene", options->scene_path, "scene file (TOML)")->required();
   command->add_flag("--headless", options->headless, "pictures to files instead of a window");
   command
-      ->add_option("--seconds", options->seconds,
-                   "how long, once all nodes run; else until the hand's path ends, or the mouse's window is closed")
+      ->add_option(
+          "--seconds", options->seconds,
+          "how long, once all nodes run; else until the hand's path ends, or the mouse's window is closed")
       ->check(CLI::PositiveNumber);
   command->add_option("--out", options->out, "folder for results (default: out/NAME_OF_SCENE)");
   command->add_option("--set", options->settings, "table.key=value over the scene; may be repeated")

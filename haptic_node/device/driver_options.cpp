@@ -44,7 +44,8 @@ Device::Options driver_options(const DeviceSpec& spec, const Calibration& calibr
   if (driver == "mouse") {
     const Eigen::Matrix3d& r = calibration.rotation();
     std::string rows;
-    for (Eigen::Index i = 0; i < 3; ++i) rows += fmt::format("{:.17g} {:.17g} {:.17g} ", r(i, 0), r(i, 1), r(i, 2));
+    for (Eigen::Index i = 0; i < 3; ++i)
+      rows += fmt::format("{:.17g} {:.17g} {:.17g} ", r(i, 0), r(i, 1), r(i, 2));
     const Vec3 o = calibration.world_from_device(Vec3::Zero());
     if (place.domain >= 0) options.emplace_back("domain", std::to_string(place.domain));
     options.emplace_back("tool", std::to_string(place.tool));

@@ -108,8 +108,9 @@ void Window::lay_out_pointers() {
   const auto box = model_.box();
   const Vec3 before = box.center() + 0.5 * box.diagonal().norm() * camera.axes().row(2).transpose();
   for (const std::uint32_t tool : pointed_) {
-    const auto body = std::find_if(scene_.bodies.begin(), scene_.bodies.end(),
-                                   [&](const BodySpec& spec) { return spec.name == scene_.tools[tool].body; });
+    const auto body = std::find_if(scene_.bodies.begin(), scene_.bodies.end(), [&](const BodySpec& spec) {
+      return spec.name == scene_.tools[tool].body;
+    });
     pointers_.emplace_back(tool, body == scene_.bodies.end() ? before : body->at);
   }
 }

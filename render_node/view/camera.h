@@ -44,8 +44,8 @@ class Camera {
   Eigen::Matrix3d axes() const;  // rows: right, up, towards the viewer; world to camera
 
  private:
-  double tan_half() const;       // of the vertical field of view
-  double free_aspect() const;    // width / height of the free part
+  double tan_half() const;     // of the vertical field of view
+  double free_aspect() const;  // width / height of the free part
 
   CameraSpec spec_;
   double yaw_, pitch_;

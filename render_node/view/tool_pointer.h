@@ -17,12 +17,12 @@ namespace palpate::render {
 /// What mouse and keys did since the last picture.
 struct PointerInput {
   Eigen::Vector2d cursor = {0, 0};  // [px]
-  bool follows = true;         // false: the cursor is over the panels, or a button moves the camera
-  double wheel = 0;            // notches away from the person, into the scene
-  bool fine = false;           // a tenth of the way per notch
-  Vec3 turn = Vec3::Zero();    // keys held, -1..1 about right, up and towards the viewer
-  bool toggle = false;         // take it, or let it go
-  std::uint32_t buttons = 0;   // bit i: button i of the tool
+  bool follows = true;              // false: the cursor is over the panels, or a button moves the camera
+  double wheel = 0;                 // notches away from the person, into the scene
+  bool fine = false;                // a tenth of the way per notch
+  Vec3 turn = Vec3::Zero();         // keys held, -1..1 about right, up and towards the viewer
+  bool toggle = false;              // take it, or let it go
+  std::uint32_t buttons = 0;        // bit i: button i of the tool
 };
 
 class ToolPointer {

@@ -78,9 +78,10 @@ TEST_F(DriverSwap, PlaysTheTraceOfARunAndFeelsTheSame) {
             0)
       << said("played");
   const std::string record = (folder / "hand" / "record.h5").string();
-  ASSERT_EQ(palpate("simulate", "record",
-                    "--no-frames --seconds 2 --set device.hand.driver=replay --set device.hand.file=" + record),
-            0)
+  ASSERT_EQ(
+      palpate("simulate", "record",
+              "--no-frames --seconds 2 --set device.hand.driver=replay --set device.hand.file=" + record),
+      0)
       << said("record");
   EXPECT_NEAR(peak("record"), peak("hand"), 0.01 * peak("hand"));
   EXPECT_GT(peak("hand"), 0.1);
@@ -109,7 +110,8 @@ TEST_F(DriverSwap, PressesThroughThreeProcessesWithTheMouse) {
   std::atomic<bool> over{false};
   std::thread hand([&] {
     // A session wants the ports of its domain for itself until it has begun.
-    while (!over && !fs::exists(folder / "pointed")) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    while (!over && !fs::exists(folder / "pointed"))
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
     Participant participant(test::own_domain());
     Writer<Pointer> writer(participant);
     const auto begin = std::chrono::steady_clock::now();
@@ -124,8 +126,9 @@ TEST_F(DriverSwap, PressesThroughThreeProcessesWithTheMouse) {
       writer.write(pointer);
     }
   });
-  const int exit_code = palpate("run", "pointed",
-                                "--headless --seconds 4 --device mouse --domain " + std::to_string(test::own_domain()));
+  const int exit_code =
+      palpate("run", "pointed",
+              "--headless --seconds 4 --device mouse --domain " + std::to_string(test::own_domain()));
   over = true;
   hand.join();
   ASSERT_EQ(exit_code, 0) << said("pointed");
@@ -147,9 +150,11 @@ TEST_F(DriverSwap, LeavesTheKeysOfTheScenesOwnDriverOut) {
     to << line << (line == "driver    = \"simulated\"" ? "\nmodel = \"touch\"\n" : "\n");
   to.close();
   std::ofstream(folder / "path.csv") << "t_s,x_mm,y_mm,z_mm\n0,0,0,30\n9,0,0,30\n";
-  const std::string command = std::string(PALPATE) + " simulate " + scene.string() + " --no-frames --seconds 0.05 --out " +
-                              (folder / "own").string() + " --set device.hand.driver=replay --set device.hand.file=" +
-                              (folder / "path.csv").string() + " >" + (folder / "own.log").string() + " 2>&1";
+  const std::string command =
+      std::string(PALPATE) + " simulate " + scene.string() + " --no-frames --seconds 0.05 --out " +
+      (folder / "own").string() +
+      " --set device.hand.driver=replay --set device.hand.file=" + (folder / "path.csv").string() + " >" +
+      (folder / "own.log").string() + " 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0) << said("own");
 }
 

@@ -19,13 +19,14 @@
 namespace palpate::haptic::mouse {
 
 struct Settings {
-  int domain = 0;                                         // DDS
-  std::uint32_t tool = 0;                                 // whose Pointer counts
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity(); // pointers are in the world, samples in the device's frame:
-  double scale = 1.0;                                     //   x_d = R^T (p - o) / s
-  Eigen::Vector3d offset = Eigen::Vector3d::Zero();       // o [m]
-  double speed = 0.5;                                     // fastest handle, in the world [m/s]
-  double max_force = 20.0;                                // [N]
+  int domain = 0;          // DDS
+  std::uint32_t tool = 0;  // whose Pointer counts
+  Eigen::Matrix3d rotation =
+      Eigen::Matrix3d::Identity();  // pointers are in the world, samples in the device's frame:
+  double scale = 1.0;               //   x_d = R^T (p - o) / s
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  // o [m]
+  double speed = 0.5;                                // fastest handle, in the world [m/s]
+  double max_force = 20.0;                           // [N]
 };
 
 class MouseDevice final : public kit::OpenDevice {

@@ -31,8 +31,8 @@ std::unique_ptr<kit::OpenDevice> open(const hdev_host& host, const std::string& 
   read_calibration(options, settings);
   options.refuse_rest();
   if (domain == not_told)
-    throw kit::Trouble(HDEV_E_NODEV,
-                       "there is no window to point in; use palpate run, or another driver in simulated time");
+    throw kit::Trouble(
+        HDEV_E_NODEV, "there is no window to point in; use palpate run, or another driver in simulated time");
   settings.domain = static_cast<int>(domain);
   return std::make_unique<mouse::MouseDevice>(host, settings);
 }

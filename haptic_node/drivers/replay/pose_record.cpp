@@ -40,7 +40,9 @@ class Group {
     return hdf5_.read<double>(path_ + name);
   }
 
-  [[noreturn]] void refuse(const std::string& what) const { throw kit::Trouble(HDEV_E_ARG, file_ + ": " + what); }
+  [[noreturn]] void refuse(const std::string& what) const {
+    throw kit::Trouble(HDEV_E_ARG, file_ + ": " + what);
+  }
   const std::string& path() const { return path_; }
 
  private:
@@ -95,7 +97,8 @@ PosePath read_columns(const Group& group) {
     if (path.has_buttons) {
       const double b = buttons[i];
       if (!(b >= 0 && b <= most_buttons && b == std::floor(b)))
-        group.refuse(fmt::format("row {} of {}: buttons is a sum of 1, 2, 4, ... up to {}", i, group.path(), most_buttons));
+        group.refuse(fmt::format("row {} of {}: buttons is a sum of 1, 2, 4, ... up to {}", i, group.path(),
+                                 most_buttons));
       pose.buttons = static_cast<std::uint32_t>(b);
     }
     take(path, group, pose);

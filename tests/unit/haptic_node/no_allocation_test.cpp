@@ -115,7 +115,8 @@ TEST(Drivers, TakeNoMemoryWhileTheMousePoints) {
   Pointer pointer;
   pointer.held = 1;
   const auto point = [&] {
-    mouse.now -= 500'000;  // half as fast: the window stays within its 500 ms of silence, however late it is heard
+    mouse.now -=
+        500'000;  // half as fast: the window stays within its 500 ms of silence, however late it is heard
     pointer.tick += 1;
     pointer.p_W[0] += 1e-5;
     window.write(pointer);

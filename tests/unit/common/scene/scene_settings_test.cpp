@@ -36,7 +36,9 @@ TEST(SceneSettings, ReplaceAValueOfTheFile) {
 TEST(SceneSettings, AnotherDriverLeavesTheKeysOfTheOldOneOut) {
   using testing::Pair;
   using testing::UnorderedElementsAre;
-  const auto options = [](const std::vector<std::string>& settings) { return with(settings).device("left").options; };
+  const auto options = [](const std::vector<std::string>& settings) {
+    return with(settings).device("left").options;
+  };
   const std::string old = with({}).device("left").driver;
   EXPECT_THAT(options({"device.left.driver=replay"}), IsEmpty());
   EXPECT_THAT(options({"device.left.driver=replay", "device.left.file=a.csv"}),
@@ -45,7 +47,8 @@ TEST(SceneSettings, AnotherDriverLeavesTheKeysOfTheOldOneOut) {
               UnorderedElementsAre(Pair("file", "a.csv")))
       << "the order does not matter";
   EXPECT_THAT(options({"device.left.driver=" + old, "device.left.port=4"}),
-              UnorderedElementsAre(Pair("serial", "A12"), Pair("port", "4"), Pair("gain", "0.5"), Pair("quiet", "true")))
+              UnorderedElementsAre(Pair("serial", "A12"), Pair("port", "4"), Pair("gain", "0.5"),
+                                   Pair("quiet", "true")))
       << "the same driver";
 }
 

@@ -149,8 +149,11 @@ TEST(LocalContactFriction, ShowsTheProxyWhereItSticks) {
 /// The whole hand: a mass led along a rough surface is held back, and gets no energy out of it.
 TEST(HapticSessionFriction, HoldsTheHandBackAndGivesNoEnergy) {
   const auto lead = [](double mu) {
-    Scene scene = scene_with(HandModel::arm, {{0, {-0.02, 0, 0.01}}, {0.5, {-0.02, 0, -0.004}}, {1.5, {0.02, 0, -0.004}},
-                                              {2.5, {-0.02, 0, -0.004}}, {3, {-0.02, 0, 0.01}}});
+    Scene scene = scene_with(HandModel::arm, {{0, {-0.02, 0, 0.01}},
+                                              {0.5, {-0.02, 0, -0.004}},
+                                              {1.5, {0.02, 0, -0.004}},
+                                              {2.5, {-0.02, 0, -0.004}},
+                                              {3, {-0.02, 0, 0.01}}});
     scene.tools[0].friction = mu;
     return scene;
   };

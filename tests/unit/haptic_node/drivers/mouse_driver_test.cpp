@@ -89,7 +89,8 @@ TEST(Mouse, FollowsThePointerOfItsTool) {
   EXPECT_EQ(driver.state.buttons, 5u);
   // 4. let go, it stays
   pointer.held = 0;
-  read_until(driver, window, pointer, [&](hdev_status s) { return s == HDEV_OK && driver.state.deadman == 0; });
+  read_until(driver, window, pointer,
+             [&](hdev_status s) { return s == HDEV_OK && driver.state.deadman == 0; });
   EXPECT_TRUE(is_at(driver, 0.05, 0.02, 0.03));
 }
 
@@ -123,7 +124,8 @@ TEST(Mouse, HasNothingNewWhenTheWindowHasGoneAndGoesOnWhenItReturns) {
   // 2. closed
   window.reset();
   const auto end = std::chrono::steady_clock::now() + 20s;
-  while (driver.read() != HDEV_E_AGAIN && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(1ms);
+  while (driver.read() != HDEV_E_AGAIN && std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(1ms);
   EXPECT_EQ(driver.read(), HDEV_E_AGAIN);
   EXPECT_THAT(driver.last_error(), HasSubstr("no window points"));
   // 3. opened again
@@ -135,10 +137,10 @@ TEST(Mouse, HasNothingNewWhenTheWindowHasGoneAndGoesOnWhenItReturns) {
 TEST(Mouse, PointsInTheWorldWhateverTheCalibration) {
   DriverUnderTest driver("mouse");
   // x_w = s R x_d + o with a quarter turn about z: x_d = R^T (p - o) / s
-  ASSERT_EQ(driver.open(here({{"world_rotation", "0 -1 0  1 0 0  0 0 1"},
-                              {"world_scale", "2"},
-                              {"world_offset_m", "0.1 0 0"}})),
-            HDEV_OK)
+  ASSERT_EQ(
+      driver.open(here(
+          {{"world_rotation", "0 -1 0  1 0 0  0 0 1"}, {"world_scale", "2"}, {"world_offset_m", "0.1 0 0"}})),
+      HDEV_OK)
       << driver.api().last_error(nullptr);
   Window window;
   read_until(driver, window, pointer_at({0.1, 0.04, 0.02}), [](hdev_status s) { return s == HDEV_OK; });
@@ -181,7 +183,8 @@ TEST(Mouse, SharesItsDomainWithTheProgramThatLoadsIt) {
 TEST(Mouse, SaysWhyItDoesNotOpen) {
   DriverUnderTest driver("mouse");
   EXPECT_THAT(driver.trouble({}), HasSubstr("there is no window to point in; use palpate run"));
-  EXPECT_THAT(driver.trouble(here({{"speed", "1"}})), HasSubstr("unknown key \"speed\"; known are speed_mm_per_s"));
+  EXPECT_THAT(driver.trouble(here({{"speed", "1"}})),
+              HasSubstr("unknown key \"speed\"; known are speed_mm_per_s"));
   EXPECT_THAT(driver.trouble(here({{"speed_mm_per_s", "0"}})), HasSubstr("a number above 0"));
   EXPECT_THAT(driver.trouble(here({{"world_rotation", "1 0 0"}})), HasSubstr("9 numbers between blanks"));
   EXPECT_THAT(driver.trouble(here(), "left"), HasSubstr("there is only \"window\""));

@@ -22,8 +22,9 @@ using testing::StartsWith;
 /// A file that goes away with it.
 struct PathFile {
   explicit PathFile(const std::string& ending)
-      : file((std::filesystem::temp_directory_path() / ("palpate_replay_" + std::to_string(getpid()) + ending))
-                 .string()) {}
+      : file(
+            (std::filesystem::temp_directory_path() / ("palpate_replay_" + std::to_string(getpid()) + ending))
+                .string()) {}
   ~PathFile() { std::filesystem::remove(file); }
   std::string file;
 };
@@ -122,7 +123,8 @@ TEST(ReplayDriver, TakesTheNamesOfColumnsFromTheScene) {
 TEST(ReplayDriver, PlaysMovementsFromHdf5) {
   Record record;
   record.movement("/");
-  record.hdf5.write<double>("/q_wxyz", {3, 4}, std::vector<double>{1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0}.data());
+  record.hdf5.write<double>("/q_wxyz", {3, 4},
+                            std::vector<double>{1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0}.data());
   record.hdf5.write<std::int32_t>("/buttons", {3}, std::vector<std::int32_t>{2, 0, 0}.data());
   record.movement("/other/");
   record.hdf5.close();
@@ -170,21 +172,30 @@ TEST(ReplayDriver, SaysWhatIsWrongWithAnHdf5File) {
     return words;
   };
   const std::vector<double> n{0, 1, 1, 0, 0, 0, 0, 0, 0};
-  EXPECT_THAT(said([](Hdf5File& f) { f.make_group("/x"); }), HasSubstr("no movement in it; wanted is a group with t_s"));
+  EXPECT_THAT(said([](Hdf5File& f) { f.make_group("/x"); }),
+              HasSubstr("no movement in it; wanted is a group with t_s"));
   EXPECT_THAT(said([&](Hdf5File& f) { f.write("/t_s", {2}, n.data()); }), HasSubstr("no dataset /p_m"));
-  EXPECT_THAT(said([&](Hdf5File& f) { f.write("/t_s", {2}, n.data()), f.write("/p_m", {3, 3}, n.data()); }),
+  EXPECT_THAT(said([&](Hdf5File& f) {
+                f.write("/t_s", {2}, n.data()), f.write("/p_m", {3, 3}, n.data());
+              }),
               HasSubstr("/p_m is 3 x 3 numbers; 2 x 3 are wanted"));
-  EXPECT_THAT(said([&](Hdf5File& f) { f.write("/t_s", {2, 1}, n.data()), f.write("/p_m", {2, 3}, n.data()); }),
+  EXPECT_THAT(said([&](Hdf5File& f) {
+                f.write("/t_s", {2, 1}, n.data()), f.write("/p_m", {2, 3}, n.data());
+              }),
               HasSubstr("/t_s is 2 x 1 numbers; n x 1 are wanted"));
-  EXPECT_THAT(said([&](Hdf5File& f) { f.write("/t_s", {3}, n.data()), f.write("/p_m", {3, 3}, n.data()); }),
+  EXPECT_THAT(said([&](Hdf5File& f) {
+                f.write("/t_s", {3}, n.data()), f.write("/p_m", {3, 3}, n.data());
+              }),
               HasSubstr("row 2 of /: 1 s follows 1 s; times must grow"));
   const Table cut("\x89HDF\r\n\x1a\nand nothing more", ".h5");
   EXPECT_THAT(driver.trouble({{"file", cut.file}}), HasSubstr("is not an HDF5 file, or was cut short"));
   Record record;
   record.movement("/");
   record.hdf5.close();
-  EXPECT_THAT(driver.trouble({{"file", record.file}, {"columns", "t_s x_m y_m z_m"}}), HasSubstr("HDF5 has no \"columns\""));
-  EXPECT_THAT(driver.trouble({{"file", record.file}, {"group", "/nowhere"}}), HasSubstr("no dataset /nowhere/t_s"));
+  EXPECT_THAT(driver.trouble({{"file", record.file}, {"columns", "t_s x_m y_m z_m"}}),
+              HasSubstr("HDF5 has no \"columns\""));
+  EXPECT_THAT(driver.trouble({{"file", record.file}, {"group", "/nowhere"}}),
+              HasSubstr("no dataset /nowhere/t_s"));
 }
 
 TEST(ReplayDriver, LoopsAPathThatEndsWhereItBegins) {
@@ -273,8 +284,8 @@ TEST(ReplayDriver, FeelsThePlaneOfATrajectoryFile) {
   std::string text;
   for (int i = 0; i <= 400; ++i) {
     const double t = i * seconds / 400;
-    text += std::to_string(t) + " " + std::to_string(-20 + 10 * t) + " 0 " + std::to_string(z_mm(t)) + " 0 0 " +
-            std::to_string(newton(t)) + "\n";
+    text += std::to_string(t) + " " + std::to_string(-20 + 10 * t) + " 0 " + std::to_string(z_mm(t)) +
+            " 0 0 " + std::to_string(newton(t)) + "\n";
   }
   const Table table(text, ".traj");
   Scene scene = scene_with(HandModel::rigid, {}, 500);

@@ -127,7 +127,8 @@ TEST(ToolPointer, TurnsAboutTheAxesOfTheCamera) {
   input.toggle = false;
   input.turn = {0, 1, 0};
   for (int i = 0; i < 100; ++i) pointer.follow(input, camera, M_PI / 200);
-  EXPECT_LT((pointer.attitude() * Vec3::UnitX() - Vec3::UnitY()).norm(), 1e-9) << "a quarter about up, at 1 rad/s";
+  EXPECT_LT((pointer.attitude() * Vec3::UnitX() - Vec3::UnitY()).norm(), 1e-9)
+      << "a quarter about up, at 1 rad/s";
   input.turn = {0, 0, 1};
   for (int i = 0; i < 100; ++i) pointer.follow(input, camera, M_PI / 200);
   EXPECT_LT((pointer.attitude() * Vec3::UnitX() - Vec3::UnitY()).norm(), 1e-9);
