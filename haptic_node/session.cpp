@@ -39,6 +39,7 @@ ControllerSettings settings_of(const Scene& scene, std::uint32_t tool_index, con
   settings.stiffness = tool.stiffness;
   settings.damping = tool.damping;
   settings.model = force_model_of(tool);
+  settings.friction = tool.friction;
   if (info.max_stiffness > 0)
     settings.stiffness = std::min(tool.stiffness, info.max_stiffness / calibration.stiffness_gain());
   double limit = std::min(spec.force_limit, info.max_force);
@@ -71,7 +72,7 @@ bool is_rotation(const Eigen::Matrix3d& R) {
 }  // namespace
 
 HapticSession::HapticSession(const Scene& scene, std::uint32_t tool_index, const std::string& driver_override,
-                             ClockFunction now_ns, void* user, Power power)
+                             ClockFunction now_ns, void* user, Power power, int domain)
     : now_ns_(now_ns),
       user_(user),
       power_(power),
@@ -80,7 +81,8 @@ HapticSession::HapticSession(const Scene& scene, std::uint32_t tool_index, const
       device_(DriverLibrary::load(driver_of(spec_of(scene, tool_index), driver_override),
                                   place_of(spec_of(scene, tool_index))),
               driver_options(spec_of(scene, tool_index), calibration_,
-                             driver_of(spec_of(scene, tool_index), driver_override), scene.seed),
+                             driver_of(spec_of(scene, tool_index), driver_override),
+                             DriverPlace{scene.seed, tool_index, domain}),
               now_ns, user, place_of(spec_of(scene, tool_index))),
       controller_(settings_of(scene, tool_index, calibration_, device_.info())) {
   controller_.set_state(HapticState::ready);

@@ -38,9 +38,10 @@ class HapticSession {
   /// Opens the device of scene.tools[tool_index] and leaves it ready, forces off.
   /// @param driver_override  driver instead of the scene's; empty: the scene's
   /// @param now_ns, user     the clock [ns], called as now_ns(user) from all threads that call this session
+  /// @param domain           DDS domain for drivers that hear others over it; below 0: none
   /// @throws InputError: no such driver, device or calibration
   HapticSession(const Scene& scene, std::uint32_t tool_index, const std::string& driver_override,
-                ClockFunction now_ns, void* user, Power power = Power::by_tick);
+                ClockFunction now_ns, void* user, Power power = Power::by_tick, int domain = -1);
   ~HapticSession();
   HapticSession(const HapticSession&) = delete;
   HapticSession& operator=(const HapticSession&) = delete;

@@ -8,7 +8,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "common/error/error.h"
 #include "common/process/stop_flag.h"
@@ -89,6 +91,17 @@ std::string make_frames_folder(const NodeOptions& options) {
   return folder.string();
 }
 
+/// Tools whose device is the mouse in our window.
+std::vector<std::uint32_t> pointed_tools(const NodeOptions& options, const Scene& scene) {
+  std::vector<std::uint32_t> tools;
+  for (std::uint32_t i = 0; i < scene.tools.size(); ++i) {
+    const std::string& driver =
+        options.device.empty() ? scene.device(scene.tools[i].device).driver : options.device;
+    if (driver == "mouse") tools.push_back(i);
+  }
+  return tools;
+}
+
 void run_headless(const NodeOptions& options, const Scene& scene) {
   const std::string folder = make_frames_folder(options);
   const bool few_cores = std::thread::hardware_concurrency() <= 2;
@@ -98,6 +111,8 @@ void run_headless(const NodeOptions& options, const Scene& scene) {
   fare.tell(wire, NodePhase::loading, 0, true);
   Picture picture(scene, few_cores ? Edges::plain : Edges::smooth);
   FrameSchedule schedule(scene.render.rate_Hz);
+  if (!pointed_tools(options, scene).empty())
+    log_warn("driver \"mouse\": there is no window to point in; leave out --headless, on a display");
   bool stop = false;
   while (!stop && !stop_requested() && !time_is_over(options, picture.model())) {
     // 1. take what has come
@@ -131,7 +146,7 @@ void pass_on(const PanelWishes& wishes, ThresholdControl& threshold, Wire& wire)
 
 void run_window(const NodeOptions& options, const Scene& scene) {
   ViewModel model(scene);
-  Window window(scene, model);
+  Window window(scene, model, pointed_tools(options, scene));
   Wire wire(options.domain);
   Fare fare(scene);
   bool stop = false;
@@ -147,6 +162,7 @@ void run_window(const NodeOptions& options, const Scene& scene) {
     facts.interactive = true;
     facts.paused = news.paused;
     pass_on(window.draw(facts), window.threshold(), wire);
+    for (auto& pointer : window.pointers()) wire.point(pointer.message(now_ns()));
     fare.drew(model.t());
     if (window.closing()) {
       wire.command(CommandKind::stop);

@@ -26,6 +26,7 @@ class Wire {
   News take_into(ViewModel& model);
 
   void command(CommandKind kind, double value = 0);
+  void point(const Pointer& pointer) { pointer_.write(pointer); }
   /// Fills in what the readers counted, and sends.
   void tell(NodeStatus status);
 
@@ -44,6 +45,7 @@ class Wire {
   Reader<Command> commands_{participant_};
   Writer<NodeStatus> status_{participant_};
   Writer<Command> command_{participant_};
+  Writer<Pointer> pointer_{participant_};
   std::uint64_t last_command_ = 0;
   bool paused_ = false;
 

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
 #include "common/error/error.h"
+#include "common/scene/device_keys.h"
 #include "common/scene/near_miss.h"
 #include "common/scene/table_reader.h"
 #include "common/scene/toml_text.h"
@@ -80,6 +82,18 @@ toml::table& step_into(toml::table& table, const std::string& word, const std::s
   throw BadSetting{fmt::format("\"{}\" is {}, not a table; it holds no keys", word, described(*next))};
 }
 
+/// Another driver has other keys: those that the file gives for its own go, those of other settings stay.
+void forget_driver_keys(toml::table& device, const toml::table& holder) {
+  const auto now = device["driver"].value<std::string>();
+  if (!now || now == holder["value"].value<std::string>()) return;
+  std::vector<std::string> own;
+  for (const auto& [key, value] : device) {
+    const bool shared = std::find(device_keys.begin(), device_keys.end(), key.str()) != device_keys.end();
+    if (!shared && !place_of(value.source()).file.starts_with(setting_prefix)) own.emplace_back(key.str());
+  }
+  for (const auto& key : own) device.erase(key);
+}
+
 void apply(toml::table& root, const std::string& setting, const std::string& name) {
   const auto equals = setting.find('=');
   if (equals == setting.npos) throw BadSetting{"there is no \"=\"; write table.key=value"};
@@ -94,6 +108,7 @@ void apply(toml::table& root, const std::string& setting, const std::string& nam
     i = 2;
   }
   for (; i + 1 < path.size(); ++i) table = &step_into(*table, path[i], name);
+  if (path.size() == 3 && path[0] == "device" && path[2] == "driver") forget_driver_keys(*table, holder);
   put(*table, path.back(), std::move(holder));
 }
 

@@ -108,6 +108,8 @@ void read_force_model(TableReader& reader, ToolSpec& spec) {
   if (!word) return;
   const auto model = static_cast<ForceModel>(*word);
   spec.force_model = model;
+  if (spec.friction > 0 && model != ForceModel::norton)
+    reader.complain("friction", "friction is felt with force_model = \"norton\" only; leave one of the two out");
   const bool planes = model == ForceModel::norton || model == ForceModel::raw_planes;
   if (point && model == ForceModel::tangent)
     reader.complain("force_model", "a point feels planes; write \"norton\", \"raw_planes\" or \"direct\"");
@@ -139,6 +141,7 @@ ToolSpec read_tool(TableReader& reader, ReadContext& context) {
     read_stick(reader, spec);
   } else {
     set_if(spec.radius, reader.read_length_mm("radius_mm"));
+    set_if(spec.friction, reader.read_number("friction", {.lo = 0, .hi = 2}));
   }
   read_force_model(reader, spec);
   set_if(spec.torque_limit, reader.read_number("torque_limit_N_m", positive));

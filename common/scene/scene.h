@@ -169,6 +169,7 @@ struct ToolSpec {
   double radius = 0.003;          // of the tip: its force fades out over twice that [m]
   double stiffness = 400;         // of the contact spring between hand and proxy [N/m]
   double damping = 1.0;           // [N s/m]
+  double friction = 0;            // Coulomb's coefficient between tip and surface
   double torque_limit = 0.1;      // [N m]
   std::optional<ForceModel> force_model;  // of the hand between two answers of physics; absent: force_model_of()
   double length = 0.1;            // from tip to end [m]; only ToolShape::stick

@@ -34,12 +34,17 @@ bool environment_configures() {
 }  // namespace
 
 /// One per domain and process: the configuration, which ends with the last participant.
+/// Why: a driver is a library with a copy of this code, so that a process may hold several of these for one domain. The
+/// first makes the domain, the others join it, and the one that goes last takes it away.
 struct Participant::Domain {
+  explicit Domain(int the_id) : id(static_cast<dds_domainid_t>(the_id)) {}
+  dds_domainid_t id;
   dds_entity_t entity = 0;  // 0: made by DDS from the environment
+  bool joined = false;      // another copy of this code has made it
   bool built_in = false;
   std::atomic<bool> local_only{false};
   ~Domain() {
-    if (entity > 0) dds_delete(entity);
+    if (entity > 0 && dds_lookup_participant(id, nullptr, 0) <= 0) dds_delete(entity);
   }
 };
 
@@ -49,23 +54,28 @@ std::shared_ptr<Participant::Domain> Participant::join(int domain, const std::st
   const std::lock_guard lock(mutex);
   if (auto shared = known[domain].lock()) return shared;
 
-  dds_set_log_sink(&pass_on, nullptr);
-  auto shared = std::make_shared<Domain>();
+  auto shared = std::make_shared<Domain>(domain);
+  const auto make = [&](const std::string& text) {
+    shared->entity = dds_create_domain(shared->id, text.c_str());
+    shared->joined = shared->entity == DDS_RETCODE_PRECONDITION_NOT_MET;
+    if (!shared->joined) dds_set_log_sink(&pass_on, nullptr);
+    return shared->joined || shared->entity > 0;
+  };
   if (!config.empty()) {
     if (!std::filesystem::is_regular_file(config)) {
       throw InputError(
           fmt::format("{}: no such DDS configuration; see deploy/cyclonedds for samples", config));
     }
-    shared->entity = dds_create_domain(static_cast<dds_domainid_t>(domain), ("file://" + config).c_str());
-    if (shared->entity < 0) throw InputError(fmt::format("{}: is not a Cyclone DDS configuration", config));
+    if (!make("file://" + config))
+      throw InputError(fmt::format("{}: is not a Cyclone DDS configuration", config));
   } else if (!environment_configures()) {
     shared->built_in = true;
-    shared->entity =
-        dds_create_domain(static_cast<dds_domainid_t>(domain), std::string(loopback_config()).c_str());
-    if (shared->entity < 0) {
+    if (!make(std::string(loopback_config()))) {
       throw std::runtime_error(
           fmt::format("DDS domain {} cannot be set up ({})", domain, dds_strretcode(-shared->entity)));
     }
+  } else {
+    dds_set_log_sink(&pass_on, nullptr);
   }
   known[domain] = shared;
   return shared;
@@ -81,6 +91,7 @@ Participant::Participant(int domain, const std::string& config) : domain_(domain
         "DDS domain {} cannot be joined ({}); is another session there? Give another domain with --domain",
         domain, dds_strretcode(-handle_)));
   }
+  if (shared_->joined && shared_->entity <= 0) shared_->entity = dds_get_parent(handle_);
   if (shared_->built_in) {
     shared_->local_only = tie_to_loopback(domain);
     if (!shared_->local_only)

@@ -14,8 +14,9 @@ namespace palpate::deploy {
 namespace {
 
 /// What palpate comes with, and the package that a driver needs to be built.
-constexpr std::array<std::pair<const char*, const char*>, 7> shipped{{{"simulated", ""},
+constexpr std::array<std::pair<const char*, const char*>, 8> shipped{{{"simulated", ""},
                                                                       {"replay", ""},
+                                                                      {"mouse", ""},
                                                                       {"openhaptics", ""},
                                                                       {"forcedimension", ""},
                                                                       {"inverse3", ""},

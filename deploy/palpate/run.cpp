@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <memory>
 
 #include "common/error/error.h"
@@ -58,13 +59,26 @@ void require_programs(const SessionPlan& plan) {
   }
 }
 
+const std::string& driver_of(const DeviceSpec& device, const RunOptions& options) {
+  return options.device.empty() ? device.driver : options.device;
+}
+
+/// How long a session lasts: as told, else with the mouse in a window until that is closed, else as the scene has it.
+double session_seconds(const Scene& scene, const RunOptions& options) {
+  if (options.seconds > 0) return options.seconds;
+  const bool pointed = std::any_of(scene.tools.begin(), scene.tools.end(), [&](const ToolSpec& tool) {
+    return driver_of(scene.device(tool.device), options) == "mouse";
+  });
+  return pointed && !options.headless ? std::numeric_limits<double>::infinity() : scene.natural_seconds();
+}
+
 /// The haptic node would refuse an unknown driver, too, but only after all nodes have started.
 void require_drivers(const Scene& scene, const RunOptions& options, const SessionPlan& plan) {
   if (std::find(plan.nodes.begin(), plan.nodes.end(), NodeKind::haptic) == plan.nodes.end()) return;
   const auto present = haptic::drivers_present(haptic::driver_folders());
   for (const ToolSpec& tool : scene.tools) {
     const DeviceSpec& device = scene.device(tool.device);
-    const std::string& driver = options.device.empty() ? device.driver : options.device;
+    const std::string& driver = driver_of(device, options);
     if (std::find(present.begin(), present.end(), driver) != present.end()) continue;
     throw InputError(fmt::format("{}: no driver \"{}\"; drivers here: {}",
                                  options.device.empty() ? device.place.text() : "--device", driver,
@@ -88,7 +102,7 @@ int run(const RunOptions& options) {
                             .bin = options.bin.empty() ? bin_folder() : fs::path(options.bin),
                             .arguments = node_arguments(options, out),
                             .domain = options.domain,
-                            .seconds = options.seconds > 0 ? options.seconds : scene.natural_seconds()};
+                            .seconds = session_seconds(scene, options)};
   require_programs(plan);
   require_drivers(scene, options, plan);
   require_free_ports(plan.domain);
@@ -115,8 +129,9 @@ void add_run(CLI::App& app, int& exit_code) {
   command->add_option("scene", options->scene_path, "scene file (TOML)")->required();
   command->add_flag("--headless", options->headless, "pictures to files instead of a window");
   command
-      ->add_option("--seconds", options->seconds,
-                   "how long, once all nodes run; else until the hand's path ends")
+      ->add_option(
+          "--seconds", options->seconds,
+          "how long, once all nodes run; else until the hand's path ends, or the mouse's window is closed")
       ->check(CLI::PositiveNumber);
   command->add_option("--out", options->out, "folder for results (default: out/NAME_OF_SCENE)");
   command->add_option("--set", options->settings, "table.key=value over the scene; may be repeated")

@@ -94,6 +94,13 @@ class Session {
     return running_since_ ? seconds_since(*running_since_) : 0;
   }
 
+  /// A person has closed the window before the session had begun, which ends all nodes.
+  bool window_closed() {
+    return std::any_of(nodes_.begin(), nodes_.end(), [](RunningNode& node) {
+      return node.node == NodeKind::render && !node.told && node.child.ending() && node.child.wait().clean();
+    });
+  }
+
   /// After all have gone: what became of one node, and what that means for the session.
   void conclude(RunningNode& node) {
     const StatusBoard::Entry& entry = board_.at(node.node);
@@ -106,7 +113,7 @@ class Session {
                              .mean_rate_Hz = entry.mean_rate_Hz(),
                              .mean_real_time_factor = entry.mean_real_time_factor()});
     const std::string name(name_of(node.node));
-    if (ending.clean() && (asked || running_since_ || result_.interrupted)) return;
+    if (ending.clean() && (asked || running_since_ || result_.interrupted || window_closed())) return;
     // Why: a node that gets SIGTERM before it has installed its handler is ended by it, as asked.
     if (asked && ending.by_signal && ending.code == SIGTERM && !entry.newest) return;
     if (node.killed) {

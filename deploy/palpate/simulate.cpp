@@ -42,10 +42,10 @@ int simulate(SimulateOptions options) {
   const std::filesystem::path out =
       options.out.empty() ? default_out(options.scene) : std::filesystem::path(options.out);
   const double seconds = options.seconds > 0 ? options.seconds : scene.natural_seconds();
+  VirtualSession session(scene, {options.device, !options.no_pictures});
   prepare_out(out);
   install_stop_handlers();
-
-  VirtualSession session(scene, {out, options.device, !options.no_pictures});
+  session.leave_in(out);
   for (const auto& remark : session.remarks()) fmt::print(stderr, "palpate: {}\n", remark);
   session.run(seconds, [&](double t) { show_progress(t, seconds); });
   const nlohmann::json summary = session.finish();

@@ -24,13 +24,15 @@ VirtualSession::VirtualSession(const Scene& scene, const VirtualOptions& options
     next_tick_ns_.push_back(now_ns_);
     traces_[n].tool = n;
   }
-  if (options_.out.empty()) return;
-  recorder_ =
-      std::make_unique<physics::Recorder>(world_, options_.out.string(), physics::Recorder::WhenBehind::wait);
   if (!options_.pictures) return;
-  std::filesystem::create_directories(options_.out / "frames");
   appearance_ = std::make_unique<physics::Appearance>(world_, scene_.render.threshold);
   picture_ = std::make_unique<render::Picture>(scene_);
+}
+
+void VirtualSession::leave_in(const std::filesystem::path& out) {
+  out_ = out;
+  recorder_ = std::make_unique<physics::Recorder>(world_, out.string(), physics::Recorder::WhenBehind::wait);
+  if (picture_) std::filesystem::create_directories(out / "frames");
 }
 
 void VirtualSession::tick_hands(std::int64_t until_ns) {
@@ -74,7 +76,7 @@ void VirtualSession::show() {
     picture_->take(wrench);
   }
   picture_->draw(world_.t());
-  picture_->save_png((options_.out / "frames" / fmt::format("frame_{:05}.png", ++frames_)).string());
+  if (!out_.empty()) picture_->save_png((out_ / "frames" / fmt::format("frame_{:05}.png", ++frames_)).string());
 }
 
 void VirtualSession::run(double seconds, const std::function<void(double)>& progress) {

@@ -18,15 +18,18 @@
 namespace palpate::deploy {
 
 struct VirtualOptions {
-  std::filesystem::path out;  // folder for the record and the pictures; empty: nothing is written
-  std::string device;         // driver instead of the scenes'; empty: the scene's
+  std::string device;  // driver instead of the scenes'; empty: the scene's
   bool pictures = true;
 };
 
 class VirtualSession {
  public:
+  /// Everything that a person may have got wrong is found here; nothing is written.
   /// @throws InputError
   VirtualSession(const Scene& scene, const VirtualOptions& options);
+
+  /// From now on the record and the pictures go to this folder. Before run().
+  void leave_in(const std::filesystem::path& out);
 
   /// What a person should know about this scene: one line each.
   const std::vector<std::string>& remarks() const { return world_.remarks(); }
@@ -45,6 +48,7 @@ class VirtualSession {
 
   Scene scene_;
   VirtualOptions options_;
+  std::filesystem::path out_;
   physics::World world_;
   std::int64_t now_ns_ = 1'000'000'000;  // not zero: zero means "never" in messages
   std::vector<std::unique_ptr<haptic::HapticSession>> hands_;

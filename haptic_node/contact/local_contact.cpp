@@ -129,6 +129,13 @@ ContactResult LocalContact::felt(const Vec3& x, const Vec3& v) const noexcept {
   return result;
 }
 
+/// Friction on top of what the planes do.
+void LocalContact::rub(const Vec3& x, ContactResult& result) noexcept {
+  result.force += friction_.tick(x, result.force, n_ > 0 ? planes_[0].stiffness() : 0.0);
+  result.stored += friction_.stored();
+  result.proxy = x + result.force / stiffness_;
+}
+
 ContactResult LocalContact::tick(const Vec3& x, const Vec3& v, double dt) noexcept {
   const double fraction = remaining_ <= dt ? 1.0 : dt / remaining_;
   remaining_ = std::max(0.0, remaining_ - dt);
@@ -152,6 +159,7 @@ ContactResult LocalContact::tick(const Vec3& x, const Vec3& v, double dt) noexce
   last_x_ = x;
 
   ContactResult result = felt(x, v);
+  if (friction_.applies()) rub(x, result);
   result.outran = outran;
   tank_.pass(dt, result.n_planes > 0);
   return result;

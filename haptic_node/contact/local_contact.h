@@ -7,7 +7,7 @@
 //   F = (K K_o / (K + K_o)) d n - damping,    proxy = x + F / K  (the point where the tool rests on the surface)
 //
 // One plane follows the facet under the proxy; up to two more are other sides that the proxy ran into (a concave
-// corner). A facet counts only when the way from proxy to hand crosses it, so that convex edges are not felt from
+// corner). With friction the proxy sticks within a cone (friction.h). A facet counts only when the way from proxy to hand crosses it, so that convex edges are not felt from
 // outside. Every contact begins at zero force; afterwards planes move as TrackedPlane allows.
 // Source: Astley & Hayward 1998 (Norton equivalents); Zilles & Salisbury 1995 (which facets count).
 // Deviation: Mendoza & Laugier let every plane with d < 0 push; beside a convex edge that is a ghost force.
@@ -21,6 +21,7 @@
 #include "common/scene/scene.h"
 #include "haptic_node/contact/contact_result.h"
 #include "haptic_node/contact/facet_choice.h"
+#include "haptic_node/contact/friction.h"
 #include "haptic_node/contact/tracked_plane.h"
 #include "haptic_node/contact/work_tank.h"
 
@@ -31,9 +32,10 @@ class LocalContact {
   /// @param stiffness  of the spring between hand and proxy, K [N/m]
   /// @param damping    B [N s/m]
   /// @param limit      force beyond which springs do not push harder [N]; planes then do no more work than that
-  LocalContact(double stiffness, double damping,
-               double limit = std::numeric_limits<double>::infinity()) noexcept
-      : stiffness_(stiffness), damping_(damping), limit_(limit) {}
+  /// @param friction   Coulomb's coefficient; 0: the surface is slippery
+  LocalContact(double stiffness, double damping, double limit = std::numeric_limits<double>::infinity(),
+               double friction = 0) noexcept
+      : stiffness_(stiffness), damping_(damping), limit_(limit), friction_(friction) {}
 
   /// A new patch; its planes are reached after about `period` seconds. It must have passed PatchWatch.
   void take(const ContactPatch& patch, double period) noexcept;
@@ -49,7 +51,10 @@ class LocalContact {
   void weaken(const Vec3& x, double keep) noexcept;
 
   /// Forgets all planes: the next contact begins at zero force.
-  void release() noexcept { n_ = 0; }
+  void release() noexcept {
+    n_ = 0;
+    friction_.release();
+  }
 
   /// Springs that grow stiffer do work as moving planes do. @return what may be done of `work` [J], booked
   double pay(double work) noexcept { return tank_.pay(work); }
@@ -73,6 +78,7 @@ class LocalContact {
                      double force_step) noexcept;
   void add_crossed(const Vec3& x, const Vec3& proxy) noexcept;
   ContactResult felt(const Vec3& x, const Vec3& v) const noexcept;
+  void rub(const Vec3& x, ContactResult& result) noexcept;
 
   double stiffness_;
   double damping_;
@@ -83,6 +89,7 @@ class LocalContact {
   std::size_t n_ = 0;
   std::uint32_t facet_ = no_facet;  // of plane 0, in patch_
   Vec3 last_x_ = Vec3::Zero();
+  Friction friction_;
   WorkTank tank_;
 };
 

@@ -13,12 +13,13 @@ class LocalModel {
  public:
   /// @param stiffness, damping, limit  of the spring between hand and tool [N/m], [N s/m], [N]
   /// @param torque_limit  0: the device gives none [N m]
-  LocalModel(ForceModel model, double stiffness, double damping, double limit, double torque_limit) noexcept
+  LocalModel(ForceModel model, double stiffness, double damping, double limit, double torque_limit,
+             double friction = 0) noexcept
       : model_(model),
         stiffness_(stiffness),
         damping_(damping),
         limit_(limit),
-        planes_(stiffness, damping, limit),
+        planes_(stiffness, damping, limit, friction),
         tangent_(stiffness, damping, limit, torque_limit) {}
 
   /// Forces come from wrenches; otherwise from patches.

@@ -60,7 +60,8 @@ Controller::Controller(const ControllerSettings& settings) noexcept
       motion_(settings.period),
       patches_(settings.tool),
       wrenches_(settings.tool),
-      model_(settings.model, settings.stiffness, settings.damping, settings.force_limit, settings.torque_limit),
+      model_(settings.model, settings.stiffness, settings.damping, settings.force_limit, settings.torque_limit,
+             settings.friction),
       guard_(settings.force_limit, settings.stiffness, settings.period),
       torque_guard_(settings.torque_limit, settings.stiffness * torque_lever * torque_lever, settings.period),
       energy_(settings.resolution, settings.stiffness) {}

@@ -40,13 +40,13 @@ HapticNode::HapticNode(const NodeOptions& options, const Scene& scene)
   set_log_name("haptic");
   ask_for_rights();
   for (std::uint32_t tool = 0; tool < scene.tools.size(); ++tool) {
-    channels_.push_back(std::make_unique<ToolChannel>(scene, tool, options.device));
+    channels_.push_back(std::make_unique<ToolChannel>(scene, tool, options.device, options.domain));
     const HapticSession& session = *channels_.back()->session.get();
     const hdev_info& info = session.device_info();
     log_info("{}: {} ({}), up to {:.1f} N", scene.tools[tool].name, info.model, info.vendor,
              session.controller().force_limit());
     resets_.emplace_back(*channels_.back(),
-                         [this, tool] { return open_session(scene_, tool, options_.device); });
+                         [this, tool] { return open_session(scene_, tool, options_.device, options_.domain); });
   }
   crash_stop_ = std::make_unique<CrashStop>(channels_);
   reports_.resize(channels_.size());

@@ -25,17 +25,17 @@ struct SessionReport {
 
 /// A session in real time whose motors are switched on by a slow thread. @throws InputError as HapticSession does
 inline std::unique_ptr<HapticSession> open_session(const Scene& scene, std::uint32_t tool,
-                                                   const std::string& driver) {
+                                                   const std::string& driver, int domain = -1) {
   return std::make_unique<HapticSession>(
-      scene, tool, driver, [](void*) { return now_ns(); }, nullptr, HapticSession::Power::by_service);
+      scene, tool, driver, [](void*) { return now_ns(); }, nullptr, HapticSession::Power::by_service, domain);
 }
 
 struct ToolChannel {
   enum User : std::size_t { loop, watchdog, n_users };
 
-  ToolChannel(const Scene& scene, std::uint32_t tool, const std::string& driver)
+  ToolChannel(const Scene& scene, std::uint32_t tool, const std::string& driver, int domain = -1)
       : name(scene.tools[tool].name),
-        session(open_session(scene, tool, driver)),
+        session(open_session(scene, tool, driver, domain)),
         flight(session.get()->rate_Hz()) {}
 
   std::string name;

@@ -119,6 +119,21 @@ void tool_rows(const Scene& scene, const ViewModel& model, const PanelFacts& fac
   }
 }
 
+/// How the mouse leads the tool.
+void pointer_rows(const Scene& scene, const ToolPointer& pointer) {
+  ImGui::Separator();
+  row("mouse", fmt::format("{} {}", pointer.held() ? "holds" : "lets lie", scene.tools[pointer.tool()].name));
+  if (!pointer.held()) {
+    row("take it", "T");
+    return;
+  }
+  row("move it", "mouse");
+  row("deeper, finely", "wheel, Shift");
+  row("turn it", "arrows, PgUp, PgDn");
+  row("its button", "Space");
+  row("let it go", "T");
+}
+
 void warning_rows(const ViewModel& model) {
   for (const auto kind : {NodeKind::physics, NodeKind::haptic, NodeKind::render}) {
     const auto& status = model.node(kind);
@@ -146,6 +161,7 @@ PanelWishes lay_out_panels(const Scene& scene, const ViewModel& model, const Pan
   ImGui::Separator();
   const PanelWishes wishes = controls(facts, threshold);
   tool_rows(scene, model, facts, scale);
+  if (facts.pointer != nullptr) pointer_rows(scene, *facts.pointer);
   warning_rows(model);
   ImGui::End();
   return wishes;

@@ -6,6 +6,7 @@
 #include "common/scene/scene.h"
 #include "render_node/model/threshold_control.h"
 #include "render_node/model/view_model.h"
+#include "render_node/view/tool_pointer.h"
 
 namespace palpate::render {
 
@@ -15,6 +16,7 @@ struct PanelFacts {
   double arrow_metres_per_newton = 0;  // 0: not known yet
   bool interactive = false;            // a window: with slider and buttons
   bool paused = false;
+  const ToolPointer* pointer = nullptr;  // the tool that the mouse leads, if any: with help
 };
 
 /// What the person asked for in this frame.

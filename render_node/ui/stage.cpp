@@ -23,16 +23,17 @@ PanelWishes Stage::draw(const PanelFacts& facts, int width, int height, float se
                       panels ? static_cast<int>(std::lround(panel_width * imgui_.scale())) : 0);
   camera_.fit(box_with_floor());
   painter_.draw(model_, camera_, options_, width, height);
-  if (!panels) return {};
+  if (!panels && !facts.interactive) return {};
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
   io.DeltaTime = seconds;
   ImGui::NewFrame();
   PanelFacts shown = facts;
   shown.arrow_metres_per_newton = options_.force ? painter_.arrow_metres_per_newton() : 0;
-  const PanelWishes wishes = lay_out_panels(scene_, model_, shown, threshold_, imgui_.scale());
+  PanelWishes wishes;
+  if (panels) wishes = lay_out_panels(scene_, model_, shown, threshold_, imgui_.scale());
   ImGui::Render();
-  panels_.draw();
+  if (panels) panels_.draw();
   return wishes;
 }
 

@@ -1,13 +1,17 @@
 #pragma once
 // The picture in a window. Left drag turns the object, right drag moves it, the wheel zooms; w: wires, r: first view,
-// Esc: close.
+// Esc: close. Of the tools that the mouse leads, t takes one or lets it go, Tab goes to the next; while one is held, the
+// mouse and its wheel move it, arrows and page keys turn it, Space is its button.
 
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "common/scene/scene.h"
 #include "render_node/image/image.h"
 #include "render_node/model/view_model.h"
 #include "render_node/ui/panels.h"
+#include "render_node/view/tool_pointer.h"
 
 namespace palpate::render {
 
@@ -19,8 +23,9 @@ bool display_present();
 class Window {
  public:
   /// Scene and model must outlive the window. One window a process.
+  /// @param pointed  tools of the scene that the mouse leads
   /// @throws InputError, one line, if no window can be opened
-  Window(const Scene& scene, ViewModel& model);
+  Window(const Scene& scene, ViewModel& model, const std::vector<std::uint32_t>& pointed = {});
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
@@ -29,16 +34,26 @@ class Window {
   /// @param seen  written, if given: the picture shown
   PanelWishes draw(const PanelFacts& facts, Image* seen = nullptr);
 
+  /// The tools that the mouse leads, once there is a body to see.
+  std::vector<ToolPointer>& pointers() noexcept { return pointers_; }
+
   bool closing() const;   // the person wants to leave
   bool software() const;  // drawn by the processor, not by a graphics card
   ThresholdControl& threshold();
 
  private:
   struct Glfw;
-  void follow_hand();
+  void lay_out_pointers();
+  void follow_hand(double wheel, double seconds);
+  void lead_tool(double wheel, double seconds);
   std::unique_ptr<Glfw> glfw_;  // first made, last gone
   std::unique_ptr<Stage> stage_;
-  double last_draw_ = 0;  // [s]
+  const Scene& scene_;
+  ViewModel& model_;
+  std::vector<std::uint32_t> pointed_;
+  std::vector<ToolPointer> pointers_;  // empty until a body is seen
+  std::size_t led_ = 0;                // which of them the keys are about
+  double last_draw_ = 0;               // [s]
   bool leave_ = false;
 };
 

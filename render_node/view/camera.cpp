@@ -96,6 +96,15 @@ Eigen::Matrix4d Camera::projection() const {
   return m;
 }
 
+double Camera::depth(const Vec3& p) const { return axes().row(2).dot(eye() - p); }
+
+Vec3 Camera::at(const Eigen::Vector2d& pixel, double depth) const {
+  // The ray of a pixel leaves the eye as (a, b, -1) in camera axes; projection() is undone for a and b.
+  const double a = (2 * pixel.x() / width_ - 1 - covered_ / width_) * width_ / height_ * tan_half();
+  const double b = (1 - 2 * pixel.y() / height_) * tan_half();
+  return eye() + depth * (axes().transpose() * Vec3(a, b, -1));
+}
+
 std::optional<Eigen::Vector2d> Camera::project(const Vec3& p) const {
   const Eigen::Vector4d clip = projection() * view() * p.homogeneous();
   if (clip.w() <= 0) return std::nullopt;

@@ -32,14 +32,20 @@ class Camera {
   /// Where a point appears, in pixels from the top left corner; nothing if behind the camera.
   std::optional<Eigen::Vector2d> project(const Vec3& p) const;
 
+  /// How far a point is before the eye, along the view [m].
+  double depth(const Vec3& p) const;
+  /// The point that appears at this pixel so far before the eye: the other way round than project(). @param depth  > 0 [m]
+  Vec3 at(const Eigen::Vector2d& pixel, double depth) const;
+
   Vec3 eye() const;
   Vec3 target() const { return target_; }
   double distance() const { return distance_; }
 
+  Eigen::Matrix3d axes() const;  // rows: right, up, towards the viewer; world to camera
+
  private:
-  Eigen::Matrix3d axes() const;  // rows: right, up, towards the viewer
-  double tan_half() const;       // of the vertical field of view
-  double free_aspect() const;    // width / height of the free part
+  double tan_half() const;     // of the vertical field of view
+  double free_aspect() const;  // width / height of the free part
 
   CameraSpec spec_;
   double yaw_, pitch_;

@@ -1,16 +1,7 @@
 #include "haptic_node/drivers/forcedimension/dhd.h"
 
 namespace palpate::haptic::forcedimension {
-namespace {
-
-std::vector<std::string> file_names(const std::string& file) {
-  if (!file.empty()) return {file};
-  return {"libdhd.so", "libdhd.so.3"};
-}
-
-}  // namespace
-
-Dhd::Dhd(const std::string& file) : library("Force Dimension", file_names(file)) {
+Dhd::Dhd(const std::string& file) : library("Force Dimension", file, {"libdhd.so", "libdhd.so.3"}) {
   library.find("dhdGetAvailableCount", get_available_count);
   library.find("dhdOpen", open_first);
   library.find("dhdOpenID", open_id);

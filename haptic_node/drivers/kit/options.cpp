@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <sstream>
 
 #include "haptic_node/drivers/kit/driver.h"
 
@@ -68,6 +69,20 @@ bool Options::yes(const std::string& key, bool fallback) {
   if (value == nullptr) return fallback;
   if (*value != "true" && *value != "false") refuse(key, *value, "true or false");
   return *value == "true";
+}
+
+std::vector<double> Options::numbers(const std::string& key, std::size_t n) {
+  const std::string* value = find(key);
+  std::vector<double> numbers;
+  if (value == nullptr) return numbers;
+  std::istringstream words(*value);
+  bool good = true;
+  for (std::string word; good && words >> word;) {
+    numbers.push_back(0);
+    good = read_number(word, numbers.back());
+  }
+  if (!good || numbers.size() != n) refuse(key, *value, fmt::format("{} numbers between blanks", n).c_str());
+  return numbers;
 }
 
 void Options::refuse_rest() const {

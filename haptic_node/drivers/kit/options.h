@@ -20,6 +20,7 @@ class Options {
   double number(const std::string& key, double fallback);
   std::uint32_t whole(const std::string& key, std::uint32_t fallback, std::uint32_t most);
   bool yes(const std::string& key, bool fallback);
+  std::vector<double> numbers(const std::string& key, std::size_t n);  // between blanks; empty if not given
   /// @}
 
   /// After the last question. Throws Trouble for a key that nobody asked for.

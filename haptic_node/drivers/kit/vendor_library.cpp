@@ -9,7 +9,10 @@
 
 namespace palpate::haptic::kit {
 
-VendorLibrary::VendorLibrary(const std::string& what, const std::vector<std::string>& names) : what_(what) {
+VendorLibrary::VendorLibrary(const std::string& what, const std::string& given,
+                             const std::vector<std::string>& defaults)
+    : what_(what) {
+  const std::vector<std::string> names = given.empty() ? defaults : std::vector<std::string>{given};
   std::string said;
   for (const auto& name : names) {
     handle_ = dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);

@@ -9,11 +9,12 @@ namespace palpate::haptic::kit {
 /// Stays loaded until the program ends: vendors' libraries leave threads and exit handlers behind.
 class VendorLibrary {
  public:
-  /// Tries the file names in their order, each as the loader searches for it ($LD_LIBRARY_PATH, ld.so.cache, system
+  /// Tries file names in their order, each as the loader searches for it ($LD_LIBRARY_PATH, ld.so.cache, system
   /// folders); a name with a slash is that file.
-  /// @param what  for a person: "OpenHaptics"
+  /// @param what      for a person: "OpenHaptics"
+  /// @param given     the only file name; empty: `defaults`
   /// @throws Trouble (HDEV_E_SDK), one line: the files, the loader's own words for each, where it looked
-  VendorLibrary(const std::string& what, const std::vector<std::string>& names);
+  VendorLibrary(const std::string& what, const std::string& given, const std::vector<std::string>& defaults);
 
   /// `function` becomes the exported C function. @throws Trouble (HDEV_E_SDK) naming the file and the function
   template <class Function>

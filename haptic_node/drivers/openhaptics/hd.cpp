@@ -1,16 +1,8 @@
 #include "haptic_node/drivers/openhaptics/hd.h"
 
 namespace palpate::haptic::openhaptics {
-namespace {
-
-std::vector<std::string> file_names(const std::string& file) {
-  if (!file.empty()) return {file};
-  return {"libHD.so", "libHD.so.3.4", "libHD.so.3.0", "libHD.so.3"};
-}
-
-}  // namespace
-
-Hd::Hd(const std::string& file) : library("OpenHaptics", file_names(file)) {
+Hd::Hd(const std::string& file)
+    : library("OpenHaptics", file, {"libHD.so", "libHD.so.3.4", "libHD.so.3.0", "libHD.so.3"}) {
   library.find("hdInitDevice", init_device);
   library.find("hdDisableDevice", disable_device);
   library.find("hdMakeCurrentDevice", make_current);

@@ -1,5 +1,5 @@
 #pragma once
-// A recorded movement: poses at times, read from a table in a text file.
+// A recorded movement: poses at times. pose_table.h reads one from text, pose_record.h from HDF5.
 
 #include <Eigen/Geometry>
 #include <cstdint>
@@ -15,21 +15,21 @@ struct Pose {
   std::uint32_t buttons = 0;                              // bit i: button i
 };
 
+inline constexpr std::uint32_t most_buttons = 65535;
+
 struct PosePath {
-  std::vector<Pose> poses;  // times grow; never empty
+  std::vector<Pose> poses;  // times grow; never empty once read
   bool has_attitude = false;
   bool has_buttons = false;
+
+  /// Appends a pose whose time is later, with finite numbers and a unit attitude (within 1e-3).
+  /// @return what is wrong with it, and what would be right; empty: it was taken
+  std::string take(Pose pose);
 
   /// Linear in between, attitudes on the shortest arc, buttons of the pose before; at rest outside.
   /// @param hint  where the search begins; set to where it ended
   Pose at(double t, std::size_t& hint) const noexcept;
   double duration() const noexcept { return poses.back().t - poses.front().t; }
 };
-
-/// A table, its fields between commas or, without any comma, between blanks. Its first line names the columns, in any order: t_s, x_mm y_mm z_mm (or x_m y_m z_m), and
-/// perhaps qw qx qy qz, and perhaps buttons. Other columns are left alone, so that the traces of a run can be played.
-/// Empty lines and lines that begin with # are skipped.
-/// @throws kit::Trouble "file:line:column: what; what would be right"
-PosePath read_pose_path(const std::string& file);
 
 }  // namespace palpate::haptic::replay

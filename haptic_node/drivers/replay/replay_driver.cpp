@@ -6,9 +6,12 @@
 #include <atomic>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 #include "haptic_node/drivers/kit/driver.h"
 #include "haptic_node/drivers/replay/pose_path.h"
+#include "haptic_node/drivers/replay/pose_record.h"
+#include "haptic_node/drivers/replay/pose_table.h"
 
 namespace palpate::haptic {
 namespace {
@@ -101,6 +104,19 @@ class ReplayDevice final : public kit::OpenDevice {
   std::atomic<bool> asked_{false};
 };
 
+/// By what the file holds, not by its name; but a .traj names no columns.
+replay::PosePath read_path(const std::string& file, std::string columns, const std::string& group) {
+  if (file.empty()) throw kit::Trouble(HDEV_E_ARG, "no \"file\"; name a table of poses");
+  const bool record = replay::is_pose_record(file);
+  if (record && !columns.empty())
+    throw kit::Trouble(HDEV_E_ARG, file + ": HDF5 has no \"columns\"; choose with \"group\"");
+  if (!record && !group.empty())
+    throw kit::Trouble(HDEV_E_ARG, file + ": a table has no \"group\"; leave it out, or name an HDF5 file");
+  if (record) return replay::read_pose_record(file, group);
+  if (columns.empty() && std::filesystem::path(file).extension() == ".traj") columns = replay::traj_columns;
+  return replay::read_pose_table(file, columns);
+}
+
 std::vector<std::string> list() { return {"file"}; }
 
 std::unique_ptr<kit::OpenDevice> open(const hdev_host& host, const std::string& id, kit::Options& options) {
@@ -108,11 +124,11 @@ std::unique_ptr<kit::OpenDevice> open(const hdev_host& host, const std::string& 
     throw kit::Trouble(HDEV_E_NODEV, "no device \"" + id + "\"; there is only \"file\"");
   Settings settings;
   const std::string file = options.text("file", "");
+  const std::string columns = options.text("columns", ""), group = options.text("group", "");
   settings.loop = options.yes("loop", false);
   settings.max_force = options.positive("max_force_N", 20.0);
   options.refuse_rest();
-  if (file.empty()) throw kit::Trouble(HDEV_E_ARG, "no \"file\"; name a table of poses");
-  settings.path = replay::read_pose_path(file);
+  settings.path = read_path(file, columns, group);
   const auto& poses = settings.path.poses;
   const double gap = (poses.back().p - poses.front().p).norm();
   if (settings.loop && (poses.size() < 2 || gap > closed_path))

@@ -4,12 +4,16 @@
 
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <new>
+#include <thread>
 
+#include "common/wire/writer.h"
 #include "tests/support/devices/stub_hd.h"
+#include "tests/system/dds_domain.h"
 #include "tests/unit/haptic_node/drivers/opened_driver.h"
 #include "tests/unit/haptic_node/drivers/stub_library.h"
 #include "tests/unit/haptic_node/virtual_world.h"
@@ -102,6 +106,27 @@ TEST(Drivers, TakeNoMemoryInReadAndWrite) {
   EXPECT_EQ(taken_by(hd_driver, [&] { hd.tick(1); }), 0u);
   EXPECT_EQ(taken_by(dhd_driver, nobody), 0u);
   std::filesystem::remove(file);
+}
+
+TEST(Drivers, TakeNoMemoryWhileTheMousePoints) {
+  DriverUnderTest mouse("mouse");
+  Participant participant(palpate::test::own_domain());
+  Writer<Pointer> window(participant);
+  Pointer pointer;
+  pointer.held = 1;
+  const auto point = [&] {
+    mouse.now -=
+        500'000;  // half as fast: the window stays within its 500 ms of silence, however late it is heard
+    pointer.tick += 1;
+    pointer.p_W[0] += 1e-5;
+    window.write(pointer);
+  };
+  ASSERT_EQ(mouse.open({{"domain", std::to_string(palpate::test::own_domain())}}), HDEV_OK);
+  for (int i = 0; i < 10'000 && mouse.read() != HDEV_OK; ++i) {
+    point();
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  EXPECT_EQ(taken_by(mouse, point), 0u);
 }
 
 }  // namespace

@@ -33,9 +33,47 @@ TEST(SceneSettings, ReplaceAValueOfTheFile) {
   EXPECT_EQ(*with({"material.skin.modulus_kPa=5.5"}).material("skin").modulus, 5500);
 }
 
+TEST(SceneSettings, AnotherDriverLeavesTheKeysOfTheOldOneOut) {
+  using testing::Pair;
+  using testing::UnorderedElementsAre;
+  const auto options = [](const std::vector<std::string>& settings) {
+    return with(settings).device("left").options;
+  };
+  const std::string old = with({}).device("left").driver;
+  EXPECT_THAT(options({"device.left.driver=replay"}), IsEmpty());
+  EXPECT_THAT(options({"device.left.driver=replay", "device.left.file=a.csv"}),
+              UnorderedElementsAre(Pair("file", "a.csv")));
+  EXPECT_THAT(options({"device.left.file=a.csv", "device.left.driver=replay"}),
+              UnorderedElementsAre(Pair("file", "a.csv")))
+      << "the order does not matter";
+  EXPECT_THAT(options({"device.left.driver=" + old, "device.left.port=4"}),
+              UnorderedElementsAre(Pair("serial", "A12"), Pair("port", "4"), Pair("gain", "0.5"),
+                                   Pair("quiet", "true")))
+      << "the same driver";
+}
+
+TEST(SceneSettings, AnotherDriverKeepsWhatAllDriversShare) {
+  const auto before = with({}).device("right");
+  const auto after = with({"device.right.driver=replay"}).device("right");
+  EXPECT_EQ(after.driver, "replay");
+  EXPECT_EQ(after.rate_Hz, before.rate_Hz);
+  EXPECT_EQ(after.force_limit, before.force_limit);
+  EXPECT_EQ(after.rotation, before.rotation);
+  EXPECT_EQ(after.scale, before.scale);
+  EXPECT_EQ(after.force_scale, before.force_scale);
+  EXPECT_EQ(after.offset, before.offset);
+  EXPECT_EQ(after.waypoints.size(), before.waypoints.size());
+  EXPECT_EQ(after.hand, before.hand);
+}
+
 TEST(SceneSettings, ReachBodiesAndToolsByName) {
   EXPECT_TRUE(with({"body.ball.at_mm=[1, 2, 3]"}).bodies[1].at.isApprox(Vec3(1e-3, 2e-3, 3e-3)));
   EXPECT_DOUBLE_EQ(with({"tool.tip.radius_mm=9"}).tools[0].radius, 9e-3);
+  EXPECT_EQ(with({}).tools[0].friction, 0);
+  EXPECT_EQ(with({"tool.tip.friction=0.3"}).tools[0].friction, 0.3);
+  EXPECT_THAT(complaint("tool.tip.friction=-0.1"), HasSubstr("write a number from 0 to 2"));
+  EXPECT_THAT(complaints_about(full_scene, {"tool.tip.friction=0.3", "tool.tip.force_model=direct"}),
+              ElementsAre(HasSubstr("friction is felt with force_model = \"norton\" only")));
 }
 
 TEST(SceneSettings, ReachIntoInlineTables) {

@@ -1,0 +1,58 @@
+#pragma once
+// A tool led by mouse and keys: the tip follows the cursor in the plane through it that faces the camera, the wheel
+// moves that plane in depth, keys turn the tool about the axes of the camera.
+//
+//   p = eye + d r(cursor),    d := d + step (wheel towards the scene)       r(c) the ray of pixel c, 1 deep
+//
+// No window and no keys in here: ui/ says what the person did.
+
+#include <Eigen/Geometry>
+#include <cstdint>
+
+#include "common/message/messages.h"
+#include "render_node/view/camera.h"
+
+namespace palpate::render {
+
+/// What mouse and keys did since the last picture.
+struct PointerInput {
+  Eigen::Vector2d cursor = {0, 0};  // [px]
+  bool follows = true;              // false: the cursor is over the panels, or a button moves the camera
+  double wheel = 0;                 // notches away from the person, into the scene
+  bool fine = false;                // a tenth of the way per notch
+  Vec3 turn = Vec3::Zero();         // keys held, -1..1 about right, up and towards the viewer
+  bool toggle = false;              // take it, or let it go
+  std::uint32_t buttons = 0;        // bit i: button i of the tool
+};
+
+class ToolPointer {
+ public:
+  static constexpr double depth_per_notch = 0.005;  // of the distance between eye and target
+  static constexpr double turn_speed = 1.0;         // [rad/s]
+  static constexpr double nearest = 0.02;           // before the eye, of the distance between eye and target
+
+  /// @param tool  as in the scene  @param p  where it lies before it is taken [m]
+  ToolPointer(std::uint32_t tool, const Vec3& p) : tool_(tool), p_(p) {}
+
+  /// @param seconds  since the last picture. A tool that is not held stays where it is.
+  void follow(const PointerInput& input, const Camera& camera, double seconds);
+  void let_go() { held_ = false; }
+
+  bool held() const { return held_; }
+  std::uint32_t tool() const { return tool_; }
+  const Vec3& position() const { return p_; }
+  const Eigen::Quaterniond& attitude() const { return q_; }
+
+  /// What the haptic node is told; each call counts as one sample.
+  Pointer message(std::int64_t now_ns);
+
+ private:
+  std::uint32_t tool_;
+  Vec3 p_;                                                 // [m]
+  Eigen::Quaterniond q_ = Eigen::Quaterniond::Identity();  // tool to world
+  std::uint32_t buttons_ = 0;
+  bool held_ = false;
+  std::uint64_t tick_ = 0;
+};
+
+}  // namespace palpate::render

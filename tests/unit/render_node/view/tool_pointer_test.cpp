@@ -1,0 +1,156 @@
+// From cursor, wheel and keys to the tip of a tool in the world.
+
+#include "render_node/view/tool_pointer.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "common/message/vec3.h"
+
+namespace palpate::render {
+namespace {
+
+Camera camera_at(double yaw, double pitch, int covered = 0) {
+  CameraSpec spec;
+  spec.yaw = yaw;
+  spec.pitch = pitch;
+  spec.target = Vec3(0.1, -0.2, 0.3);
+  spec.distance = 0.5;
+  Camera camera(spec);
+  camera.set_picture(1280, 720, covered);
+  return camera;
+}
+
+PointerInput cursor_at(double x, double y) {
+  PointerInput input;
+  input.cursor = {x, y};
+  return input;
+}
+
+TEST(CameraRay, FindsThePointThatProjectsToThePixel) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> u(-1, 1);
+  for (int i = 0; i < 1000; ++i) {
+    const Camera camera = camera_at(4 * u(random), 1.4 * u(random), i % 2 == 0 ? 0 : 308);
+    const Eigen::Vector2d pixel(640 + 600 * u(random), 360 + 350 * u(random));
+    const double depth = 0.5 + 0.3 * u(random);
+    const Vec3 p = camera.at(pixel, depth);
+    ASSERT_NEAR(camera.depth(p), depth, 1e-12);
+    ASSERT_LT((*camera.project(p) - pixel).norm(), 1e-8);
+  }
+}
+
+TEST(ToolPointer, LiesWhereItIsUntilItIsTaken) {
+  ToolPointer pointer(3, {0.1, -0.2, 0.4});
+  auto input = cursor_at(100, 100);
+  input.wheel = 5;
+  input.turn = {1, 0, 0};
+  input.buttons = 1;
+  pointer.follow(input, camera_at(0, 0), 0.1);
+  const Pointer said = pointer.message(77);
+  EXPECT_EQ(said.tool, 3u);
+  EXPECT_EQ(said.stamp_ns, 77);
+  EXPECT_EQ(said.held, 0u);
+  EXPECT_EQ(said.buttons, 0u);
+  EXPECT_EQ(said.p_W, (Array3{0.1, -0.2, 0.4}));
+  EXPECT_EQ(said.q_W, (Array4{1, 0, 0, 0}));
+  EXPECT_EQ(pointer.message(78).tick, said.tick + 1);
+}
+
+TEST(ToolPointer, StaysUnderTheCursorInThePlaneThatFacesTheCamera) {
+  const Camera camera = camera_at(0.7, 0.3, 308);
+  ToolPointer pointer(0, {0.12, -0.25, 0.33});
+  const double depth = camera.depth(pointer.position());
+  auto input = cursor_at(700, 300);
+  input.toggle = true;
+  pointer.follow(input, camera, 0.03);
+  EXPECT_TRUE(pointer.held());
+  for (const double x : {700.0, 720.0, 1100.0}) {
+    pointer.follow(cursor_at(x, 300), camera, 0.03);
+    EXPECT_NEAR(camera.project(pointer.position())->x(), x, 1e-8);
+    EXPECT_NEAR(camera.project(pointer.position())->y(), 300, 1e-8);
+    EXPECT_NEAR(camera.depth(pointer.position()), depth, 1e-12);
+  }
+}
+
+TEST(ToolPointer, GoesIntoTheSceneWithTheWheelAndStaysUnderTheCursor) {
+  const Camera camera = camera_at(0, 0);
+  ToolPointer pointer(0, camera.target());
+  auto input = cursor_at(900, 200);
+  input.toggle = true;
+  pointer.follow(input, camera, 0.03);
+  const double before = camera.depth(pointer.position());
+  input.toggle = false;
+  input.wheel = 2;
+  pointer.follow(input, camera, 0.03);
+  EXPECT_NEAR(camera.depth(pointer.position()) - before, 2 * 0.005 * 0.5, 1e-12);
+  EXPECT_LT((*camera.project(pointer.position()) - input.cursor).norm(), 1e-8);
+  EXPECT_GT(pointer.position().y(), camera.target().y()) << "yaw 0 looks along +y";
+  input.fine = true;
+  input.wheel = -10;
+  pointer.follow(input, camera, 0.03);
+  EXPECT_NEAR(camera.depth(pointer.position()) - before, 0.005 * 0.5, 1e-12);
+  input.fine = false;
+  input.wheel = -1e6;
+  pointer.follow(input, camera, 0.03);
+  EXPECT_NEAR(camera.depth(pointer.position()), 0.02 * 0.5, 1e-12) << "it stays before the eye";
+}
+
+TEST(ToolPointer, HoldsStillWhileTheCameraIsMoved) {
+  ToolPointer pointer(0, {0.12, -0.25, 0.33});
+  Camera camera = camera_at(0.2, 0.1);
+  auto input = cursor_at(600, 400);
+  input.toggle = true;
+  pointer.follow(input, camera, 0.03);
+  const Vec3 held = pointer.position();
+  input.toggle = false;
+  input.follows = false;
+  for (int i = 0; i < 20; ++i) {
+    camera.rotate(15, 3);
+    input.cursor.x() += 15;
+    pointer.follow(input, camera, 0.03);
+  }
+  EXPECT_EQ(pointer.position(), held);
+  input.wheel = 1;
+  pointer.follow(input, camera, 0.03);
+  EXPECT_NEAR((pointer.position() - held).norm(), 0.005 * 0.5, 1e-12);
+}
+
+TEST(ToolPointer, TurnsAboutTheAxesOfTheCamera) {
+  const Camera camera = camera_at(0, 0);  // right +x, up +z, towards the viewer -y
+  ToolPointer pointer(0, camera.target());
+  auto input = cursor_at(640, 360);
+  input.toggle = true;
+  pointer.follow(input, camera, 0.03);
+  input.toggle = false;
+  input.turn = {0, 1, 0};
+  for (int i = 0; i < 100; ++i) pointer.follow(input, camera, M_PI / 200);
+  EXPECT_LT((pointer.attitude() * Vec3::UnitX() - Vec3::UnitY()).norm(), 1e-9)
+      << "a quarter about up, at 1 rad/s";
+  input.turn = {0, 0, 1};
+  for (int i = 0; i < 100; ++i) pointer.follow(input, camera, M_PI / 200);
+  EXPECT_LT((pointer.attitude() * Vec3::UnitX() - Vec3::UnitY()).norm(), 1e-9);
+  EXPECT_LT((pointer.attitude() * Vec3::UnitY() + Vec3::UnitZ()).norm(), 1e-9) << "-x, a quarter about -y";
+  EXPECT_NEAR(pointer.attitude().norm(), 1, 1e-12);
+}
+
+TEST(ToolPointer, LetsGoWhereItIs) {
+  const Camera camera = camera_at(0, 0);
+  ToolPointer pointer(0, camera.target());
+  auto input = cursor_at(700, 300);
+  input.toggle = true;
+  input.buttons = 1;
+  pointer.follow(input, camera, 0.03);
+  EXPECT_EQ(pointer.message(1).buttons, 1u);
+  const Vec3 there = pointer.position();
+  input.cursor = {100, 100};
+  pointer.follow(input, camera, 0.03);
+  EXPECT_EQ(pointer.message(2).held, 0u);
+  EXPECT_EQ(pointer.message(3).buttons, 0u);
+  EXPECT_EQ(pointer.position(), there);
+}
+
+}  // namespace
+}  // namespace palpate::render
