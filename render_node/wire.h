@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "common/message/messages.h"
+#include "common/process/node_main.h"
 #include "common/wire/participant.h"
 #include "common/wire/reader.h"
 #include "common/wire/writer.h"
@@ -14,7 +15,7 @@ namespace palpate::render {
 
 class Wire {
  public:
-  explicit Wire(int domain);
+  explicit Wire(const Membership& membership);
 
   struct News {
     bool anything = false;
@@ -28,6 +29,8 @@ class Wire {
   void command(CommandKind kind, double value = 0);
   /// Fills in what the readers counted, and sends.
   void tell(NodeStatus status);
+  /// The session here is of another scene or version: the log says which. Looked at by tell().
+  bool unwelcome() const noexcept { return unwelcome_; }
 
  private:
   template <class M>
@@ -36,6 +39,7 @@ class Wire {
   void count(Reader<M>& reader, NodeStatus& status);
 
   Participant participant_;
+  Newcomer newcomer_{participant_};
   Reader<BodySurface> surfaces_{participant_};
   Reader<VertexBlock> blocks_{participant_};
   Reader<ToolWrench> wrenches_{participant_};
@@ -46,6 +50,7 @@ class Wire {
   Writer<Command> command_{participant_};
   std::uint64_t last_command_ = 0;
   bool paused_ = false;
+  bool unwelcome_ = false;
 
   struct Buffers {
     BodySurface surface;

@@ -14,6 +14,9 @@
 #include "common/report/log.h"
 #include "common/wire/loopback_config.h"
 #include "common/wire/loopback_sockets.h"
+#include "common/wire/network_config.h"
+#include "common/wire/socket_filter.h"
+#include "common/wire/topic.h"
 
 namespace palpate {
 namespace {
@@ -37,13 +40,16 @@ bool environment_configures() {
 struct Participant::Domain {
   dds_entity_t entity = 0;  // 0: made by DDS from the environment
   bool built_in = false;
+  Route route;  // where built_in
   std::atomic<bool> local_only{false};
   ~Domain() {
     if (entity > 0) dds_delete(entity);
   }
 };
 
-std::shared_ptr<Participant::Domain> Participant::join(int domain, const std::string& config) {
+std::shared_ptr<Participant::Domain> Participant::join(const Membership& membership,
+                                                       const std::string& config) {
+  const int domain = membership.domain;
   static std::mutex mutex;
   static std::map<int, std::weak_ptr<Domain>> known;
   const std::lock_guard lock(mutex);
@@ -60,32 +66,56 @@ std::shared_ptr<Participant::Domain> Participant::join(int domain, const std::st
     if (shared->entity < 0) throw InputError(fmt::format("{}: is not a Cyclone DDS configuration", config));
   } else if (!environment_configures()) {
     shared->built_in = true;
-    shared->entity =
-        dds_create_domain(static_cast<dds_domainid_t>(domain), std::string(loopback_config()).c_str());
+    shared->route = resolve(membership.reach);
+    const std::string text =
+        membership.reach.local() ? std::string(loopback_config()) : network_config(shared->route);
+    shared->entity = dds_create_domain(static_cast<dds_domainid_t>(domain), text.c_str());
     if (shared->entity < 0) {
       throw std::runtime_error(
           fmt::format("DDS domain {} cannot be set up ({})", domain, dds_strretcode(-shared->entity)));
     }
+  } else if (!membership.reach.local()) {
+    throw InputError(
+        "CYCLONEDDS_URI is set and would replace --interface and --peers; unset it, or leave the options "
+        "out");
   }
   known[domain] = shared;
   return shared;
 }
 
-Participant::Participant(int domain, const std::string& config) : domain_(domain) {
-  if (domain < 0 || domain > 100)
-    throw InputError(fmt::format("DDS domain {}: give a number from 0 to 100", domain));
-  shared_ = join(domain, config);
-  handle_ = dds_create_participant(static_cast<dds_domainid_t>(domain), nullptr, nullptr);
+Participant::Participant(int domain, const std::string& config)
+    : Participant(Membership{domain, {}, {}}, config) {}
+
+Participant::Participant(const Membership& membership) : Participant(membership, "") {}
+
+Participant::Participant(const Membership& membership, const std::string& config)
+    : domain_(membership.domain), identity_(membership.identity) {
+  if (domain_ < 0 || domain_ > 100)
+    throw InputError(fmt::format("DDS domain {}: give a number from 0 to 100", domain_));
+  shared_ = join(membership, config);
+  const Qos qos(dds_create_qos(), &dds_delete_qos);
+  if (!identity_.role.empty()) {
+    const std::string text = to_text(identity_);
+    dds_qset_userdata(qos.get(), text.data(), text.size());
+  }
+  handle_ = dds_create_participant(static_cast<dds_domainid_t>(domain_), qos.get(), nullptr);
   if (handle_ < 0) {
     throw std::runtime_error(fmt::format(
         "DDS domain {} cannot be joined ({}); is another session there? Give another domain with --domain",
-        domain, dds_strretcode(-handle_)));
+        domain_, dds_strretcode(-handle_)));
   }
-  if (shared_->built_in) {
-    shared_->local_only = tie_to_loopback(domain);
-    if (!shared_->local_only)
-      log_warn("DDS listens beyond this machine: the kernel refused to tie it to loopback");
+  if (shared_->built_in) close_doors(*shared_, membership.reach);
+}
+
+void Participant::close_doors(Domain& shared, const Reach& reach) const {
+  if (!reach.local()) {
+    if (!hear_only(domain_, shared.route))
+      log_warn("DDS hears more than was asked for: the kernel refused to filter its sockets");
+    return;
   }
+  shared.local_only = tie_to_loopback(domain_);
+  if (!shared.local_only)
+    log_warn("DDS listens beyond this machine: the kernel refused to tie it to loopback");
 }
 
 Participant::~Participant() { dds_delete(handle_); }

@@ -30,7 +30,7 @@ std::string_view phase_text(NodePhase phase) {
 }
 
 std::string node_text(NodeKind node, const StatusBoard::Entry& entry) {
-  if (!entry.newest) return fmt::format(" | {} starting", name_of(node));
+  if (!entry.newest) return fmt::format(" | {} {}", name_of(node), entry.elsewhere ? "awaited" : "starting");
   const NodeStatus& status = *entry.newest;
   if (!entry.running()) return fmt::format(" | {} {}", name_of(node), phase_text(status.phase));
   std::string text = fmt::format(" | {} {:.0f} Hz", name_of(node), status.rate_Hz);

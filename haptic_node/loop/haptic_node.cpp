@@ -47,7 +47,8 @@ HapticNode::HapticNode(const NodeOptions& options, const Scene& scene)
              channels_.back()->session.controller().force_limit());
   }
   reports_.resize(channels_.size());
-  wire_ = std::make_unique<Wire>(options.domain, channels_);
+  wire_ = std::make_unique<Wire>(membership(options, scene, "haptic"), channels_);
+  newcomer_ = std::make_unique<Newcomer>(wire_->participant());
   loop_ = std::make_unique<RealtimeLoop>(channels_, rate_Hz_);
   status_.node = NodeKind::haptic;
   status_.pid = static_cast<std::uint32_t>(getpid());
@@ -131,7 +132,7 @@ int HapticNode::run() {
   loop_->start();
   std::int64_t next_status = 0;
   // 1. power and state of the tools  2. status
-  while (!is_over()) {
+  while (!unwelcome_ && !is_over()) {
     std::this_thread::sleep_for(2ms);
     serve();
     look_at_tools();
@@ -140,6 +141,7 @@ int HapticNode::run() {
     const bool running = std::all_of(reports_.begin(), reports_.end(),
                                      [](const SessionReport& report) { return report.first_run_ns > 0; });
     publish_status(running ? NodePhase::running : NodePhase::ready);
+    unwelcome_ = newcomer_->must_go();
   }
   return leave();
 }
@@ -153,6 +155,7 @@ int HapticNode::leave() {
   publish_status(NodePhase::stopping);
   if (!options_.out.empty())
     write_haptic_summary(options_.out, *loop_->stats(), reports_, wire_->trace_lost());
+  if (unwelcome_) return exit_mistake;
   const bool faulty = std::any_of(reports_.begin(), reports_.end(),
                                   [](const SessionReport& report) { return report.counts.faults > 0; });
   return faulty ? exit_failed : exit_ok;

@@ -39,6 +39,8 @@ class HapticNode {
   std::vector<SessionReport> reports_;
   std::vector<std::string> names_;
   std::unique_ptr<Wire> wire_;
+  std::unique_ptr<Newcomer> newcomer_;
+  bool unwelcome_ = false;  // in a session of another scene or version
   std::unique_ptr<RealtimeLoop> loop_;
   NodeStatus status_;
   std::int64_t last_status_ns_ = 0;

@@ -14,9 +14,9 @@ constexpr int most_refusals = 50;            // of one batch, a few seconds, bef
 
 }  // namespace
 
-Wire::Wire(int domain, std::vector<std::unique_ptr<ToolChannel>>& channels)
+Wire::Wire(const Membership& membership, std::vector<std::unique_ptr<ToolChannel>>& channels)
     : channels_(channels),
-      participant_(domain),
+      participant_(membership),
       patches_(participant_),
       commands_(participant_),
       states_(participant_),
