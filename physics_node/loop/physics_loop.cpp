@@ -26,7 +26,7 @@ constexpr std::int64_t status_period_ns = 200'000'000;  // 5 Hz
 PhysicsLoop::PhysicsLoop(const NodeOptions& options, const Scene& scene)
     : options_(options),
       scene_(scene),
-      wire_(options.domain),
+      wire_(membership(options, scene, "physics")),
       hands_(scene.tools.size()),
       fresh_(scene.tools.size()) {
   set_log_name("physics");
@@ -110,9 +110,8 @@ void PhysicsLoop::publish_hand() {
 
 void PhysicsLoop::publish_eye() {
   const bool new_surfaces = appearance_->poll();
-  if (new_surfaces)
-    appearance_->write_surfaces([this](const BodySurface& chunk) { wire_.surfaces.write(chunk); });
-  const int watchers = wire_.blocks.matched();
+  if (new_surfaces) appearance_->write_surfaces([this](const BodySurface& chunk) { wire_.eye.post(chunk); });
+  const int watchers = wire_.eye.watchers();
   if (watchers > watchers_) appearance_->resend();
   watchers_ = watchers;
   if (watchers == 0) {
@@ -120,7 +119,7 @@ void PhysicsLoop::publish_eye() {
     return;
   }
   const StageTimer timer(world_->report(), Stage::publish);
-  appearance_->write_blocks([this](const VertexBlock& block) { wire_.blocks.write(block); });
+  appearance_->write_blocks([this](const VertexBlock& block) { wire_.eye.post(block); });
 }
 
 void PhysicsLoop::publish_status(NodePhase phase) {
@@ -170,9 +169,11 @@ int PhysicsLoop::run() {
     if (now >= next_status) {
       publish_status(NodePhase::running);
       next_status = now + status_period_ns;
+      if (newcomer_.must_go()) stop_ = unwelcome_ = true;
     }
   }
   leave();
+  if (unwelcome_) return exit_mistake;
   if (!world_->has_stopped()) return 0;
   log_error("{}", *world_->stopped());
   return exit_failed;
