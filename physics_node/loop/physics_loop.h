@@ -21,7 +21,7 @@ class PhysicsLoop {
   int run();
 
  private:
-  void take_tools();
+  bool take_tools();
   void take_commands();
   void publish_hand();
   void publish_eye();
