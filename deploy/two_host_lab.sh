@@ -3,7 +3,7 @@
 # but the results; the machine's own network is not touched. Needs no root where the kernel lets users make namespaces.
 #   deploy/two_host_lab.sh run p2|p3 [SCENE] [options]   one session; results in OUT/pc1 and OUT/pc2
 #   deploy/two_host_lab.sh table [SCENE] [options]       p2 and p3 over delays and losses; OUT/table.md
-#   deploy/two_host_lab.sh try COMMAND1 COMMAND2         a command of your own on each PC; ends with the first one
+#   deploy/two_host_lab.sh try COMMAND1 COMMAND2         a command of your own on each PC; ends when both have
 # Options:
 #   --delay MS --jitter MS --loss PERCENT   of the cable, each way (run, try); else the two are joined directly
 #   --seconds S                             of each session, once all nodes run (default 10)

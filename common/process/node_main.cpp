@@ -27,7 +27,7 @@ Newcomer::Newcomer(Participant& participant) : companions_(participant), until_n
 
 bool Newcomer::must_go() {
   if (now_ns() > until_ns_) return false;
-  const auto differences = companions_.differences();
+  const auto differences = companions_.differences(false);
   for (const auto& line : differences) log_error("{}", line);
   return !differences.empty();
 }

@@ -47,10 +47,10 @@ std::vector<Identity> Companions::present() const {
   return found;
 }
 
-std::vector<std::string> Companions::differences() const {
+std::vector<std::string> Companions::differences(bool with_supervisors) const {
   std::vector<std::string> lines;
   for (const Identity& other : present()) {
-    if (other.role == "supervisor") continue;
+    if (other.role == "supervisor" && !with_supervisors) continue;
     const std::string line = difference(own_, other);
     if (!line.empty()) lines.push_back(line);
   }

@@ -20,9 +20,9 @@ class Companions {
   /// The other processes of palpate that are there now. One thread; never waits.
   std::vector<Identity> present() const;
 
-  /// Differences between the participant and its companions, one line each; a supervisor, which sends nothing that
-  /// counts, is not compared.
-  std::vector<std::string> differences() const;
+  /// Differences between the participant and its companions, one line each. A supervisor sends nothing that counts: who
+  /// is in a session already need not mind that one looks in.
+  std::vector<std::string> differences(bool with_supervisors) const;
 
  private:
   const Identity& own_;

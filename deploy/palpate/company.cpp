@@ -39,7 +39,7 @@ Company::Company(Participant& participant, std::vector<NodeKind> here, std::vect
 
 /// @param ours_run  nodes of this host with our roles are our own
 std::vector<std::string> Company::misfits(bool ours_run) const {
-  std::vector<std::string> lines = companions_.differences();
+  std::vector<std::string> lines = companions_.differences(!ours_run);
   for (const Identity& other : companions_.present()) {
     if (!among(here_, other) || (ours_run && other.host == own_.host)) continue;
     lines.push_back(fmt::format("{} is in this session already, on {}; choose another --side or --nodes here",

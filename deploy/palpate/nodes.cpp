@@ -38,15 +38,15 @@ std::vector<NodeKind> parse_nodes(const std::string& list) {
   return nodes;
 }
 
-Share parse_share(const std::string& deployment, int side, const std::string& nodes, bool beyond) {
+Share parse_share(const std::string& deployment, int side, const std::optional<std::string>& nodes,
+                  bool beyond) {
   Share share;
   if (deployment == "all") {
     if (side != 0) throw InputError("--side: only with --deployment p2 or p3");
-    share.here =
-        nodes.empty() ? std::vector<NodeKind>(all_nodes.begin(), all_nodes.end()) : parse_nodes(nodes);
+    share.here = nodes ? parse_nodes(*nodes) : std::vector<NodeKind>(all_nodes.begin(), all_nodes.end());
     if (!beyond) return share;
   } else {
-    if (!nodes.empty()) throw InputError("--nodes: not together with --deployment; give one of them");
+    if (nodes) throw InputError("--nodes: not together with --deployment; give one of them");
     if (side == 0) {
       throw InputError(fmt::format("--deployment {}: which PC is this? --side 1 {}, --side 2 {}", deployment,
                                    deployment == "p2" ? "renders" : "has physics and renders",

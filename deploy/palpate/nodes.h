@@ -2,6 +2,7 @@
 // The three nodes: their names, their programs, and the order in which they are told to stop.
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,9 +33,10 @@ struct Share {
 ///   all  everything here
 ///   p2   PC 1 renders; PC 2 has physics and haptics
 ///   p3   PC 1 has physics and renders; PC 2 the hand
-/// `nodes` (empty: not given) names the nodes of this PC in any other assignment; the others are expected elsewhere if
+/// `nodes` (nothing: not given) names the nodes of this PC in any other assignment; the others are expected elsewhere if
 /// `beyond` says that the session goes beyond this machine.
 /// @throws InputError on what cannot be
-Share parse_share(const std::string& deployment, int side, const std::string& nodes, bool beyond);
+Share parse_share(const std::string& deployment, int side, const std::optional<std::string>& nodes,
+                  bool beyond);
 
 }  // namespace palpate::deploy

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "common/error/error.h"
 #include "common/process/stop_flag.h"
@@ -32,8 +33,8 @@ struct RunOptions {
   std::string out;
   std::string device;
   std::string deployment = "all";
-  int side = 0;       // of p2 and p3; 0: not given
-  std::string nodes;  // empty: as the deployment has it
+  int side = 0;                      // of p2 and p3; 0: not given
+  std::optional<std::string> nodes;  // nothing: as the deployment has it
   std::string interface;
   std::string peers;
   std::string bin;
