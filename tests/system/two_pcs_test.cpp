@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <sstream>
 
 #include "common/report/json_file.h"
@@ -56,7 +57,7 @@ class TwoPcs : public testing::Test {
 
 void expect_a_felt_press(const nlohmann::json& hand, const nlohmann::json& tissue,
                          const nlohmann::json& eye) {
-  EXPECT_GT(hand["haptic"]["patches"].get<int>(), 1000);
+  EXPECT_GT(hand["haptic"]["patches"].get<int>(), 500);
   EXPECT_GT(hand["haptic"]["loop_age_ms"]["p50"].get<double>(), 0.0);
   EXPECT_LE(hand["haptic"]["energy_max_J"].get<double>(), 1e-4) << "the wire makes no energy";
   EXPECT_EQ(hand["haptic"]["faults"], 0);
@@ -66,14 +67,14 @@ void expect_a_felt_press(const nlohmann::json& hand, const nlohmann::json& tissu
 }
 
 TEST_F(TwoPcs, RenderHereFeelThere) {
-  ASSERT_EQ(lab(fmt::format("run p2 {}/box_press.toml --seconds 5", SCENES)), 0) << text("said");
+  ASSERT_EQ(lab(fmt::format("run p2 {}/box_press.toml --seconds 3", SCENES)), 0) << text("said");
   expect_a_felt_press(summary("pc2"), summary("pc2"), summary("pc1"));
   EXPECT_FALSE(summary("pc1")["nodes"].contains("haptic")) << "each side tells of its own nodes";
   EXPECT_THAT(text("out/pc1.txt"), HasSubstr("palpate: haptic is there, on "));
 }
 
 TEST_F(TwoPcs, DeformHereFeelThereOverABadCable) {
-  ASSERT_EQ(lab(fmt::format("run p3 {}/box_press.toml --seconds 5 --delay 5 --jitter 5 --loss 10", SCENES)),
+  ASSERT_EQ(lab(fmt::format("run p3 {}/box_press.toml --seconds 3 --delay 5 --jitter 5 --loss 10", SCENES)),
             0)
       << text("said");
   expect_a_felt_press(summary("pc2"), summary("pc1"), summary("pc1"));
@@ -85,7 +86,7 @@ TEST_F(TwoPcs, RefuseAnotherSceneInWords) {
       "box_press", "--nodes physics --peers 192.168.77.2 --seconds 1 --out " + (folder / "a").string());
   const std::string second = palpate(
       "inclusion", "--nodes haptic --peers 192.168.77.1 --seconds 1 --out " + (folder / "b").string());
-  EXPECT_NE(lab(fmt::format("try 'timeout 9 {}; true' 'sleep 3; {}'", first, second)), 0);
+  EXPECT_NE(lab(fmt::format("try 'timeout 7 {}; true' 'sleep 3; {}'", first, second)), 0);
   EXPECT_THAT(text("said"), HasSubstr("runs the scene box_press, this PC inclusion"));
   EXPECT_THAT(text("said"), Not(HasSubstr("this PC box_press"))) << "who was there first stays";
   EXPECT_FALSE(fs::exists(folder / "b" / "summary.json"));
@@ -97,7 +98,7 @@ TEST_F(TwoPcs, RefuseANodeThatIsThereAlready) {
               "--nodes physics,haptic --peers 192.168.77.2 --seconds 1 --out " + (folder / "a").string());
   const std::string second = palpate(
       "box_press", "--nodes haptic,render --peers 192.168.77.1 --seconds 1 --out " + (folder / "b").string());
-  EXPECT_NE(lab(fmt::format("try 'timeout 9 {}; true' 'sleep 3; {}'", first, second)), 0);
+  EXPECT_NE(lab(fmt::format("try 'timeout 7 {}; true' 'sleep 3; {}'", first, second)), 0);
   EXPECT_THAT(text("said"), HasSubstr("haptic is in this session already"));
 }
 
@@ -122,6 +123,19 @@ TEST_F(TwoPcs, AloneASessionListensToItsOwnMachineOnly) {
   for (std::string line; std::getline(sockets, line); ++n)
     EXPECT_THAT(line, testing::AnyOf(HasSubstr("%lo:"), HasSubstr(" 127."))) << "heard beyond this machine";
   EXPECT_GE(n, 8) << "two of each node and of the supervisor";
+}
+
+// 3,000 datagrams here; the same program threw 100,000 by hand.
+TEST_F(TwoPcs, MalformedDatagramsCrashNobody) {
+  const unsigned seed = std::random_device()();
+  const std::string session = palpate("box_press", "--domain 3 --seconds 4 --out " + (folder / "a").string());
+  const std::string storm = fmt::format("sleep 2; {} 3 3000 {} >{}/storm", STORM, seed, folder.string());
+  ASSERT_EQ(lab(fmt::format("try '({}) & {}; code=$?; wait; exit $code' true", storm, session)), 0)
+      << text("said") << "seed " << seed;
+  EXPECT_THAT(text("storm"), HasSubstr("sent 3000")) << "seed " << seed;
+  const auto summary = read_json((folder / "a" / "summary.json").string());
+  for (const char* node : {"physics", "haptic", "render"})
+    EXPECT_EQ(summary["nodes"][node]["exit_code"], 0) << node << " seed " << seed;
 }
 
 }  // namespace
