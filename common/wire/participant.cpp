@@ -12,6 +12,7 @@
 
 #include "common/error/error.h"
 #include "common/report/log.h"
+#include "common/time/clock.h"
 #include "common/wire/loopback_config.h"
 #include "common/wire/loopback_sockets.h"
 #include "common/wire/network_config.h"
@@ -21,8 +22,26 @@
 namespace palpate {
 namespace {
 
+constexpr std::int64_t log_period_ns = 1'000'000'000;
+constexpr int most_log_lines = 5;  // in a period: whoever sends rubbish shall not fill a disk
+
+/// @return true if DDS may say one more line now; says at the next one how many were left out
+bool may_log() {
+  static std::mutex mutex;
+  static std::int64_t period = 0;
+  static int lines = 0;
+  const std::lock_guard lock(mutex);
+  if (const std::int64_t now = now_ns() / log_period_ns; now != period) {
+    if (lines > most_log_lines) log_warn("dds: {} more lines like these", lines - most_log_lines);
+    period = now;
+    lines = 0;
+  }
+  return ++lines <= most_log_lines;
+}
+
 /// What Cyclone DDS itself has to say becomes a line of our log.
 void pass_on(void*, const dds_log_data_t* data) {
+  if (!may_log()) return;
   std::string_view text(data->message + data->hdrsize, data->size - data->hdrsize);
   while (!text.empty() && (text.back() == '\n' || text.back() == '\0')) text.remove_suffix(1);
   log_line((data->priority & (DDS_LC_ERROR | DDS_LC_FATAL)) != 0 ? LogLevel::error : LogLevel::warn,
