@@ -102,11 +102,11 @@ std::vector<std::uint32_t> pointed_tools(const NodeOptions& options, const Scene
   return tools;
 }
 
-void run_headless(const NodeOptions& options, const Scene& scene) {
+int run_headless(const NodeOptions& options, const Scene& scene) {
   const std::string folder = make_frames_folder(options);
   const bool few_cores = std::thread::hardware_concurrency() <= 2;
   if (few_cores) setenv("LP_NUM_THREADS", "1", 0);  // Mesa's software renderer takes every core otherwise
-  Wire wire(options.domain);
+  Wire wire(membership(options, scene, "render"));
   Fare fare(scene);
   fare.tell(wire, NodePhase::loading, 0, true);
   Picture picture(scene, few_cores ? Edges::plain : Edges::smooth);
@@ -114,7 +114,7 @@ void run_headless(const NodeOptions& options, const Scene& scene) {
   if (!pointed_tools(options, scene).empty())
     log_warn("driver \"mouse\": there is no window to point in; leave out --headless, on a display");
   bool stop = false;
-  while (!stop && !stop_requested() && !time_is_over(options, picture.model())) {
+  while (!stop && !wire.unwelcome() && !stop_requested() && !time_is_over(options, picture.model())) {
     // 1. take what has come
     const auto news = wire.take_into(picture.model());
     stop = news.stop;
@@ -133,6 +133,7 @@ void run_headless(const NodeOptions& options, const Scene& scene) {
   }
   fare.tell(wire, NodePhase::stopping, schedule.skipped(), true);
   fare.write_report(options.out, picture.model());
+  return wire.unwelcome() ? exit_mistake : exit_ok;
 }
 
 void pass_on(const PanelWishes& wishes, ThresholdControl& threshold, Wire& wire) {
@@ -144,13 +145,13 @@ void pass_on(const PanelWishes& wishes, ThresholdControl& threshold, Wire& wire)
   }
 }
 
-void run_window(const NodeOptions& options, const Scene& scene) {
+int run_window(const NodeOptions& options, const Scene& scene) {
   ViewModel model(scene);
   Window window(scene, model, pointed_tools(options, scene));
-  Wire wire(options.domain);
+  Wire wire(membership(options, scene, "render"));
   Fare fare(scene);
   bool stop = false;
-  while (!stop && !stop_requested() && !time_is_over(options, model)) {
+  while (!stop && !wire.unwelcome() && !stop_requested() && !time_is_over(options, model)) {
     const std::int64_t began_ns = now_ns();
     // 1. take what has come
     const auto news = wire.take_into(model);
@@ -178,6 +179,7 @@ void run_window(const NodeOptions& options, const Scene& scene) {
   }
   fare.tell(wire, NodePhase::stopping, 0, true);
   if (!options.out.empty()) fare.write_report(options.out, model);
+  return wire.unwelcome() ? exit_mistake : exit_ok;
 }
 
 }  // namespace
@@ -185,12 +187,8 @@ void run_window(const NodeOptions& options, const Scene& scene) {
 int run_render(const NodeOptions& options, const Scene& scene) {
   set_log_name("render");
   if (nice(niceness) == -1) log_warn("could not step back behind the other nodes");
-  if (!options.headless && display_present()) {
-    run_window(options, scene);
-  } else {
-    run_headless(options, scene);
-  }
-  return exit_ok;
+  const bool windowed = !options.headless && display_present();
+  return windowed ? run_window(options, scene) : run_headless(options, scene);
 }
 
 }  // namespace palpate::render

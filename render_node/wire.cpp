@@ -2,7 +2,7 @@
 
 namespace palpate::render {
 
-Wire::Wire(int domain) : participant_(domain) {}
+Wire::Wire(const Membership& membership) : participant_(membership) {}
 
 template <class M>
 bool Wire::drain(Reader<M>& reader, M& buffer, ViewModel& model) {
@@ -68,6 +68,7 @@ void Wire::tell(NodeStatus status) {
   count(statuses_, status);
   count(commands_, status);
   status_.write(status);
+  unwelcome_ = unwelcome_ || newcomer_.must_go();
 }
 
 }  // namespace palpate::render

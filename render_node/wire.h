@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "common/message/messages.h"
+#include "common/process/node_main.h"
 #include "common/wire/participant.h"
 #include "common/wire/reader.h"
 #include "common/wire/writer.h"
@@ -14,7 +15,7 @@ namespace palpate::render {
 
 class Wire {
  public:
-  explicit Wire(int domain);
+  explicit Wire(const Membership& membership);
 
   struct News {
     bool anything = false;
@@ -29,6 +30,8 @@ class Wire {
   void point(const Pointer& pointer) { pointer_.write(pointer); }
   /// Fills in what the readers counted, and sends.
   void tell(NodeStatus status);
+  /// The session here is of another scene or version: the log says which. Looked at by tell().
+  bool unwelcome() const noexcept { return unwelcome_; }
 
  private:
   template <class M>
@@ -37,6 +40,7 @@ class Wire {
   void count(Reader<M>& reader, NodeStatus& status);
 
   Participant participant_;
+  Newcomer newcomer_{participant_};
   Reader<BodySurface> surfaces_{participant_};
   Reader<VertexBlock> blocks_{participant_};
   Reader<ToolWrench> wrenches_{participant_};
@@ -48,6 +52,7 @@ class Wire {
   Writer<Pointer> pointer_{participant_};
   std::uint64_t last_command_ = 0;
   bool paused_ = false;
+  bool unwelcome_ = false;
 
   struct Buffers {
     BodySurface surface;

@@ -114,7 +114,8 @@ Tally tally(const std::vector<CaseResult>& results) {
 
 std::string text_of(const Case& c) {
   return fmt::format("{} {} {} {:g} Hz {:g} ms {:g} % K {:g} seed {}", c.device.name, c.hand.name,
-                     c.slab != nullptr ? c.slab->name : c.object.name, c.rate_Hz, 1e3 * c.link.delay, 100 * c.link.loss, c.stiffness, c.seed);
+                     c.slab != nullptr ? c.slab->name : c.object.name, c.rate_Hz, 1e3 * c.link.delay,
+                     100 * c.link.loss, c.stiffness, c.seed);
 }
 
 }  // namespace palpate::bench

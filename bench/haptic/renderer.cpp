@@ -18,8 +18,9 @@ const char* name_of(RenderMode mode) noexcept {
 
 Rendered raw_plane_force(const ContactPatch& patch, const Vec3& x, const Vec3& v,
                          const haptic::ControllerSettings& settings) noexcept {
-  const haptic::ContactResult felt = haptic::raw_plane_force(
-      patch, {x, v, Eigen::Quaterniond::Identity()}, settings.stiffness, settings.damping, settings.force_limit);
+  const haptic::ContactResult felt =
+      haptic::raw_plane_force(patch, {x, v, Eigen::Quaterniond::Identity()}, settings.stiffness,
+                              settings.damping, settings.force_limit);
   Rendered out;
   out.force = out.reported = felt.force;
   out.proxy = felt.proxy;

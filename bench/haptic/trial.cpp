@@ -43,7 +43,8 @@ Trial::Trial(const Case& c, Path path)
       next_frame_ns_(now_ns_) {
   controller_.set_state(haptic::HapticState::ready);
   if (c.slab != nullptr)
-    world_ = std::make_unique<WorldObject>(slab_scene(*c.slab, model_of(c), c.rate_Hz, c.stiffness, c.damping));
+    world_ =
+        std::make_unique<WorldObject>(slab_scene(*c.slab, model_of(c), c.rate_Hz, c.stiffness, c.damping));
 }
 
 Trial::HandReport Trial::report() {

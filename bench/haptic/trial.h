@@ -41,7 +41,8 @@ using Path = std::function<Aim(double t)>;
 class Trial {
  public:
   static constexpr std::int64_t tick_ns = 1'000'000;
-  static constexpr double lead_in = 0.8;  // before t = 0: patches arrive, the controller arms, its ramp ends [s]
+  static constexpr double lead_in =
+      0.8;  // before t = 0: patches arrive, the controller arms, its ramp ends [s]
 
   /// The hand starts where the path does and waits there until t = 0.
   Trial(const Case& c, Path path);

@@ -6,18 +6,43 @@
 
 #include "common/error/error.h"
 #include "common/process/stop_flag.h"
+#include "common/report/log.h"
 #include "common/scene/load_scene.h"
+#include "common/time/clock.h"
 
 namespace palpate {
+namespace {
+
+constexpr std::int64_t newcomer_ns = 3'000'000'000;  // discovery repeats itself every second
+
+}  // namespace
+
+Membership membership(const NodeOptions& options, const Scene& scene, const std::string& role) {
+  return {.domain = options.domain,
+          .reach = options.reach,
+          .identity = own_identity(role, scene.path, scene.checksum)};
+}
+
+Newcomer::Newcomer(Participant& participant) : companions_(participant), until_ns_(now_ns() + newcomer_ns) {}
+
+bool Newcomer::must_go() {
+  if (now_ns() > until_ns_) return false;
+  const auto differences = companions_.differences(false);
+  for (const auto& line : differences) log_error("{}", line);
+  return !differences.empty();
+}
 
 int node_main(int argc, char** argv, const char* name,
               const std::function<int(const NodeOptions&, const Scene&)>& run) {
   NodeOptions options;
+  std::string peers;
   CLI::App app{std::string(name) + ": one node of palpate"};
   app.add_option("scene", options.scene_path, "scene file (TOML)")->required();
   app.add_option("--set", options.settings, "table.key=value over the scene; may be repeated")->allow_extra_args(false);
   app.add_option("--out", options.out, "folder for what this node leaves");
   app.add_option("--domain", options.domain, "DDS domain, 0 to 100")->check(CLI::Range(0, 100));
+  app.add_option("--interface", options.reach.interface, "network interface or its address; else this machine only");
+  app.add_option("--peers", peers, "other machines, by name or address, separated by commas");
   app.add_option("--seconds", options.seconds, "simulated time after which to stop")->check(CLI::NonNegativeNumber);
   app.add_option("--device", options.device, "driver instead of the scene's");
   app.add_flag("--headless", options.headless, "frames to files instead of a window");
@@ -28,6 +53,7 @@ int node_main(int argc, char** argv, const char* name,
     return app.exit(error) == 0 ? exit_ok : exit_mistake;
   }
   try {
+    options.reach.peers = comma_list(peers);
     install_stop_handlers();
     return run(options, load_scene(options.scene_path, options.settings));
   } catch (const InputError& error) {

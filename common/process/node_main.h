@@ -6,20 +6,40 @@
 #include <vector>
 
 #include "common/scene/scene.h"
+#include "common/wire/companions.h"
 
 namespace palpate {
 
 /// The command line of palpate-physics, palpate-haptic and palpate-render:
 ///   SCENE [--set table.key=value]... [--out DIR] [--domain N] [--seconds T] [--device DRIVER] [--headless] [--require-rt]
+///         [--interface NAME|ADDRESS] [--peers HOST,HOST]
 struct NodeOptions {
   std::string scene_path;
   std::vector<std::string> settings;
   std::string out;         // folder for what this node leaves; empty: nothing is written
   int domain = 0;          // DDS domain
+  Reach reach;             // which machines it talks to
   double seconds = 0;      // stop after this much simulated time; 0: until told
   std::string device;      // driver instead of the scene's; empty: the scene's
   bool headless = false;   // render: frames to files, no window
   bool require_rt = false; // haptic: no real-time rights is fatal
+};
+
+/// How a node joins its session.
+Membership membership(const NodeOptions& options, const Scene& scene, const std::string& role);
+
+/// A node that comes to a session of another scene or version goes again, and says why: looks at its companions for
+/// the first seconds of its life. Who was there first stays.
+class Newcomer {
+ public:
+  explicit Newcomer(Participant& participant);
+  /// True if this node must go (exit_mistake); what there is to say has then been logged. Call it now and then, never
+  /// from a real-time thread.
+  bool must_go();
+
+ private:
+  Companions companions_;
+  std::int64_t until_ns_;
 };
 
 /// Reads the command line and the scene, calls `run`, and turns InputError into one line each on stderr and exit 2,

@@ -23,6 +23,11 @@ class Ticker {
 
   std::int64_t period_ns() const noexcept { return period_ns_; }
 
+  /// Moves all deadlines to come by so much.
+  void shift(std::int64_t by_ns) noexcept { next_ns_ += by_ns; }
+  /// From now on deadlines are whole periods after this moment.
+  void align(std::int64_t moment_ns) noexcept { next_ns_ = moment_ns; }
+
   /// Sleeps until the next deadline.
   Wake wait() noexcept {
     next_ns_ += period_ns_;

@@ -52,12 +52,15 @@ std::vector<UdpSocket> own_udp_sockets() {
   return sockets;
 }
 
+bool of_domain(const UdpSocket& socket, int domain) {
+  const int last = discovery_port(domain, max_participants) + 1;
+  return socket.port >= multicast_port(domain) && socket.port <= last;
+}
+
 bool tie_to_loopback(int domain) {
   bool all = true;
-  const int first = discovery_port(domain, 0);
-  const int last = discovery_port(domain, max_participants) + 1;
   for (const UdpSocket& socket : own_udp_sockets()) {
-    if (socket.local_only() || socket.port < first || socket.port > last) continue;
+    if (socket.local_only() || !of_domain(socket, domain)) continue;
     all = setsockopt(socket.descriptor, SOL_SOCKET, SO_BINDTODEVICE, loopback_name.data(),
                      static_cast<socklen_t>(loopback_name.size())) == 0 &&
           all;

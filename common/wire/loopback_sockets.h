@@ -19,6 +19,9 @@ struct UdpSocket {
 /// The open IPv4 UDP sockets of this process.
 std::vector<UdpSocket> own_udp_sockets();
 
+/// Its port is one that DDS uses in this domain.
+bool of_domain(const UdpSocket& socket, int domain);
+
 /// Ties this process's DDS sockets of a domain (known by their port numbers) to the interface lo.
 /// @return true if all of them now hear this machine only
 bool tie_to_loopback(int domain);

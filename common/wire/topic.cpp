@@ -8,8 +8,8 @@ namespace palpate {
 namespace {
 
 constexpr int batches_kept = 64;
-// Why: a new surface of a whole head is tens of megabytes; its writer waits for a slow reader rather than give up.
-constexpr dds_duration_t state_patience = DDS_SECS(2);
+// A new surface of a whole head is tens of megabytes: its writer waits for a slow reader, and then tries again.
+constexpr dds_duration_t state_patience = DDS_MSECS(200);
 constexpr dds_duration_t patience = DDS_MSECS(100);
 
 }  // namespace

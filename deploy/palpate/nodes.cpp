@@ -38,4 +38,28 @@ std::vector<NodeKind> parse_nodes(const std::string& list) {
   return nodes;
 }
 
+Share parse_share(const std::string& deployment, int side, const std::optional<std::string>& nodes,
+                  bool beyond) {
+  Share share;
+  if (deployment == "all") {
+    if (side != 0) throw InputError("--side: only with --deployment p2 or p3");
+    share.here = nodes ? parse_nodes(*nodes) : std::vector<NodeKind>(all_nodes.begin(), all_nodes.end());
+    if (!beyond) return share;
+  } else {
+    if (nodes) throw InputError("--nodes: not together with --deployment; give one of them");
+    if (side == 0) {
+      throw InputError(fmt::format("--deployment {}: which PC is this? --side 1 {}, --side 2 {}", deployment,
+                                   deployment == "p2" ? "renders" : "has physics and renders",
+                                   deployment == "p2" ? "has physics and haptics" : "has the hand"));
+    }
+    using enum NodeKind;
+    if (deployment == "p2") share.here = side == 1 ? std::vector{render} : std::vector{physics, haptic};
+    if (deployment == "p3") share.here = side == 1 ? std::vector{physics, render} : std::vector{haptic};
+  }
+  for (const NodeKind node : all_nodes)
+    if (std::find(share.here.begin(), share.here.end(), node) == share.here.end())
+      share.elsewhere.push_back(node);
+  return share;
+}
+
 }  // namespace palpate::deploy

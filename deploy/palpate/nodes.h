@@ -2,6 +2,7 @@
 // The three nodes: their names, their programs, and the order in which they are told to stop.
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,5 +22,21 @@ std::string_view name_of(NodeKind node);
 /// From "physics,haptic"; each at most once, order does not matter.
 /// @throws InputError on any other word, or none
 std::vector<NodeKind> parse_nodes(const std::string& list);
+
+/// Which nodes one PC starts and which it expects elsewhere.
+struct Share {
+  std::vector<NodeKind> here;
+  std::vector<NodeKind> elsewhere;
+};
+
+/// What --deployment, --side and --nodes say together.
+///   all  everything here
+///   p2   PC 1 renders; PC 2 has physics and haptics
+///   p3   PC 1 has physics and renders; PC 2 the hand
+/// `nodes` (nothing: not given) names the nodes of this PC in any other assignment; the others are expected elsewhere if
+/// `beyond` says that the session goes beyond this machine.
+/// @throws InputError on what cannot be
+Share parse_share(const std::string& deployment, int side, const std::optional<std::string>& nodes,
+                  bool beyond);
 
 }  // namespace palpate::deploy

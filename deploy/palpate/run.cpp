@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "common/error/error.h"
 #include "common/process/stop_flag.h"
@@ -32,7 +33,11 @@ struct RunOptions {
   std::vector<std::string> settings;
   std::string out;
   std::string device;
-  std::string nodes = "physics,haptic,render";
+  std::string deployment = "all";
+  int side = 0;                      // of p2 and p3; 0: not given
+  std::optional<std::string> nodes;  // nothing: as the deployment has it
+  std::string interface;
+  std::string peers;
   std::string bin;
   double seconds = 0;  // 0: the scene's own
   int domain = 0;
@@ -48,6 +53,8 @@ std::vector<std::string> node_arguments(const RunOptions& options, const fs::pat
   if (!options.device.empty()) arguments.insert(arguments.end(), {"--device", options.device});
   if (options.headless) arguments.emplace_back("--headless");
   if (options.require_rt) arguments.emplace_back("--require-rt");
+  if (!options.interface.empty()) arguments.insert(arguments.end(), {"--interface", options.interface});
+  if (!options.peers.empty()) arguments.insert(arguments.end(), {"--peers", options.peers});
   return arguments;
 }
 
@@ -98,14 +105,22 @@ int run(const RunOptions& options) {
   // 1. everything that a person may have got wrong, before anything is started or written
   const Scene scene = load_scene(options.scene_path, options.settings);
   const fs::path out = options.out.empty() ? default_out(options.scene_path) : fs::path(options.out);
-  const SessionPlan plan = {.nodes = parse_nodes(options.nodes),
-                            .bin = options.bin.empty() ? bin_folder() : fs::path(options.bin),
-                            .arguments = node_arguments(options, out),
-                            .domain = options.domain,
-                            .seconds = session_seconds(scene, options)};
+  const Reach reach = {.interface = options.interface, .peers = comma_list(options.peers)};
+  const Share share = parse_share(options.deployment, options.side, options.nodes, !reach.local());
+  const SessionPlan plan = {
+      .nodes = share.here,
+      .elsewhere = share.elsewhere,
+      .bin = options.bin.empty() ? bin_folder() : fs::path(options.bin),
+      .arguments = node_arguments(options, out),
+      .membership = {.domain = options.domain,
+                     .reach = reach,
+                     .identity = own_identity("supervisor", scene.path, scene.checksum)},
+      .seconds = session_seconds(scene, options)};
   require_programs(plan);
   require_drivers(scene, options, plan);
-  require_free_ports(plan.domain);
+  resolve(reach);  // says what is wrong with it
+  const bool alone = reach.local() && plan.elsewhere.empty();
+  if (alone) require_free_ports(options.domain);
   prepare_out(out);
 
   // 2. the session
@@ -137,7 +152,13 @@ void add_run(CLI::App& app, int& exit_code) {
   command->add_option("--set", options->settings, "table.key=value over the scene; may be repeated")
       ->allow_extra_args(false);
   command->add_option("--device", options->device, "driver instead of the scene's");
+  command->add_option("--deployment", options->deployment, "all: this PC; p2, p3: see docs/two_pcs.md")
+      ->check(CLI::IsMember({"all", "p2", "p3"}));
+  command->add_option("--side", options->side, "which PC of p2 or p3 this is")->check(CLI::Range(1, 2));
   command->add_option("--nodes", options->nodes, "only some of physics,haptic,render");
+  command->add_option("--interface", options->interface,
+                      "network interface to the other PC, or its address; else this machine only");
+  command->add_option("--peers", options->peers, "the other PC, by name or address; else multicast finds it");
   command
       ->add_option("--domain", options->domain, "DDS domain; sessions at the same time need different ones")
       ->check(CLI::Range(0, 100));

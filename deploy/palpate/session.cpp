@@ -10,6 +10,7 @@
 #include "common/error/error.h"
 #include "common/process/stop_flag.h"
 #include "common/wire/reader.h"
+#include "deploy/palpate/company.h"
 #include "deploy/palpate/nodes.h"
 #include "deploy/palpate/status_board.h"
 #include "deploy/palpate/status_line.h"
@@ -30,7 +31,14 @@ double seconds_since(Clock::time_point start) {
 class Session {
  public:
   explicit Session(const SessionPlan& plan)
-      : plan_(plan), participant_(plan.domain), statuses_(participant_) {
+      : plan_(plan), participant_(plan.membership), statuses_(participant_) {
+    shown_ = plan.nodes;
+    shown_.insert(shown_.end(), plan.elsewhere.begin(), plan.elsewhere.end());
+    if (!plan.elsewhere.empty() || !plan.membership.reach.local()) {
+      company_.emplace(participant_, plan.nodes, plan.elsewhere);
+      company_->require_fitting();
+    }
+    for (const NodeKind node : plan.elsewhere) board_.expect_elsewhere(node);
     for (const NodeKind node : plan.nodes) start(node);
   }
 
@@ -38,7 +46,8 @@ class Session {
     while (!over()) {
       listen(tick);
       watch_start();
-      line_.show(board_, plan_.nodes, shown_seconds());
+      meet();
+      line_.show(board_, shown_, shown_seconds());
     }
     listen(std::chrono::milliseconds(0));
     if (running_since_) result_.wall_s = seconds_since(*running_since_);
@@ -63,7 +72,7 @@ class Session {
 
   /// True when the session is to end: a person said so, its time is up, or a node has gone or is past waiting for.
   bool over() {
-    if (stop_requested()) return true;
+    if (stop_requested() || quarrelled_) return true;
     if (running_since_ && seconds_since(*running_since_) >= plan_.seconds) return true;
     return std::any_of(nodes_.begin(), nodes_.end(),
                        [this](RunningNode& node) { return node.child.ending() || silent_for_good(node); });
@@ -71,9 +80,27 @@ class Session {
 
   void watch_start() {
     if (running_since_) return;
-    const bool all = std::all_of(plan_.nodes.begin(), plan_.nodes.end(),
+    const bool all = std::all_of(shown_.begin(), shown_.end(),
                                  [this](NodeKind node) { return board_.at(node).running(); });
     if (all) running_since_ = Clock::now();
+  }
+
+  /// Across PCs: says who came and went, and ends the session if somebody does not fit and stays.
+  void meet() {
+    if (!company_) return;
+    for (const auto& text : company_->news()) say(text);
+    for (const NodeKind node : plan_.elsewhere)
+      if (board_.at(node).newest && !company_->has(node))
+        board_.expect_elsewhere(node);  // what it said is old
+    const auto lines = company_->quarrel();
+    for (const auto& text : lines) say(text);
+    quarrelled_ = !lines.empty();
+    if (quarrelled_) result_.exit_code = exit_mistake;
+  }
+
+  void say(const std::string& text) {
+    line_.finish();
+    std::fprintf(stderr, "palpate: %s\n", text.c_str());
   }
 
   bool silent_for_good(const RunningNode& node) {
@@ -81,9 +108,8 @@ class Session {
     const double silent_s = seconds_since(started_);
     if (silent_s > silence_reported_s && !silence_reported_) {
       silence_reported_ = true;
-      line_.finish();
-      std::fprintf(stderr, "palpate: %s has said nothing for %.0f s; still waiting (Ctrl-C ends)\n",
-                   std::string(name_of(node.node)).c_str(), silent_s);
+      say(fmt::format("{} has said nothing for {:.0f} s; still waiting (Ctrl-C ends)", name_of(node.node),
+                      silent_s));
     }
     return silent_s > silence_fatal_s;
   }
@@ -132,6 +158,9 @@ class Session {
   Participant participant_;
   Reader<NodeStatus> statuses_;
   StatusBoard board_;
+  std::optional<Company> company_;  // across PCs only
+  std::vector<NodeKind> shown_;     // ours, then those elsewhere
+  bool quarrelled_ = false;
   StatusLine line_;
   Clock::time_point started_ = Clock::now();
   std::optional<Clock::time_point> running_since_;

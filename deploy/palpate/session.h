@@ -8,16 +8,18 @@
 #include <vector>
 
 #include "common/message/messages.h"
+#include "common/wire/participant.h"
 #include "deploy/palpate/child.h"
 
 namespace palpate::deploy {
 
 struct SessionPlan {
   std::vector<NodeKind> nodes;
+  std::vector<NodeKind> elsewhere;     // nodes that another PC brings; waited for, not watched over
   std::filesystem::path bin;           // folder of the nodes' programs
   std::vector<std::string> arguments;  // of every node
-  int domain = 0;
-  double seconds = 0;  // from the moment all nodes run
+  Membership membership;               // of the supervisor; its identity is what all others are compared with
+  double seconds = 0;                  // from the moment all nodes run
 };
 
 struct NodeOutcome {
@@ -38,8 +40,10 @@ struct SessionResult {
 
 /// Runs a session from start to end, with a status line on stdout and one line on stderr for each node that fails.
 /// A person's stop (common/process/stop_flag.h) ends everything within a second; a node that hangs is then killed.
+/// Across PCs a session first looks who is there: nodes of another scene or version, or a node that this PC brings as
+/// well, are a mistake and nothing is started. What comes later and does not fit ends the session if it stays.
 /// A node that ends by itself with exit code 0 once all run (its window was closed) ends the session as done.
-/// @throws std::runtime_error if DDS or a process cannot be had; nothing is then left running
+/// @throws InputError as said above, std::runtime_error if DDS or a process cannot be had; nothing is then left running
 SessionResult run_session(const SessionPlan& plan);
 
 }  // namespace palpate::deploy

@@ -7,9 +7,14 @@ void StatusBoard::expect(NodeKind node, int pid) {
   of(node).pid = static_cast<std::uint32_t>(pid);
 }
 
+void StatusBoard::expect_elsewhere(NodeKind node) {
+  of(node) = Entry();
+  of(node).elsewhere = true;
+}
+
 void StatusBoard::note(const NodeStatus& status) {
   Entry& entry = of(status.node);
-  if (entry.pid == 0 || status.pid != entry.pid) return;
+  if (!entry.elsewhere && (entry.pid == 0 || status.pid != entry.pid)) return;
   const bool was_running = entry.running();  // the first running status is about a period only partly run
   entry.newest = status;
   if (!was_running || !entry.running()) return;

@@ -13,6 +13,7 @@ class StatusBoard {
  public:
   struct Entry {
     std::uint32_t pid = 0;             // of the process we started; 0: none
+    bool elsewhere = false;            // another PC brings it
     std::optional<NodeStatus> newest;  // nothing: not seen yet
     std::uint64_t n_running = 0;       // statuses with phase running, but for the first
     double sum_rate_Hz = 0;
@@ -28,7 +29,10 @@ class StatusBoard {
   /// From now on this process is the node.
   void expect(NodeKind node, int pid);
 
-  /// Takes a status up; one from a process that we did not start is not ours and changes nothing.
+  /// Another PC brings this node; whichever speaks for it is believed.
+  void expect_elsewhere(NodeKind node);
+
+  /// Takes a status up; one from a process that we neither started nor expect changes nothing.
   void note(const NodeStatus& status);
 
   const Entry& at(NodeKind node) const { return entries_[static_cast<std::size_t>(node)]; }

@@ -39,7 +39,7 @@ std::string reason_text(const NodeStatus& status) {
 }
 
 std::string node_text(NodeKind node, const StatusBoard::Entry& entry) {
-  if (!entry.newest) return fmt::format(" | {} starting", name_of(node));
+  if (!entry.newest) return fmt::format(" | {} {}", name_of(node), entry.elsewhere ? "awaited" : "starting");
   const NodeStatus& status = *entry.newest;
   if (!entry.running()) {
     std::string text = fmt::format(" | {} {}", name_of(node), phase_text(status.phase));

@@ -18,12 +18,12 @@ bool LocalModel::penetrated(const HandMotion& hand) const noexcept {
   return true;
 }
 
-ContactResult LocalModel::tick(const HandMotion& hand, double dt) noexcept {
+ContactResult LocalModel::tick(const HandMotion& hand, double dt, double share) noexcept {
   switch (model_) {
     case ForceModel::norton:
       return planes_.tick(hand.x, hand.v, dt);
     case ForceModel::tangent:
-      return tangent_.tick(hand, dt);
+      return tangent_.tick(hand, dt, share);
     case ForceModel::raw_planes:
       return raw_plane_force(patch_, hand, stiffness_, damping_, limit_);
     case ForceModel::direct:

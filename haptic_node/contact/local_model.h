@@ -44,7 +44,8 @@ class LocalModel {
   bool penetrated(const HandMotion& hand) const noexcept;
 
   /// Contract: real time.
-  ContactResult tick(const HandMotion& hand, double dt) noexcept;
+  /// @param share  of the force that reached the hand in the last tick
+  ContactResult tick(const HandMotion& hand, double dt, double share) noexcept;
 
   /// The force becomes `keep` (0..1) of what it is at x.
   void weaken(const Vec3& x, double keep) noexcept {

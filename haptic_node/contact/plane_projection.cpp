@@ -97,7 +97,8 @@ Projection project_out(std::span<const HalfSpace> planes, const Vec3& x) noexcep
   for (std::size_t i = 0; i < m; ++i)
     for (std::size_t j = i + 1; j < m; ++j)
       for (std::size_t k = j + 1; k < m; ++k)
-        if (!triple_pulls(products, i, j, k) && try_active<3>(planes, products, {i, j, k}, x, result)) return result;
+        if (!triple_pulls(products, i, j, k) && try_active<3>(planes, products, {i, j, k}, x, result))
+          return result;
   result.feasible = false;
   return result;
 }

@@ -131,7 +131,7 @@ double TangentWrench::energy(const Vec6& d, const Mat6& K, const Vec6& axis) con
 }
 
 /// Toward the answer's spring, as far as force and tank allow.
-void TangentWrench::follow(const Vec6& d_goal, double dt) noexcept {
+void TangentWrench::follow(const Vec6& d_goal, double dt, double share) noexcept {
   double part = remaining_ <= dt ? 1.0 : dt / remaining_;
   remaining_ = std::max(0.0, remaining_ - dt);
   const Vec6 W = K_ * pushing(d_, K_, axis_);
@@ -141,7 +141,7 @@ void TangentWrench::follow(const Vec6& d_goal, double dt) noexcept {
     const Mat6 K = K_ + part * (K_0_ - K_);
     const Vec6 axis = axis_ + part * (d_0_ - axis_);
     const double change = (K * pushing(d, K, axis) - W).norm();
-    const double work = energy(d, K, axis) - before;
+    const double work = share * (energy(d, K, axis) - before);
     if (change <= force_rate * dt && work <= tank_.level()) {
       d_ = d;
       K_ = K;
@@ -153,7 +153,7 @@ void TangentWrench::follow(const Vec6& d_goal, double dt) noexcept {
   }
 }
 
-ContactResult TangentWrench::tick(const HandMotion& hand, double dt) noexcept {
+ContactResult TangentWrench::tick(const HandMotion& hand, double dt, double share) noexcept {
   ContactResult result;
   result.proxy = hand.x;
   if (moved_once_) d_ -= in_metres(motion_between(last_x_, last_q_, hand.x, hand.q));
@@ -166,7 +166,7 @@ ContactResult TangentWrench::tick(const HandMotion& hand, double dt) noexcept {
     const Vec6 d_goal = d_0_ - since;
     // A new contact begins with the answer's stiffness and no stretch.
     if (energy(d_, K_, axis_) <= 0) K_ = K_0_, axis_ = d_0_, d_.setZero();
-    follow(result.outran ? Vec6(Vec6::Zero()) : pushing(d_goal, K_0_, d_0_), dt);
+    follow(result.outran ? Vec6(Vec6::Zero()) : pushing(d_goal, K_0_, d_0_), dt, share);
   }
   Vec6 W = K_ * pushing(d_, K_, axis_);
   W *= within_limits(W);

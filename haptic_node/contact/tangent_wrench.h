@@ -27,8 +27,7 @@ class TangentWrench {
   /// @param damping    along the force [N s/m]
   /// @param limit, torque_limit  beyond which the spring does not push or turn harder: both are shortened together [N],
   ///                   [N m]. Torque limit 0: the device gives none, and turns neither make nor store anything.
-  TangentWrench(double stiffness, double damping,
-                double limit = std::numeric_limits<double>::infinity(),
+  TangentWrench(double stiffness, double damping, double limit = std::numeric_limits<double>::infinity(),
                 double torque_limit = std::numeric_limits<double>::infinity()) noexcept
       : stiffness_(stiffness), damping_(damping), limit_(limit), torque_limit_(torque_limit) {}
 
@@ -39,7 +38,8 @@ class TangentWrench {
   bool penetrated() const noexcept { return has_ && W_0_.head<3>().norm() > touch_N; }
 
   /// Contract: real time.
-  ContactResult tick(const HandMotion& hand, double dt) noexcept;
+  /// @param share  of this force that reached the hand in the last tick, 0..1: work is done by no more than that
+  ContactResult tick(const HandMotion& hand, double dt, double share = 1) noexcept;
 
   /// The stretch becomes `keep` (0..1) of what it is.
   void weaken(double keep) noexcept { d_ *= keep; }
@@ -55,7 +55,7 @@ class TangentWrench {
  private:
   static constexpr double touch_N = 0.01;
 
-  void follow(const Vec6& d_goal, double dt) noexcept;
+  void follow(const Vec6& d_goal, double dt, double share) noexcept;
   static Vec6 pushing(const Vec6& d, const Mat6& K, const Vec6& axis) noexcept;
   double energy(const Vec6& d, const Mat6& K, const Vec6& axis) const noexcept;
 

@@ -60,8 +60,8 @@ Controller::Controller(const ControllerSettings& settings) noexcept
       motion_(settings.period),
       patches_(settings.tool),
       wrenches_(settings.tool),
-      model_(settings.model, settings.stiffness, settings.damping, settings.force_limit, settings.torque_limit,
-             settings.friction),
+      model_(settings.model, settings.stiffness, settings.damping, settings.force_limit,
+             settings.torque_limit, settings.friction),
       guard_(settings.force_limit, settings.stiffness, settings.period),
       torque_guard_(settings.torque_limit, settings.stiffness * torque_lever * torque_lever, settings.period),
       energy_(settings.resolution, settings.stiffness) {}
@@ -233,7 +233,7 @@ ControllerOutput Controller::tick(std::int64_t now_ns, const DeviceSample& sampl
   // 3. what may be felt
   step_state(now_ns, sample, is_new);
   const bool feels = engaged() || (state_ == HapticState::safe && gain_ > 0);
-  felt_ = feels ? model_.tick(motion_.hand(), std::min(dt, stall)) : ContactResult{};
+  felt_ = feels ? model_.tick(motion_.hand(), std::min(dt, stall), reached_) : ContactResult{};
   if (felt_.outran) ++outran_;
 
   // 4. the force
@@ -242,6 +242,8 @@ ControllerOutput Controller::tick(std::int64_t now_ns, const DeviceSample& sampl
   ControllerOutput out;
   const double share = share_of_felt();
   out.force = guard_.pass(share * felt_.force, gain_ * stop_gain_, fading);
+  const double wanted = felt_.force.norm();
+  reached_ = wanted > 0 ? std::min(1.0, out.force.norm() / wanted) : 1.0;
   if (settings_.torque_limit > 0)
     out.torque = torque_guard_.pass(share * felt_.torque, gain_ * stop_gain_, fading);
   energy_.sent(out.force, out.torque);

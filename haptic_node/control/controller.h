@@ -129,6 +129,7 @@ class Controller {
   ArmRefusal refusal_ = ArmRefusal::no_sample;
   bool resume_inside_ = false;  // after a stall: planes start at the hand, no need to leave the tissue first
   double safe_for_ = 0;         // since the last trouble [s]
+  double reached_ = 1;          // of the force felt in the last tick, after all limits
   double gain_ = 1;             // of the state: fade or ramp
   bool stopping_ = false;
   double stop_gain_ = 1;

@@ -39,19 +39,24 @@ HapticNode::HapticNode(const NodeOptions& options, const Scene& scene)
     : options_(options), scene_(scene), rate_Hz_(common_rate(scene)) {
   set_log_name("haptic");
   ask_for_rights();
+  Membership nobody = membership(options, scene, "haptic");
+  nobody.identity = {};
+  first_ = std::make_unique<Participant>(nobody);
   for (std::uint32_t tool = 0; tool < scene.tools.size(); ++tool) {
     channels_.push_back(std::make_unique<ToolChannel>(scene, tool, options.device, options.domain));
     const HapticSession& session = *channels_.back()->session.get();
     const hdev_info& info = session.device_info();
     log_info("{}: {} ({}), up to {:.1f} N", scene.tools[tool].name, info.model, info.vendor,
              session.controller().force_limit());
-    resets_.emplace_back(*channels_.back(),
-                         [this, tool] { return open_session(scene_, tool, options_.device, options_.domain); });
+    resets_.emplace_back(*channels_.back(), [this, tool] {
+      return open_session(scene_, tool, options_.device, options_.domain);
+    });
   }
   crash_stop_ = std::make_unique<CrashStop>(channels_);
   reports_.resize(channels_.size());
   flights_.resize(channels_.size());
-  wire_ = std::make_unique<Wire>(options.domain, channels_);
+  wire_ = std::make_unique<Wire>(membership(options, scene, "haptic"), channels_);
+  newcomer_ = std::make_unique<Newcomer>(wire_->participant());
   loop_ = std::make_unique<RealtimeLoop>(channels_, rate_Hz_);
   status_.node = NodeKind::haptic;
   status_.pid = static_cast<std::uint32_t>(getpid());
@@ -186,7 +191,7 @@ int HapticNode::run() {
   loop_->start();
   std::int64_t next_status = 0;
   // 1. state of the tools, power, resets, flights  2. status
-  while (!is_over()) {
+  while (!unwelcome_ && !is_over()) {
     std::this_thread::sleep_for(2ms);
     look_at_tools();
     serve();
@@ -196,6 +201,7 @@ int HapticNode::run() {
     const bool running = std::all_of(reports_.begin(), reports_.end(),
                                      [](const SessionReport& report) { return report.first_run_ns > 0; });
     publish_status(running ? NodePhase::running : NodePhase::ready);
+    unwelcome_ = newcomer_->must_go();
   }
   return leave();
 }
@@ -213,6 +219,7 @@ int HapticNode::leave() {
   publish_status(NodePhase::stopping);
   if (!options_.out.empty())
     write_haptic_summary(options_.out, *loop_->stats(), reports_, wire_->trace_lost());
+  if (unwelcome_) return exit_mistake;
   const bool faulty = std::any_of(reports_.begin(), reports_.end(), [](const SessionReport& report) {
     return report.state == HapticState::fault;
   });

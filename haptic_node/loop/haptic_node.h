@@ -38,6 +38,8 @@ class HapticNode {
 
   NodeOptions options_;
   Scene scene_;  // to open devices anew
+  std::unique_ptr<Participant>
+      first_;  // joins before any driver that speaks DDS does, so that the session's reach counts
   double rate_Hz_;
   RealtimeRights rights_;
   std::vector<std::unique_ptr<ToolChannel>> channels_;
@@ -45,6 +47,8 @@ class HapticNode {
   std::vector<DeviceReset> resets_;
   std::vector<int> flights_;  // written so far, by tool
   std::unique_ptr<Wire> wire_;
+  std::unique_ptr<Newcomer> newcomer_;
+  bool unwelcome_ = false;  // in a session of another scene or version
   std::unique_ptr<RealtimeLoop> loop_;
   std::unique_ptr<CrashStop> crash_stop_;
   NodeStatus status_;

@@ -8,15 +8,17 @@ namespace palpate::haptic {
 namespace {
 
 using namespace std::chrono_literals;
-constexpr double publisher_Hz = 2000;        // looks for new states twice as often as they come
+constexpr double publisher_Hz = 2000;  // looks for new states twice as often as they come
+// The state is written this long after its stamp at most: looking then finds it at once.
+constexpr std::int64_t look_after_ns = 60'000;
 constexpr std::uint32_t batch_samples = 20;  // of a trace: 50 batches a second at 1 kHz
 constexpr int most_refusals = 50;            // of one batch, a few seconds, before it is given up and counted
 
 }  // namespace
 
-Wire::Wire(int domain, std::vector<std::unique_ptr<ToolChannel>>& channels)
+Wire::Wire(const Membership& membership, std::vector<std::unique_ptr<ToolChannel>>& channels)
     : channels_(channels),
-      participant_(domain),
+      participant_(membership),
       patches_(participant_),
       commands_(participant_),
       states_(participant_),
@@ -78,7 +80,9 @@ void Wire::publish() noexcept {
     for (const auto& channel : channels_) {
       bool is_new = false;
       const ToolState* state = channel->states.newest(&is_new);
-      if (is_new) states_.write(*state);
+      if (!is_new) continue;
+      states_.write(*state);
+      ticker.align(state->stamp_ns + look_after_ns);
     }
   }
 }

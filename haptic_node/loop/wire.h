@@ -19,7 +19,7 @@ namespace palpate::haptic {
 class Wire {
  public:
   /// @throws as Participant does
-  Wire(int domain, std::vector<std::unique_ptr<ToolChannel>>& channels);
+  Wire(const Membership& membership, std::vector<std::unique_ptr<ToolChannel>>& channels);
   ~Wire() { finish(); }
 
   void start();
@@ -28,6 +28,9 @@ class Wire {
 
   /// A stop command has come.
   bool stop_commanded() const noexcept { return stop_commanded_.load(); }
+
+  /// For what the slow thread wants to know of others.
+  Participant& participant() noexcept { return participant_; }
 
   /// Of the slow thread that calls them: status out, patches in so far.
   bool write_status(const NodeStatus& status) noexcept { return status_.write(status); }

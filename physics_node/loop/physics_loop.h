@@ -21,7 +21,7 @@ class PhysicsLoop {
   int run();
 
  private:
-  void take_tools();
+  bool take_tools();
   void take_commands();
   void publish_hand();
   void publish_eye();
@@ -31,6 +31,7 @@ class PhysicsLoop {
   NodeOptions options_;
   Scene scene_;
   Wire wire_;
+  Newcomer newcomer_{wire_.participant};
   std::unique_ptr<World> world_;
   std::unique_ptr<Appearance> appearance_;
   std::unique_ptr<Recorder> recorder_;
@@ -45,6 +46,7 @@ class PhysicsLoop {
   ToolWrench wrench_{};
   bool paused_ = false;
   bool stop_ = false;
+  bool unwelcome_ = false;  // in a session of another scene or version
   int watchers_ = 0;
   std::int64_t start_ns_ = 0;
 

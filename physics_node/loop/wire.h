@@ -4,19 +4,20 @@
 #include "common/wire/participant.h"
 #include "common/wire/reader.h"
 #include "common/wire/writer.h"
+#include "physics_node/loop/eye_sender.h"
 
 namespace palpate::physics {
 
 struct Wire {
-  explicit Wire(int domain) : participant(domain) {}
+  explicit Wire(const Membership& membership)
+      : participant(membership), eye(participant, !membership.reach.local()) {}
   Participant participant;
   Reader<ToolState> tool_states{participant};
   Reader<Command> commands{participant};
   Writer<ContactPatch> patches{participant};
   Writer<ToolWrench> wrenches{participant};
-  Writer<BodySurface> surfaces{participant};
-  Writer<VertexBlock> blocks{participant};
   Writer<NodeStatus> status{participant};
+  EyeSender eye;
 };
 
 }  // namespace palpate::physics

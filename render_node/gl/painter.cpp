@@ -35,6 +35,11 @@ Painter::Painter(const Scene& scene, const ViewModel& model)
     const auto& device = scene.device(scene.tools[i].device);
     tools_[i].radius = scene.tools[i].radius;
     tools_[i].axis = stick_axis(device);
+    if (scene.tools[i].shape == ToolShape::stick) {
+      // B = A - L R e_z, as physics has it; drawn as it lies in a handle that is not turned.
+      tools_[i].axis = -(scene.tools[i].attitude * Eigen::Vector3d::UnitZ());
+      tools_[i].length = scene.tools[i].length;
+    }
     tools_[i].force_limit = device.force_limit;
     tools_[i].is_body = scene.tools[i].shape == ToolShape::body;
   }
@@ -45,7 +50,9 @@ void Painter::adapt_sizes(const Eigen::AlignedBox3d& box) {
   size_ = box.diagonal().norm() / 2;
   double limit = 0;
   for (auto& tool : tools_) {
-    tool.stick.shape(stick_outline(static_cast<float>(tool.radius), static_cast<float>(1.2 * size_)));
+    const auto radius = static_cast<float>(tool.radius);
+    tool.stick.shape(tool.length > 0 ? capsule_outline(radius, static_cast<float>(tool.length))
+                                     : stick_outline(radius, static_cast<float>(1.2 * size_)));
     limit = std::max(limit, tool.force_limit);
   }
   if (limit > 0 && size_ > 0) metres_per_newton_ = palpate::render::arrow_metres_per_newton(limit, size_);

@@ -35,6 +35,7 @@ class Painter {
   struct Tool {
     double radius = 0;       // of the tip [m]
     Eigen::Vector3d axis;    // from the tip up the stick, unit
+    double length = 0;       // of the stick [m]; 0: as the picture needs
     double force_limit = 0;  // of its device [N]
     bool is_body = false;    // drawn as such, without a stick
     SolidDrawing stick, arrow;

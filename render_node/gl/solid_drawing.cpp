@@ -69,6 +69,21 @@ std::vector<Ring> stick_outline(float tip_radius, float length) {
   return outline;
 }
 
+std::vector<Ring> capsule_outline(float radius, float length) {
+  std::vector<Ring> outline;
+  constexpr int n = 8;
+  const auto round_end = [&](float from, float middle) {
+    for (int i = 0; i <= n; ++i) {
+      const float angle =
+          from + 0.5F * std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(n);
+      outline.push_back({radius * std::sin(angle), middle - radius * std::cos(angle)});
+    }
+  };
+  round_end(0, 0);
+  round_end(0.5F * std::numbers::pi_v<float>, length);
+  return outline;
+}
+
 std::vector<Ring> arrow_outline(float radius, float length) {
   const float head = std::min(5 * radius, 0.6F * length);
   return {{0, 0}, {radius, 0}, {radius, length - head}, {2.4F * radius, length - head}, {0, length}};

@@ -17,6 +17,8 @@ struct Ring {
 
 /// A stick that ends in a half sphere whose lowest point is the origin; it widens to a handle. [m]
 std::vector<Ring> stick_outline(float tip_radius, float length);
+/// Axis from 0 to `length`, round ends beyond.
+std::vector<Ring> capsule_outline(float radius, float length);
 /// An arrow from the origin to (0, 0, length). [m]
 std::vector<Ring> arrow_outline(float radius, float length);
 

@@ -18,6 +18,37 @@ TEST(Nodes, RefuseOtherWords) {
   EXPECT_THROW(parse_nodes("supervisor"), InputError);
 }
 
+TEST(Share, FollowsThePapers) {
+  using enum NodeKind;
+  const auto here = [](const char* deployment, int side) {
+    return parse_share(deployment, side, {}, true).here;
+  };
+  const auto there = [](const char* deployment, int side) {
+    return parse_share(deployment, side, {}, true).elsewhere;
+  };
+  EXPECT_EQ(here("p2", 1), std::vector{render});
+  EXPECT_EQ(there("p2", 1), (std::vector{physics, haptic}));
+  EXPECT_EQ(here("p2", 2), there("p2", 1));
+  EXPECT_EQ(here("p3", 2), std::vector{haptic});
+  EXPECT_EQ(there("p3", 2), (std::vector{physics, render}));
+  EXPECT_EQ(here("p3", 1), there("p3", 2));
+}
+
+TEST(Share, ExpectsNobodyElsewhereOnOnePc) {
+  EXPECT_EQ(parse_share("all", 0, {}, false).here.size(), 3U);
+  EXPECT_TRUE(parse_share("all", 0, {}, true).elsewhere.empty());
+  EXPECT_TRUE(parse_share("all", 0, "haptic", false).elsewhere.empty()) << "a part of a session, for tests";
+  EXPECT_EQ(parse_share("all", 0, "haptic", true).elsewhere,
+            (std::vector{NodeKind::physics, NodeKind::render}));
+}
+
+TEST(Share, RefusesWhatContradictsItself) {
+  EXPECT_THROW(parse_share("p2", 0, {}, true), InputError);
+  EXPECT_THROW(parse_share("all", 1, {}, true), InputError);
+  EXPECT_THROW(parse_share("p3", 1, "haptic", true), InputError);
+  EXPECT_THROW(parse_share("all", 0, "", true), InputError);
+}
+
 TEST(Nodes, StopHapticFirst) { EXPECT_EQ(stop_order.front(), NodeKind::haptic); }
 
 }  // namespace

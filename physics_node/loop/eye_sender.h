@@ -1,0 +1,53 @@
+#pragma once
+// What physics tells the eye leaves through a thread of its own: a slow or broken network never holds up a frame.
+
+#include <condition_variable>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "common/message/messages.h"
+#include "common/wire/writer.h"
+
+namespace palpate::physics {
+
+class EyeSender {
+ public:
+  /// @param repeat  send blocks that rest again in turn, one each 33 ms: where datagrams get lost, a picture of tissue
+  ///                that has come to rest would stay wrong otherwise
+  EyeSender(Participant& participant, bool repeat);
+  ~EyeSender();  // what has not gone by then is not sent
+  EyeSender(const EyeSender&) = delete;
+  EyeSender& operator=(const EyeSender&) = delete;
+
+  /// Both copy and return; what waits and is outdated by the new one is dropped. Cost: a copy, and an allocation where
+  /// nothing of this chunk or block waits.
+  void post(const BodySurface& chunk);
+  void post(const VertexBlock& block);
+
+  int watchers() noexcept { return blocks_.matched(); }
+
+ private:
+  using Key = std::pair<std::uint32_t, std::uint32_t>;  // body, and its chunk or block
+  void send();
+  void send_surface(std::unique_lock<std::mutex>& lock);
+  void send_block(std::unique_lock<std::mutex>& lock);
+  void send_again(std::unique_lock<std::mutex>& lock);
+
+  Writer<BodySurface> surfaces_;
+  Writer<VertexBlock> blocks_;
+  bool repeat_;
+  std::mutex mutex_;  // of all below
+  std::condition_variable something_;
+  std::map<Key, std::unique_ptr<BodySurface>> surfaces_due_;
+  std::map<Key, std::unique_ptr<VertexBlock>> blocks_due_;
+  std::map<Key, std::unique_ptr<VertexBlock>> sent_;  // of the newest revision; empty unless repeat
+  Key last_again_{0, 0};
+  int refusals_ = 0;  // of the surface that is tried now
+  bool end_ = false;
+  std::thread thread_;
+};
+
+}  // namespace palpate::physics

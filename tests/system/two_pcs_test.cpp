@@ -1,0 +1,142 @@
+// Sessions over two network namespaces, laid out by deploy/two_host_lab.sh. Skipped, with words, where the kernel makes
+// no namespaces for the one who runs the tests.
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <sstream>
+
+#include "common/report/json_file.h"
+
+namespace palpate {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+class TwoPcs : public testing::Test {
+ protected:
+  void SetUp() override {
+    const char* as_user = geteuid() == 0 ? "" : "--user --map-root-user ";
+    const std::string attempt = fmt::format("unshare {}--net true 2>{}/why", as_user, folder.string());
+    fs::create_directories(folder);
+    if (std::system(attempt.c_str()) != 0) GTEST_SKIP() << "no network namespaces here: " << text("why");
+  }
+  ~TwoPcs() override { fs::remove_all(folder); }
+
+  /// @return exit code of the lab
+  int lab(const std::string& words) const {
+    const std::string line = fmt::format("{} {} --bin-dir {} --out {}/out >{}/said 2>&1", LAB, words, BIN,
+                                         folder.string(), folder.string());
+    const int status = std::system(line.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  std::string text(const std::string& name) const {
+    std::ifstream file(folder / name);
+    std::stringstream all;
+    all << file.rdbuf();
+    return all.str();
+  }
+  nlohmann::json summary(const std::string& pc) const {
+    return read_json((folder / "out" / pc / "summary.json").string());
+  }
+  static std::string palpate(const std::string& scene, const std::string& words) {
+    return fmt::format("{}/palpate run {}/{}.toml --headless {}", BIN, SCENES, scene, words);
+  }
+
+  fs::path folder = fs::temp_directory_path() / fmt::format("palpate_two_pcs_{}", getpid());
+};
+
+void expect_a_felt_press(const nlohmann::json& hand, const nlohmann::json& tissue,
+                         const nlohmann::json& eye) {
+  EXPECT_GT(hand["haptic"]["patches"].get<int>(), 500);
+  EXPECT_GT(hand["haptic"]["loop_age_ms"]["p50"].get<double>(), 0.0);
+  EXPECT_LE(hand["haptic"]["energy_max_J"].get<double>(), 1e-4) << "the wire makes no energy";
+  EXPECT_EQ(hand["haptic"]["faults"], 0);
+  EXPECT_GT(tissue["tools"]["tip"]["force_peak"].get<double>(), 0.1);
+  EXPECT_GT(eye["render"]["frames"].get<int>(), 5);
+  EXPECT_EQ(eye["render"]["facets_visible"], 1600);
+}
+
+TEST_F(TwoPcs, RenderHereFeelThere) {
+  ASSERT_EQ(lab(fmt::format("run p2 {}/box_press.toml --seconds 3", SCENES)), 0) << text("said");
+  expect_a_felt_press(summary("pc2"), summary("pc2"), summary("pc1"));
+  EXPECT_FALSE(summary("pc1")["nodes"].contains("haptic")) << "each side tells of its own nodes";
+  EXPECT_THAT(text("out/pc1.txt"), HasSubstr("palpate: haptic is there, on "));
+}
+
+TEST_F(TwoPcs, DeformHereFeelThereOverABadCable) {
+  ASSERT_EQ(lab(fmt::format("run p3 {}/box_press.toml --seconds 3 --delay 5 --jitter 5 --loss 10", SCENES)),
+            0)
+      << text("said");
+  expect_a_felt_press(summary("pc2"), summary("pc1"), summary("pc1"));
+  EXPECT_GE(summary("pc2")["haptic"]["loop_age_ms"]["p50"].get<double>(), 10.0) << "5 ms each way";
+}
+
+TEST_F(TwoPcs, RefuseAnotherSceneInWords) {
+  const std::string first = palpate(
+      "box_press", "--nodes physics --peers 192.168.77.2 --seconds 1 --out " + (folder / "a").string());
+  const std::string second = palpate(
+      "inclusion", "--nodes haptic --peers 192.168.77.1 --seconds 1 --out " + (folder / "b").string());
+  EXPECT_NE(lab(fmt::format("try 'timeout 7 {}; true' 'sleep 3; {}'", first, second)), 0);
+  EXPECT_THAT(text("said"), HasSubstr("runs the scene box_press, this PC inclusion"));
+  EXPECT_THAT(text("said"), Not(HasSubstr("this PC box_press"))) << "who was there first stays";
+  EXPECT_FALSE(fs::exists(folder / "b" / "summary.json"));
+}
+
+TEST_F(TwoPcs, RefuseANodeThatIsThereAlready) {
+  const std::string first =
+      palpate("box_press",
+              "--nodes physics,haptic --peers 192.168.77.2 --seconds 1 --out " + (folder / "a").string());
+  const std::string second = palpate(
+      "box_press", "--nodes haptic,render --peers 192.168.77.1 --seconds 1 --out " + (folder / "b").string());
+  EXPECT_NE(lab(fmt::format("try 'timeout 7 {}; true' 'sleep 3; {}'", first, second)), 0);
+  EXPECT_THAT(text("said"), HasSubstr("haptic is in this session already"));
+}
+
+// PC 1 has named a third machine as its peer; PC 2 knocks all the same.
+TEST_F(TwoPcs, ASecondMachineIsNotHeardUnlessNamed) {
+  const std::string first =
+      palpate("box_press", "--nodes physics,render --peers 192.168.77.9 --out " + (folder / "a").string());
+  const std::string second =
+      palpate("box_press", "--nodes haptic --peers 192.168.77.1 --out " + (folder / "b").string());
+  lab(fmt::format("try 'timeout 6 {}; true' 'timeout 6 {}; true'", first, second));
+  EXPECT_THAT(text("said"), HasSubstr("haptic awaited"));
+  EXPECT_THAT(text("said"), Not(HasSubstr("is there")));
+}
+
+TEST_F(TwoPcs, AloneASessionListensToItsOwnMachineOnly) {
+  const std::string session = palpate("box_press", "--seconds 3 --out " + (folder / "a").string());
+  const std::string list =
+      "sleep 1.5; ss --no-header --udp --listening --numeric >" + (folder / "sockets").string();
+  ASSERT_EQ(lab(fmt::format("try '({}) & {}; wait' true", list, session)), 0) << text("said");
+  std::ifstream sockets(folder / "sockets");
+  int n = 0;
+  for (std::string line; std::getline(sockets, line); ++n)
+    EXPECT_THAT(line, testing::AnyOf(HasSubstr("%lo:"), HasSubstr(" 127."))) << "heard beyond this machine";
+  EXPECT_GE(n, 8) << "two of each node and of the supervisor";
+}
+
+// 3,000 datagrams here; the same program threw 100,000 by hand.
+TEST_F(TwoPcs, MalformedDatagramsCrashNobody) {
+  const unsigned seed = std::random_device()();
+  const std::string session = palpate("box_press", "--domain 3 --seconds 4 --out " + (folder / "a").string());
+  const std::string storm = fmt::format("sleep 2; {} 3 3000 {} >{}/storm", STORM, seed, folder.string());
+  ASSERT_EQ(lab(fmt::format("try '({}) & {}; code=$?; wait; exit $code' true", storm, session)), 0)
+      << text("said") << "seed " << seed;
+  EXPECT_THAT(text("storm"), HasSubstr("sent 3000")) << "seed " << seed;
+  const auto summary = read_json((folder / "a" / "summary.json").string());
+  for (const char* node : {"physics", "haptic", "render"})
+    EXPECT_EQ(summary["nodes"][node]["exit_code"], 0) << node << " seed " << seed;
+}
+
+}  // namespace
+}  // namespace palpate
