@@ -68,4 +68,10 @@ bool tie_to_loopback(int domain) {
   return all;
 }
 
+bool hears_loopback_only(int domain) {
+  for (const UdpSocket& socket : own_udp_sockets())
+    if (of_domain(socket, domain) && !socket.local_only()) return false;
+  return true;
+}
+
 }  // namespace palpate

@@ -26,4 +26,7 @@ bool of_domain(const UdpSocket& socket, int domain);
 /// @return true if all of them now hear this machine only
 bool tie_to_loopback(int domain);
 
+/// Whether they do already.
+bool hears_loopback_only(int domain);
+
 }  // namespace palpate

@@ -135,8 +135,12 @@ Participant::Participant(const Membership& membership, const std::string& config
         domain_, dds_strretcode(-handle_)));
   }
   if (shared_->joined && shared_->entity <= 0) shared_->entity = dds_get_parent(handle_);
-  // Who made the domain has closed its doors.
-  if (shared_->built_in && !shared_->joined) close_doors(*shared_, membership.reach);
+  if (!shared_->built_in) return;
+  // Who made the domain has closed its doors, for whatever reach the session has.
+  if (shared_->joined)
+    shared_->local_only = hears_loopback_only(domain_);
+  else
+    close_doors(*shared_, membership.reach);
 }
 
 void Participant::close_doors(Domain& shared, const Reach& reach) const {

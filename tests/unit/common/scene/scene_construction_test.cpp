@@ -143,7 +143,7 @@ INSTANTIATE_TEST_SUITE_P(Tools, ConstructionMistakes, testing::ValuesIn(std::vec
     {knife_tool(knife + "\nfixed = [\"+z\"]", "body = \"b\"\n"), "18:8", "body \"b\" is fixed; a tool moves"},
     {knife_tool(knife, "body = \"b\"\n", "3, 0, 4"), "16:10", "the path of device \"hand\" begins at [3, 0, 4], 5 mm from the tip of body \"b\"; begin within 1 mm of its at_mm = [0, 0, 0]"},
     {knife_tool(knife, "body = \"b\"\n[[tool]]\nname = \"u\"\ndevice = \"hand\"\nbody = \"b\"\n"), "21:8", "body \"b\" is tool \"t\" already; give each tool a body of its own"},
-    {knife_tool(knife, "shape = \"stick\"\n"), "17:9", "is \"stick\"; write \"point\", \"knife\" or \"needle\", or body = "},
+    {knife_tool(knife, "shape = \"rod\"\n"), "17:9", "is \"rod\"; write \"point\", \"stick\", \"knife\" or \"needle\", or body = "},
 }));
 
 TEST(SceneConstruction, ReadsKnifeAndNeedle) {

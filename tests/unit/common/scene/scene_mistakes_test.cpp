@@ -117,7 +117,9 @@ INSTANTIATE_TEST_SUITE_P(Volumes, SceneMistakes, testing::ValuesIn(std::vector<M
 }));
 
 INSTANTIATE_TEST_SUITE_P(Tools, SceneMistakes, testing::ValuesIn(std::vector<Mistake>{
-    {"shape = \"point\"", "shape = \"stick\"", "74:9", "\"shape\" in [[tool]] \"tip\" is \"stick\"; write \"point\", \"knife\" or \"needle\", or body = the name of a [[body]]"},
+    {"shape = \"point\"", "shape = \"rod\"", "74:9", "\"shape\" in [[tool]] \"tip\" is \"rod\"; write \"point\", \"stick\", \"knife\" or \"needle\", or body = the name of a [[body]]"},
+    {"shape = \"point\"", "shape = \"stick\"", "72:1", "[[tool]] \"tip\" lacks \"length_mm\"; give the stick a length"},
+    {"shape = \"point\"", "shape = \"point\"\nforce_model = \"tangent\"", "75:15", "a point feels planes; write \"norton\""},
     {"device = \"right\"", "device = \"rihgt\"", "75:10", "there is no [device.rihgt]; did you mean \"right\"?"},
     {"device = \"right\"\n", "", "72:1", "[[tool]] \"tip\" lacks \"device\""},
     {"stiffness_N_per_m = 500", "stiffness_N_per_m = 0", "78:21", "write a number above 0"},
