@@ -27,7 +27,8 @@ herr_t note(hid_t file, const char* name, const H5O_info_t* info, void* list) {
 
 std::vector<DatasetFacts> list_datasets(const std::string& path) {
   hdf5::hush();
-  const hdf5::Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  bool cut_short = false;
+  const hdf5::Handle file(hdf5::open_to_read(path, cut_short), H5Fclose);
   std::vector<DatasetFacts> found;
   if (!file.valid() || H5Ovisit2(file.get(), H5_INDEX_NAME, H5_ITER_INC, note, &found, H5O_INFO_BASIC) < 0) {
     throw InputError(path + ": is not an HDF5 file, or was cut short; write it again");

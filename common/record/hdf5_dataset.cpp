@@ -1,4 +1,6 @@
 // Datasets: whole and growing.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "common/record/hdf5_file.h"
@@ -75,11 +77,15 @@ void Hdf5File::write(const std::string& path, const Shape& shape, const T* data)
   const auto extents = extents_of(shape);
   const Handle space(H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr), H5Sclose);
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  if (product(shape) * sizeof(T) > deflate_from_bytes) {
+  const bool large = product(shape) * sizeof(T) > deflate_from_bytes;
+  const bool checked_chunks = mode_ == Mode::record && product(shape) > 0;
+  if (large || checked_chunks)
     H5Pset_chunk(creation.get(), static_cast<int>(extents.size()), chunk_of(shape, sizeof(T)).data());
+  if (large) {
     H5Pset_shuffle(creation.get());
     H5Pset_deflate(creation.get(), deflate_level);
   }
+  if (checked_chunks) H5Pset_fletcher32(creation.get());
   const Handle links = with_parents();
   const Handle dataset(H5Dcreate2(file_, path.c_str(), hdf5::type_of<T>(), space.get(), links.get(),
                                   creation.get(), H5P_DEFAULT),
@@ -108,6 +114,26 @@ std::vector<T> Hdf5File::read(const std::string& path) const {
 }
 
 template <class T>
+std::vector<T> Hdf5File::read_rows(const std::string& path, std::uint64_t first, std::uint64_t n) const {
+  hdf5::hush();
+  const Handle dataset = open_dataset(file_, path);
+  checked(dataset.get(), "there is no sound dataset " + path);
+  auto count = extents_of(shape_of(dataset.get()));
+  if (count.empty() || n > count[0] || first > count[0] - n) fail("dataset " + path + " has fewer rows");
+  std::vector<hsize_t> start(count.size(), 0);
+  start[0] = first;
+  count[0] = n;
+  std::vector<T> values(product({count.begin(), count.end()}));
+  if (values.empty()) return values;
+  const Handle space(H5Dget_space(dataset.get()), H5Sclose);
+  H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
+  const Handle memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose);
+  checked(H5Dread(dataset.get(), hdf5::type_of<T>(), memory.get(), space.get(), H5P_DEFAULT, values.data()),
+          "damaged or truncated in dataset " + path + fmt::format(", rows {} to {}", first, first + n - 1));
+  return values;
+}
+
+template <class T>
 void Hdf5File::make_series(const std::string& path, const Shape& row_shape) {
   hdf5::hush();
   Shape shape = row_shape;
@@ -120,6 +146,12 @@ void Hdf5File::make_series(const std::string& path, const Shape& row_shape) {
   const Handle space(H5Screate_simple(static_cast<int>(first.size()), first.data(), most.data()), H5Sclose);
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_chunk(creation.get(), static_cast<int>(chunk.size()), chunk.data());
+  // Only chunks that are written once are deflated: one that grows would leave its older self behind in the file.
+  if (chunk[0] == 1) {
+    H5Pset_shuffle(creation.get());
+    H5Pset_deflate(creation.get(), deflate_level);
+  }
+  H5Pset_fletcher32(creation.get());
   const Handle links = with_parents();
   Handle dataset(H5Dcreate2(file_, path.c_str(), hdf5::type_of<T>(), space.get(), links.get(), creation.get(),
                             H5P_DEFAULT),
@@ -129,28 +161,30 @@ void Hdf5File::make_series(const std::string& path, const Shape& row_shape) {
 }
 
 template <class T>
-void Hdf5File::append(const std::string& path, const T* row) {
+void Hdf5File::append(const std::string& path, const T* rows, std::uint64_t n_rows) {
   hdf5::hush();
+  if (n_rows == 0) return;
   const auto found = series_.find(path);
   if (found == series_.end()) fail("there is no series " + path);
   auto extents = extents_of(shape_of(found->second));
   std::vector<hsize_t> start(extents.size(), 0), count = extents;
   start[0] = extents[0];
-  count[0] = 1;
-  ++extents[0];
+  count[0] = n_rows;
+  extents[0] += n_rows;
   checked(H5Dset_extent(found->second, extents.data()), "cannot grow the series " + path);
   const Handle space(H5Dget_space(found->second), H5Sclose);
   H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
   const Handle memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose);
-  checked(H5Dwrite(found->second, hdf5::type_of<T>(), memory.get(), space.get(), H5P_DEFAULT, row),
+  checked(H5Dwrite(found->second, hdf5::type_of<T>(), memory.get(), space.get(), H5P_DEFAULT, rows),
           "cannot append to the series " + path);
 }
 
-#define PALPATE_INSTANTIATE(T)                                                  \
-  template void Hdf5File::write<T>(const std::string&, const Shape&, const T*); \
-  template std::vector<T> Hdf5File::read<T>(const std::string&) const;          \
-  template void Hdf5File::make_series<T>(const std::string&, const Shape&);     \
-  template void Hdf5File::append<T>(const std::string&, const T*);
+#define PALPATE_INSTANTIATE(T)                                                                            \
+  template void Hdf5File::write<T>(const std::string&, const Shape&, const T*);                           \
+  template std::vector<T> Hdf5File::read<T>(const std::string&) const;                                    \
+  template std::vector<T> Hdf5File::read_rows<T>(const std::string&, std::uint64_t, std::uint64_t) const; \
+  template void Hdf5File::make_series<T>(const std::string&, const Shape&);                               \
+  template void Hdf5File::append<T>(const std::string&, const T*, std::uint64_t);
 PALPATE_INSTANTIATE(float)
 PALPATE_INSTANTIATE(double)
 PALPATE_INSTANTIATE(std::int16_t)

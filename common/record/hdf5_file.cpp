@@ -4,25 +4,25 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "common/error/error.h"
 #include "common/record/hdf5_handle.h"
 
 namespace palpate {
 
 using hdf5::Handle;
 
-Hdf5File::Hdf5File(const std::string& path, Mode mode) : path_(path) {
+Hdf5File::Hdf5File(const std::string& path, Mode mode) : path_(path), mode_(mode) {
   hdf5::hush();
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  // No locks: a record may be looked at while it grows, and some file systems have none.
-  checked(H5Pset_file_locking(access.get(), false, true), "HDF5 cannot be set up");
-  if (mode == Mode::create) {
-    file_ = checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), "cannot be created");
+  if (mode == Mode::read) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored)) fail("there is no such file");
+    file_ = checked(hdf5::open_to_read(path, cut_short_), "is not an HDF5 file, or is truncated");
     return;
   }
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) fail("there is no such file");
-  file_ =
-      checked(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()), "is not an HDF5 file, or is truncated");
+  const Handle access = hdf5::file_access();
+  if (mode == Mode::record)
+    checked(H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110), "HDF5 cannot be set up");
+  file_ = checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), "cannot be created");
 }
 
 Hdf5File::~Hdf5File() {
@@ -51,6 +51,11 @@ bool Hdf5File::has(const std::string& path) const {
   return H5Oexists_by_name(file_, path.c_str(), H5P_DEFAULT) > 0;
 }
 
+void Hdf5File::start() {
+  hdf5::hush();
+  checked(H5Fstart_swmr_write(file_), "cannot be opened to readers");
+}
+
 void Hdf5File::flush() {
   hdf5::hush();
   checked(H5Fflush(file_, H5F_SCOPE_GLOBAL), "cannot be written to");
@@ -71,6 +76,17 @@ void Hdf5File::fail(const std::string& what) const { throw std::runtime_error(pa
 std::int64_t Hdf5File::checked(std::int64_t status, const std::string& what) const {
   if (status < 0) fail(what);
   return status;
+}
+
+void mend(const std::string& path) {
+  hdf5::hush();
+  const Handle access = hdf5::file_access();
+  const bool yes = true;  // as the tool h5clear of HDF5 does
+  H5Pset(access.get(), "clear_status_flags", &yes);
+  const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, access.get()), H5Fclose);
+  if (!file.valid())
+    throw InputError(
+        path + ": cannot be mended: it may not be written, is no record, or is damaged at its beginning");
 }
 
 }  // namespace palpate

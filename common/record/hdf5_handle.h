@@ -4,6 +4,7 @@
 #include <hdf5.h>
 
 #include <cstdint>
+#include <string>
 #include <type_traits>
 
 namespace palpate::hdf5 {
@@ -37,6 +38,21 @@ class Handle {
 inline void hush() noexcept {
   thread_local const bool done = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr) >= 0;
   static_cast<void>(done);
+}
+
+/// How files are opened. No locks: a record may be looked at while it grows, and some file systems have none.
+inline Handle file_access() {
+  Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_file_locking(access.get(), false, true);
+  return access;
+}
+
+/// Opens a file to read, also one whose writer has not closed it. Negative: cannot be opened
+inline hid_t open_to_read(const std::string& path, bool& cut_short) {
+  const Handle access = file_access();
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get());
+  cut_short = file < 0;
+  return cut_short ? H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access.get()) : file;
 }
 
 /// The memory type of T.

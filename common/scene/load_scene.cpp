@@ -19,22 +19,6 @@ namespace {
 
 constexpr std::uintmax_t most_bytes = 1024 * 1024;
 
-std::string text_of_file(const std::string& path) {
-  namespace fs = std::filesystem;
-  std::error_code error;
-  if (!fs::exists(path, error))
-    throw InputError(path + ": no such file; give the path of a scene file (TOML)");
-  if (!fs::is_regular_file(path, error))
-    throw InputError(path + ": not a file; give the path of a scene file (TOML)");
-  if (fs::file_size(path, error) >= most_bytes || error)
-    throw InputError(path + ": too large for a scene; scene files are below 1 MiB of TOML");
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) throw InputError(path + ": cannot be read; check its permissions");
-  return text.str();
-}
-
 void read_root(toml::table& table, ReadContext& context) {
   auto root = TableReader::of_file(table, context.scene.path, context.complaints);
   auto& scene = context.scene;
@@ -57,6 +41,28 @@ void read_root(toml::table& table, ReadContext& context) {
 
 }  // namespace
 
+std::string text_of_file(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (!fs::exists(path, error))
+    throw InputError(path + ": no such file; give the path of a scene file (TOML)");
+  if (!fs::is_regular_file(path, error))
+    throw InputError(path + ": not a file; give the path of a scene file (TOML)");
+  if (fs::file_size(path, error) >= most_bytes || error)
+    throw InputError(path + ": too large for a scene; scene files are below 1 MiB of TOML");
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (!file) throw InputError(path + ": cannot be read; check its permissions");
+  return text.str();
+}
+
+std::uint64_t scene_checksum(std::string_view text, const std::vector<std::string>& settings) {
+  std::uint64_t checksum = hash_text(text);
+  for (const auto& setting : settings) checksum = hash_text("\n" + setting, checksum);
+  return checksum;
+}
+
 Scene load_scene(const std::string& path, const std::vector<std::string>& settings) {
   return parse_scene(text_of_file(path), path, settings);
 }
@@ -65,8 +71,7 @@ Scene parse_scene(std::string_view text, const std::string& path, const std::vec
   auto table = table_of_text(text, path);
   Scene scene;
   scene.path = path;
-  scene.checksum = hash_text(text);
-  for (const auto& setting : settings) scene.checksum = hash_text("\n" + setting, scene.checksum);
+  scene.checksum = scene_checksum(text, settings);
   Complaints complaints;
   apply_settings(table, settings, complaints);
   ReadContext context{scene, complaints};

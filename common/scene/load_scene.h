@@ -2,6 +2,7 @@
 // The strict reader of scene files. Keys carry units, unknown keys are errors, and every mistake in the file is
 // reported in one go, each as "file:line:column: what; what would be right".
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,5 +21,11 @@ Scene load_scene(const std::string& path, const std::vector<std::string>& settin
 
 /// The same from text; `path` only names the file in messages.
 Scene parse_scene(std::string_view text, const std::string& path, const std::vector<std::string>& settings = {});
+
+/// The text of a scene file. @throws InputError: none there, too large, cannot be read
+std::string text_of_file(const std::string& path);
+
+/// Scene::checksum.
+std::uint64_t scene_checksum(std::string_view text, const std::vector<std::string>& settings);
 
 }  // namespace palpate

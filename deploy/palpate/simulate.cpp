@@ -1,7 +1,6 @@
 // palpate simulate: a scene in simulated time, as fast as it goes, the same bits every time.
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstdio>
 
@@ -11,6 +10,7 @@
 #include "common/scene/load_scene.h"
 #include "deploy/palpate/out_folder.h"
 #include "deploy/palpate/plotter.h"
+#include "deploy/palpate/progress.h"
 #include "deploy/palpate/subcommands.h"
 #include "deploy/palpate/virtual_session.h"
 
@@ -27,15 +27,6 @@ struct SimulateOptions {
   bool no_pictures = false;
 };
 
-/// A bar on a terminal, nothing elsewhere.
-void show_progress(double t, double seconds) {
-  if (isatty(STDERR_FILENO) == 0) return;
-  const int done = static_cast<int>(40 * t / seconds);
-  std::fprintf(stderr, "\r  [%-40s] %.2f of %.2f s", std::string(static_cast<std::size_t>(done), '=').c_str(),
-               t, seconds);
-  if (t >= seconds) std::fputc('\n', stderr);
-}
-
 int simulate(SimulateOptions options) {
   if (options.threads >= 0) options.settings.push_back(fmt::format("physics.threads={}", options.threads));
   const Scene scene = load_scene(options.scene, options.settings);
@@ -45,7 +36,7 @@ int simulate(SimulateOptions options) {
   VirtualSession session(scene, {options.device, !options.no_pictures});
   prepare_out(out);
   install_stop_handlers();
-  session.leave_in(out);
+  session.leave_in(out, source_of(scene, options.settings));
   for (const auto& remark : session.remarks()) fmt::print(stderr, "palpate: {}\n", remark);
   session.run(seconds, [&](double t) { show_progress(t, seconds); });
   const nlohmann::json summary = session.finish();

@@ -14,5 +14,6 @@ void add_info(CLI::App& app, int& exit_code);
 void add_plot(CLI::App& app, int& exit_code);
 void add_doctor(CLI::App& app, int& exit_code);
 void add_reset(CLI::App& app, int& exit_code);
+void add_replay(CLI::App& app, int& exit_code);
 
 }  // namespace palpate::deploy

@@ -8,12 +8,11 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "common/scene/scene.h"
+#include "common/scene/scene_source.h"
+#include "deploy/palpate/virtual_eye.h"
 #include "haptic_node/session.h"
-#include "physics_node/appearance/appearance.h"
 #include "physics_node/record/recorder.h"
 #include "physics_node/world.h"
-#include "render_node/picture.h"
 
 namespace palpate::deploy {
 
@@ -29,7 +28,8 @@ class VirtualSession {
   VirtualSession(const Scene& scene, const VirtualOptions& options);
 
   /// From now on the record and the pictures go to this folder. Before run().
-  void leave_in(const std::filesystem::path& out);
+  /// @param source  what the scene was read from
+  void leave_in(const std::filesystem::path& out, const SceneSource& source);
 
   /// What a person should know about this scene: one line each.
   const std::vector<std::string>& remarks() const { return world_.remarks(); }
@@ -44,11 +44,9 @@ class VirtualSession {
   static std::int64_t clock(void* self) { return static_cast<VirtualSession*>(self)->now_ns_; }
   void tick_hands(std::int64_t until_ns);
   void tell_hands();
-  void show();
 
   Scene scene_;
   VirtualOptions options_;
-  std::filesystem::path out_;
   physics::World world_;
   std::int64_t now_ns_ = 1'000'000'000;  // not zero: zero means "never" in messages
   std::vector<std::unique_ptr<haptic::HapticSession>> hands_;
@@ -56,11 +54,8 @@ class VirtualSession {
   std::vector<ContactPatch> patches_;
   std::vector<ToolWrench> wrenches_;
   std::vector<std::optional<ToolState>> states_;
-  std::vector<HapticTrace> traces_;
   std::unique_ptr<physics::Recorder> recorder_;
-  std::unique_ptr<physics::Appearance> appearance_;
-  std::unique_ptr<render::Picture> picture_;
-  int frames_ = 0;
+  std::unique_ptr<VirtualEye> eye_;
   double wall_s_ = 0;
 };
 

@@ -44,7 +44,8 @@ PhysicsLoop::PhysicsLoop(const NodeOptions& options, const Scene& scene)
   appearance_ = std::make_unique<Appearance>(*world_, scene_.render.threshold, Remake::beside);
   if (!options_.out.empty()) {
     std::filesystem::create_directories(options_.out + "/parts");
-    recorder_ = std::make_unique<Recorder>(*world_, options_.out, Recorder::WhenBehind::drop);
+    recorder_ = std::make_unique<Recorder>(*world_, source_of(scene_, options_.settings), options_.out,
+                                           Recorder::WhenBehind::drop);
   }
   Index masses = 0;
   for (std::size_t b = 0; b < world_->n_bodies(); ++b) masses += world_->body(b).body().lattice.n_masses();
@@ -78,6 +79,7 @@ bool PhysicsLoop::take_tools() {
 void PhysicsLoop::take_commands() {
   Command command;
   while (wire_.commands.take(command)) {
+    if (recorder_) recorder_->command(*world_, command);
     switch (command.kind) {
       case CommandKind::pause:
         paused_ = true;
@@ -150,6 +152,7 @@ void PhysicsLoop::publish_status(NodePhase phase) {
     last_status_frames_ = world_->report().frames;
   }
   last_status_ns_ = now;
+  if (recorder_) recorder_->status(status_);
   wire_.status.write(status_);
 }
 
@@ -173,11 +176,15 @@ int PhysicsLoop::run() {
     if (!paused_) world_->frame(fresh_);
     if (world_->has_stopped()) break;  // no answer is better than one from a world that stands still
     publish_hand();
-    if (recorder_ && !paused_) recorder_->frame(*world_);
+    if (recorder_ && !paused_) recorder_->frame(*world_, fresh_);
     const std::int64_t now = now_ns();
     if (now >= next_eye) {
       publish_eye();
       next_eye = now + eye_period_ns;
+    }
+    if (recorder_ && recorder_->failed() && !record_failed_) {
+      record_failed_ = true;
+      log_error("the record can no longer be written; the session goes on without it");
     }
     if (now >= next_status) {
       publish_status(NodePhase::running);
@@ -185,19 +192,25 @@ int PhysicsLoop::run() {
       if (newcomer_.must_go()) stop_ = unwelcome_ = true;
     }
   }
-  leave();
+  const bool left = leave();
   if (unwelcome_) return exit_mistake;
-  if (!world_->has_stopped()) return 0;
+  if (!world_->has_stopped()) return left ? exit_ok : exit_failed;
   log_error("{}", *world_->stopped());
   return exit_failed;
 }
 
-void PhysicsLoop::leave() {
+/// @return false if something of the record was lost
+bool PhysicsLoop::leave() {
   publish_status(world_->has_stopped() ? NodePhase::failed : NodePhase::stopping);
   const double wall = seconds_from_ns(now_ns() - start_ns_);
-  if (!recorder_) return;
-  recorder_->finish();
+  if (!recorder_) return true;
+  try {
+    recorder_->finish(*world_);
+  } catch (const std::runtime_error& lost) {
+    log_error("the record is not complete: {}", lost.what());
+  }
   write_json(options_.out + "/parts/physics.json", physics_summary(*world_, recorder_.get(), wall));
+  return !recorder_->failed();
 }
 
 }  // namespace palpate::physics

@@ -26,7 +26,7 @@ class PhysicsLoop {
   void publish_hand();
   void publish_eye();
   void publish_status(NodePhase phase);
-  void leave();
+  bool leave();
 
   NodeOptions options_;
   Scene scene_;
@@ -47,6 +47,7 @@ class PhysicsLoop {
   bool paused_ = false;
   bool stop_ = false;
   bool unwelcome_ = false;  // in a session of another scene or version
+  bool record_failed_ = false;  // said so
   int watchers_ = 0;
   std::int64_t start_ns_ = 0;
 

@@ -42,7 +42,7 @@ std::FILE* Recorder::make_csv(const std::string& name, const char* heading) {
   return file;
 }
 
-void Recorder::make_files(const World& world) {
+void Recorder::make_files(const World& world, const SceneSource& source) {
   for (const auto& name : tool_names_)
     make_csv(trace_name(name), "t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm,contacts,"
              "raw_fx_N,raw_fy_N,raw_fz_N,raw_mx_Nm,raw_my_Nm,raw_mz_Nm");
@@ -51,8 +51,8 @@ void Recorder::make_files(const World& world) {
         make_csv("energy.csv",
                  "t_s,kinetic_J,elastic_J,gravitational_J,dissipated_J,plastic_J,numerical_J,broken_J,"
                  "guard_J,tool_work_J,contact_J");
-  hdf5_ = std::make_unique<Hdf5File>(folder_ + "/record.h5", Hdf5File::Mode::create);
-  hdf5_->set_text("palpate_record", "1");
+  hdf5_ = std::make_unique<Hdf5File>(folder_ + "/record.h5", Hdf5File::Mode::record);
+  hdf5_->set_text("palpate_record", "2");
   hdf5_->set_text("title", world.scene().title);
   hdf5_->set_text("commit", commit());
   hdf5_->set_text("scene_checksum", hex_of(world.scene().checksum));
@@ -76,6 +76,8 @@ void Recorder::make_files(const World& world) {
   }
   for (const auto& name : tool_names_)
     hdf5_->make_series<double>("/tools/" + name + "/t_p_force_moment", {10});
+  session_ = std::make_unique<SessionLog>(world, source, *hdf5_);
+  hdf5_->start();
 }
 
 void Recorder::write_rows() {
@@ -117,18 +119,27 @@ void Recorder::write_snapshots() {
   }
 }
 
+void Recorder::flush() {
+  session_->flush();
+  for (std::size_t n = 0; n < csv_.size(); ++n) {
+    if (std::fflush(csv_[n]) != 0) throw std::runtime_error(csv_names_[n] + ": " + std::strerror(errno));
+  }
+  if (times_shown_ != times_.size()) write_xdmf();
+  times_shown_ = times_.size();
+}
+
 void Recorder::work() noexcept {
   try {
     auto flushed = std::chrono::steady_clock::now();
     for (bool last = false; !last;) {
       last = stop_;
+      session_->write();
       write_rows();
       write_energy();
       write_snapshots();
       const auto now = std::chrono::steady_clock::now();
-      if (now - flushed > std::chrono::seconds(1)) {
-        hdf5_->flush();
-        for (std::FILE* file : csv_) std::fflush(file);
+      if (last || now - flushed > std::chrono::seconds(1)) {
+        flush();
         flushed = now;
       }
       if (!last) std::this_thread::sleep_for(std::chrono::milliseconds(2));
@@ -139,17 +150,14 @@ void Recorder::work() noexcept {
   }
 }
 
-void Recorder::finish() {
+void Recorder::finish(const World& world) {
   if (finished_) return;
   finished_ = true;
+  session_->end(world);
   stop_ = true;
   thread_.join();
   if (failed_) throw std::runtime_error(failure_);
   hdf5_->close();
-  for (std::size_t n = 0; n < csv_.size(); ++n) {
-    if (std::fflush(csv_[n]) != 0) throw std::runtime_error(csv_names_[n] + ": " + std::strerror(errno));
-  }
-  if (!times_.empty()) write_xdmf();
 }
 
 void Recorder::write_xdmf() const {

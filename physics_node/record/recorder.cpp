@@ -7,7 +7,8 @@
 #include "common/message/vec3.h"
 
 namespace palpate::physics {
-Recorder::Recorder(const World& world, const std::string& folder, WhenBehind when_behind)
+Recorder::Recorder(const World& world, const SceneSource& source, const std::string& folder,
+                   WhenBehind when_behind)
     : folder_(folder),
       when_behind_(when_behind),
       spec_(world.scene().record),
@@ -15,7 +16,7 @@ Recorder::Recorder(const World& world, const std::string& folder, WhenBehind whe
       energy_rows_(std::make_unique<SpscRing<EnergyRow, 1024>>()) {
   for (const auto& tool : world.scene().tools) tool_names_.push_back(tool.name);
   tallies_.resize(tool_names_.size());
-  make_files(world);
+  make_files(world, source);
   if (spec_.positions) {
     for (std::size_t s = 0; s < n_snapshots; ++s) {
       auto snapshot = std::make_unique<Snapshot>();
@@ -43,7 +44,10 @@ double Recorder::force_rms(std::size_t tool) const {
   return tally.rows == 0 ? 0 : std::sqrt(tally.squares / static_cast<double>(tally.rows));
 }
 
-void Recorder::frame(const World& world) noexcept {
+void Recorder::frame(const World& world, std::span<const std::optional<ToolState>> hands) noexcept {
+  while (!session_->has_room() && wait()) {
+  }
+  session_->frame(world, hands);
   note_tools(world);
   if (spec_.energy) note_energy(world);
   if (spec_.positions) note_positions(world);

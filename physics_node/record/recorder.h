@@ -1,6 +1,6 @@
 #pragma once
-// Leaves a run behind: a CSV per tool, energy.csv, record.h5 with positions and tools, record.xdmf for viewers.
-// frame() only copies what is due into buffers taken at the start; a thread of its own writes the files.
+// Leaves a run behind: a CSV per tool, energy.csv, record.h5 with positions, tools and all that is needed to run it again,
+// record.xdmf for viewers. Killed at any moment, it leaves files that are whole up to one second ago. frame() only copies what is due into buffers taken at the start; a thread of its own writes the files.
 
 #include <atomic>
 #include <cstdint>
@@ -11,6 +11,7 @@
 
 #include "common/exchange/spsc_ring.h"
 #include "common/record/hdf5_file.h"
+#include "physics_node/record/session_log.h"
 #include "physics_node/surface/surface.h"
 #include "physics_node/world.h"
 
@@ -20,18 +21,27 @@ class Recorder {
  public:
   enum class WhenBehind { drop, wait };  // a live run drops and counts; simulated time waits
 
+  /// @param source  what the scene was read from
   /// @param folder  must exist; tool_NAME.csv, energy.csv, record.h5 and record.xdmf are made in it
   /// @throws InputError or std::runtime_error where files cannot be made
-  Recorder(const World& world, const std::string& folder, WhenBehind when_behind);
+  Recorder(const World& world, const SceneSource& source, const std::string& folder, WhenBehind when_behind);
   ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// After every frame. Allocates nothing.
-  void frame(const World& world) noexcept;
+  // These allocate nothing.
+
+  /// After every frame.
+  /// @param hands  what the frame got
+  void frame(const World& world, std::span<const std::optional<ToolState>> hands) noexcept;
+  /// Before the frame from which on it acts.
+  void command(const World& world, const Command& command) noexcept { session_->command(world, command); }
+  void status(const NodeStatus& status) noexcept { session_->status(status); }
+  /// The disk took no more: what came since is lost, and finish() will say so.
+  bool failed() const noexcept { return failed_; }
 
   /// Writes what is left, closes the files and writes record.xdmf. @throws std::runtime_error: disk full
-  void finish();
+  void finish(const World& world);
 
   /// CSV of a tool, relative to the folder.
   static std::string trace_name(const std::string& tool);
@@ -66,7 +76,7 @@ class Recorder {
   };
   static constexpr std::size_t n_snapshots = 8;
 
-  void make_files(const World& world);
+  void make_files(const World& world, const SceneSource& source);
   std::FILE* make_csv(const std::string& name, const char* heading);
   void note_tools(const World& world) noexcept;
   void note_energy(const World& world) noexcept;
@@ -78,6 +88,7 @@ class Recorder {
   void write_rows();
   void write_energy();
   void write_snapshots();
+  void flush();
   void work() noexcept;
   void write_xdmf() const;
 
@@ -93,12 +104,14 @@ class Recorder {
   std::vector<std::string> csv_names_;  // their paths
   std::FILE* energy_csv_ = nullptr;     // one of csv_
   std::unique_ptr<Hdf5File> hdf5_;
+  std::unique_ptr<SessionLog> session_;
   std::unique_ptr<SpscRing<ToolRow, 16384>> rows_;
   std::unique_ptr<SpscRing<EnergyRow, 1024>> energy_rows_;
   std::vector<std::unique_ptr<Snapshot>> snapshots_;
   std::size_t next_snapshot_ = 0;  // frame()'s
   std::size_t next_written_ = 0;   // the thread's
   std::vector<double> times_;      // of the snapshots written
+  std::size_t times_shown_ = 0;    // in record.xdmf
   std::int64_t snapshots_due_ = 0;
   std::int64_t energies_due_ = 0;
   std::uint64_t dropped_ = 0;

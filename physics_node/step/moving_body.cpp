@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/math/hash.h"
+#include "common/math/state_hash.h"
 #include "physics_node/step/bounce.h"
 #include "physics_node/step/damper_impulse.h"
 #include "physics_node/step/element_step.h"
@@ -226,14 +226,14 @@ class LatticeBody final : public MovingBody {
       const auto first = static_cast<std::size_t>(row.first);
       const auto count = static_cast<std::size_t>(row.count);
       for (std::size_t a = 0; a < 3; ++a) {
-        seed = hash_bytes(&state_.u[a][first], count * sizeof(Real), seed);
-        seed = hash_bytes(&state_.v[a][first], count * sizeof(Real), seed);
+        seed = hash_state(&state_.u[a][first], count * sizeof(Real), seed);
+        seed = hash_state(&state_.v[a][first], count * sizeof(Real), seed);
       }
-      seed = hash_bytes(&state_.mask[first], count * sizeof(Mask), seed);
+      seed = hash_state(&state_.mask[first], count * sizeof(Mask), seed);
       if (!any_yields(body_)) continue;
       for (std::size_t d = 0; d < static_cast<std::size_t>(body_.lattice.n_half); ++d) {
-        seed = hash_bytes(&state_.l_c[d][first], count * sizeof(Real), seed);
-        seed = hash_bytes(&state_.hardening[d][first], count * sizeof(Real), seed);
+        seed = hash_state(&state_.l_c[d][first], count * sizeof(Real), seed);
+        seed = hash_state(&state_.hardening[d][first], count * sizeof(Real), seed);
       }
     }
     return seed;

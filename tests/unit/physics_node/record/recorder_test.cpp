@@ -23,12 +23,13 @@ class Recording : public testing::Test {
     Recipe recipe = pressed_slab_recipe();
     recipe.world += "[record]\nwhat = [\"positions\", \"forces\", \"energy\"]\nrate_Hz = 50\n";
     World world(scene_of(recipe));
-    Recorder recorder(world, folder_.path(), Recorder::WhenBehind::wait);
+    Recorder recorder(world, SceneSource{}, folder_.path(), Recorder::WhenBehind::wait);
     for (int n = 0; n < n_frames; ++n) {
-      run(world, steady_hand({0, 0, 1.5}), 1);
-      recorder.frame(world);
+      const auto hand = steady_hand({0, 0, 1.5});
+      run(world, hand, 1);
+      recorder.frame(world, std::span(&hand, 1));
     }
-    recorder.finish();
+    recorder.finish(world);
     n_masses_ = static_cast<std::uint64_t>(world.body(0).body().lattice.n_masses());
     top_ = world.body(0).body().lattice.masses.back();
     last_force_ = world.tool(0).force();
@@ -111,7 +112,7 @@ TEST_F(Recording, OpensInAViewer) {
 
 TEST(Recorder, SaysWhereItCannotWrite) {
   const World world(pressed_slab());
-  EXPECT_THROW(Recorder(world, "/nowhere/at/all", Recorder::WhenBehind::drop), std::runtime_error);
+  EXPECT_THROW(Recorder(world, SceneSource{}, "/nowhere/at/all", Recorder::WhenBehind::drop), std::runtime_error);
 }
 
 }  // namespace

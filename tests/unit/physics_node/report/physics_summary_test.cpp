@@ -24,11 +24,11 @@ void expect_no_null(const json& part, const std::string& where) {
 TEST(PhysicsSummary, HasTheKeysPromised) {
   const palpate::test::ScratchFolder folder;
   World world(pressed_slab());
-  Recorder recorder(world, folder.path(), Recorder::WhenBehind::wait);
+  Recorder recorder(world, SceneSource{}, folder.path(), Recorder::WhenBehind::wait);
   const auto hand = steady_hand({0, 0, 1.5});
   for (int n = 0; n < 1000; ++n) {
     run(world, hand, 1);
-    recorder.frame(world);
+    recorder.frame(world, std::span(&hand, 1));
   }
   const json summary = physics_summary(world, &recorder, 2.0);
   expect_no_null(summary, "summary");

@@ -1,0 +1,43 @@
+#pragma once
+// Pictures of a world that runs in this process, in simulated time, into a folder.
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "common/scene/scene.h"
+#include "physics_node/appearance/appearance.h"
+#include "physics_node/world.h"
+#include "render_node/picture.h"
+
+namespace palpate::deploy {
+
+class VirtualEye {
+ public:
+  VirtualEye(const Scene& scene, const physics::World& world);
+
+  /// From now on pictures go to `folder`, which is made.
+  void leave_in(const std::filesystem::path& folder);
+
+  /// What a hand did in one of its ticks.
+  void take(std::uint32_t tool, const TraceSample& sample);
+  /// After every frame: draws when a picture is due.
+  void frame(physics::World& world, std::int64_t now_ns);
+
+  /// The part `render` of summary.json.
+  nlohmann::json summary(double wall_s) const;
+
+ private:
+  void draw(physics::World& world, std::int64_t now_ns);
+  void pass(HapticTrace& trace);
+
+  physics::Appearance appearance_;
+  render::Picture picture_;
+  std::vector<HapticTrace> traces_;
+  std::filesystem::path folder_;
+  std::int64_t every_ = 1;  // frames of the world from picture to picture
+  std::int64_t seen_ = 0;
+  int frames_ = 0;
+};
+
+}  // namespace palpate::deploy

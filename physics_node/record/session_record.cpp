@@ -1,0 +1,141 @@
+#include "physics_node/record/session_record.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "common/error/error.h"
+#include "common/record/check_file.h"
+#include "common/scene/load_scene.h"
+
+namespace palpate::physics {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::uint64_t block_rows = 4096;
+constexpr std::uint64_t index_width = 7, state_width = 25;  // of SessionLog
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+ToolState state_of(std::uint32_t tool, const std::uint64_t* index, const double* numbers) {
+  ToolState state;
+  state.tool = tool;
+  state.tick = index[2];
+  state.stamp_ns = static_cast<std::int64_t>(index[3]);
+  state.contact_set = index[4];
+  state.buttons = static_cast<std::uint32_t>(index[5]);
+  state.engaged = static_cast<std::uint32_t>(index[6]);
+  const auto take = [&](auto& part) {
+    std::copy_n(numbers, part.size(), part.begin());
+    numbers += part.size();
+  };
+  take(state.p_WT);
+  take(state.q_WT);
+  for (Array3* part :
+       {&state.v_WT, &state.w_WT, &state.proxy, &state.force_on_hand, &state.force_now, &state.torque_now})
+    take(*part);
+  return state;
+}
+
+void write_bytes(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
+  std::ofstream out(path, std::ios::binary);
+  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  out.flush();
+  if (!out) throw InputError(path.string() + ": cannot be written; is the disk full?");
+}
+
+}  // namespace
+
+SessionRecord::SessionRecord(const std::string& path) : path_(path) {
+  if (!fs::is_regular_file(path)) throw InputError(path + ": no such file; give the record.h5 of a run");
+  check_file(path);
+  try {
+    file_ = std::make_unique<Hdf5File>(path, Hdf5File::Mode::read);
+    if (!file_->has_attribute("palpate_record") || !file_->has("/session/hashes"))
+      throw InputError(path + ": is no record of a session; give the record.h5 of palpate run or palpate simulate");
+    commit_ = file_->text("commit");
+    const auto flushed = file_->read<std::uint64_t>("/session/flushed");
+    frames_ = flushed.empty() ? 0 : flushed.back();
+    const auto hashes = file_->read<std::uint64_t>("/session/hashes");
+    for (std::size_t n = 0; n + 1 < hashes.size(); n += 2)
+      if (hashes[n] <= frames_) hashes_.push_back({hashes[n], hashes[n + 1]});
+    const auto commands = file_->read<std::uint64_t>("/session/commands");
+    const auto values = file_->read<double>("/session/command_values");
+    for (std::size_t n = 0; n < std::min(values.size(), commands.size() / 3); ++n) {
+      RecordedCommand recorded{commands[3 * n], {}};
+      recorded.command.kind = static_cast<CommandKind>(commands[3 * n + 1]);
+      recorded.command.id = commands[3 * n + 2];
+      recorded.command.value = values[n];
+      if (recorded.frame < frames_) commands_.push_back(recorded);
+    }
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::runtime_error& damaged) {
+    throw InputError(damaged.what());
+  }
+}
+
+std::string SessionRecord::text_of(const std::string& dataset) const {
+  const auto bytes = file_->read<std::uint8_t>(dataset);
+  return {bytes.begin(), bytes.end()};
+}
+
+SessionRecord::LaidOut SessionRecord::lay_out(const std::string& folder) const {
+  SceneSource source{.text = text_of("/scene/text"), .settings = lines_of(text_of("/scene/settings")), .files = {}};
+  const auto files = lines_of(text_of("/scene/files"));
+  for (std::size_t f = 0; f < files.size(); ++f) {
+    std::istringstream line(files[f]);
+    std::string body, kind, path;
+    std::getline(std::getline(std::getline(line, body, '\t'), kind, '\t'), path);
+    const std::string dataset = fmt::format("/scene/file_{}", f);
+    if (file_->has(dataset)) {
+      path = (fs::path(folder) / fmt::format("file_{:05}{}", f, fs::path(path).extension().string())).string();
+      write_bytes(path, file_->read<std::uint8_t>(dataset));
+    }
+    source.files.push_back({body, path, kind == "slice"});
+  }
+  auto settings = source.settings;
+  for (auto& setting : settings_for_files(source)) settings.push_back(std::move(setting));
+  Scene scene = parse_scene(source.text, path_ + ":/scene/text", settings);
+  return {std::move(scene), std::move(source)};
+}
+
+void SessionRecord::read_block(const std::string& tool, Track& track) const {
+  const std::string base = "/session/inputs/" + tool;
+  track.block_first = track.next;
+  const std::uint64_t n = std::min(block_rows, track.n_rows - track.next);
+  track.index = file_->read_rows<std::uint64_t>(base + "/index", track.next, n);
+  track.state = file_->read_rows<double>(base + "/state", track.next, n);
+}
+
+void SessionRecord::inputs(std::uint64_t frame, const std::vector<ToolSpec>& specs,
+                           std::span<std::optional<ToolState>> tools) {
+  if (frame == 0) tracks_.assign(specs.size(), {});
+  for (std::size_t n = 0; n < tracks_.size(); ++n) {
+    Track& track = tracks_[n];
+    if (frame == 0) {
+      const std::string base = "/session/inputs/" + specs[n].name;
+      track.n_rows = std::min(file_->shape(base + "/index").at(0), file_->shape(base + "/state").at(0));
+    }
+    while (track.next < track.n_rows) {
+      if (track.next >= track.block_first + track.index.size() / index_width) read_block(specs[n].name, track);
+      const std::uint64_t row = track.next - track.block_first;
+      const std::uint64_t* index = &track.index[row * index_width];
+      if (index[0] > frame) break;
+      track.now.reset();
+      if (index[1] != 0) track.now = state_of(static_cast<std::uint32_t>(n), index, &track.state[row * state_width]);
+      ++track.next;
+    }
+    tools[n] = track.now;
+  }
+}
+
+}  // namespace palpate::physics
