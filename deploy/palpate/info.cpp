@@ -10,6 +10,7 @@
 
 #include "common/error/error.h"
 #include "deploy/palpate/subcommands.h"
+#include "physics_node/record/mend_record.h"
 
 namespace palpate::deploy {
 namespace {
@@ -31,8 +32,11 @@ std::string info(const std::string& path) {
 void add_info(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("info", "say what is in a volume, record or scene");
   auto path = std::make_shared<std::string>();
+  auto mend = std::make_shared<bool>(false);
   command->add_option("file", *path, "volume or record (.h5), or scene (.toml)")->required();
-  command->callback([path, &exit_code] {
+  command->add_flag("--mend", *mend, "let other programs open a record whose session was killed");
+  command->callback([path, mend, &exit_code] {
+    if (*mend) physics::mend_record(*path);
     std::fputs(info(*path).c_str(), stdout);
     exit_code = exit_ok;
   });

@@ -88,7 +88,8 @@ class Rerun {
 
   /// @return exit code
   int run() {
-    const double whole = std::min(options_.until, static_cast<double>(record_.frames()) * world_->frame_seconds());
+    const double whole =
+        std::min(options_.until, static_cast<double>(record_.frames()) * world_->frame_seconds());
     const auto begin = std::chrono::steady_clock::now();
     while (!stop_requested() && world_->t() < whole - 1e-9 && replay_->frame()) note(whole);
     const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -123,10 +124,12 @@ class Rerun {
     if (const auto& difference = replay_->difference()) {
       const std::string own = commit();
       fmt::print(stderr,
-                 "palpate: {}: the state differs after {:.3f} s (frame {}): recorded {}, now {}; {}\n", record_.path(),
-                 difference->t, difference->frame, hex_of(difference->recorded), hex_of(difference->found),
-                 own == record_.commit() ? "both were computed by commit " + own
-                                         : fmt::format("the record is of commit {}, this palpate of {}", record_.commit(), own));
+                 "palpate: {}: the state differs after {:.3f} s (frame {}): recorded {}, now {}; {}\n",
+                 record_.path(), difference->t, difference->frame, hex_of(difference->recorded),
+                 hex_of(difference->found),
+                 own == record_.commit()
+                     ? "both were computed by commit " + own
+                     : fmt::format("the record is of commit {}, this palpate of {}", record_.commit(), own));
       return exit_failed;
     }
     fmt::print("{:.3f} s run again in {:.2f} s, {} states compared: all as recorded\n", world_->t(), wall_s,
@@ -149,7 +152,8 @@ int replay(ReplayOptions options) {
   if (options.pictures && options.out.empty()) options.out = (fs::path("out") / "replay").string();
   std::error_code ignored;
   if (!options.out.empty() && fs::equivalent(fs::path(options.out) / "record.h5", options.record, ignored))
-    throw InputError(options.out + ": holds the record that is to be run again; give another folder with --out");
+    throw InputError(options.out +
+                     ": holds the record that is to be run again; give another folder with --out");
   install_stop_handlers();
   return Rerun(options).run();
 }
@@ -161,7 +165,8 @@ void add_replay(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("replay", "run a recorded session again and compare its states");
   command->add_option("record", options->record, "record.h5 of a run")->required();
   command->add_option("--until", options->until, "simulated time [s]")->check(CLI::PositiveNumber);
-  command->add_option("--threads", options->threads, "threads of physics, 0: as many as pay")->check(CLI::Range(0, 256));
+  command->add_option("--threads", options->threads, "threads of physics, 0: as many as pay")
+      ->check(CLI::Range(0, 256));
   command->add_option("--out", options->out, "folder for record, traces and plots of this run");
   command->add_flag("--frames", options->pictures, "draw pictures (into out/replay, if no folder is given)");
   command->callback([options, &exit_code] { exit_code = replay(*options); });

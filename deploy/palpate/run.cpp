@@ -22,6 +22,7 @@
 #include "deploy/palpate/subcommands.h"
 #include "deploy/palpate/summary.h"
 #include "haptic_node/device/driver_library.h"
+#include "physics_node/record/mend_record.h"
 
 namespace palpate::deploy {
 namespace fs = std::filesystem;
@@ -93,6 +94,16 @@ void require_drivers(const Scene& scene, const RunOptions& options, const Sessio
   }
 }
 
+/// A node that was killed has not closed its record. What cannot be mended is left as it is: palpate info says why.
+void mend_left_record(const fs::path& record) {
+  try {
+    if (fs::exists(record) && physics::mend_record(record.string()))
+      std::fprintf(stderr, "palpate: %s was cut short; palpate replay runs again what it holds\n", record.c_str());
+  } catch (const std::exception& damaged) {
+    std::fprintf(stderr, "palpate: %s\n", damaged.what());
+  }
+}
+
 void say_where(const fs::path& out, const fs::path& summary, bool plotted) {
   std::printf("summary  %s\n", summary.c_str());
   if (plotted && fs::exists(out / "force.png")) std::printf("plot     %s\n", (out / "force.png").c_str());
@@ -129,6 +140,7 @@ int run(const RunOptions& options) {
 
   // 3. what it leaves
   if (result.exit_code == exit_mistake) return exit_mistake;
+  if (result.exit_code != exit_ok) mend_left_record(out / "record.h5");
   const fs::path summary = write_summary(out, scene, result);
   const bool plotted = !result.interrupted && draw_plots(out);
   say_where(out, summary, plotted);

@@ -34,7 +34,8 @@ void VirtualSession::tick_hands(std::int64_t until_ns) {
     while (next_tick_ns_[n] < until_ns) {
       now_ns_ = next_tick_ns_[n];
       next_tick_ns_[n] += period;
-      hands_[n]->tick(patches_[n].tick > 0 ? &patches_[n] : nullptr, wrenches_[n].tick > 0 ? &wrenches_[n] : nullptr);
+      hands_[n]->tick(patches_[n].tick > 0 ? &patches_[n] : nullptr,
+                      wrenches_[n].tick > 0 ? &wrenches_[n] : nullptr);
       states_[n] = hands_[n]->tool_state();
       if (eye_) eye_->take(static_cast<std::uint32_t>(n), hands_[n]->trace());
     }

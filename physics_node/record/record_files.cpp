@@ -124,7 +124,10 @@ void Recorder::flush() {
   for (std::size_t n = 0; n < csv_.size(); ++n) {
     if (std::fflush(csv_[n]) != 0) throw std::runtime_error(csv_names_[n] + ": " + std::strerror(errno));
   }
-  if (times_shown_ != times_.size()) write_xdmf();
+  // Rarely enough for a long session to cost no more than a few times its last picture of itself.
+  const bool shown_is_old = times_.size() > times_shown_ + times_shown_ / 4;
+  if (!shown_is_old && !(stop_ && times_.size() > times_shown_)) return;
+  write_xdmf();
   times_shown_ = times_.size();
 }
 
@@ -163,7 +166,7 @@ void Recorder::finish(const World& world) {
 void Recorder::write_xdmf() const {
   std::vector<XdmfBody> bodies;
   for (std::size_t b = 0; b < body_names_.size(); ++b)
-    bodies.push_back({body_names_[b], body_masses_[b], body_facets_[b]});
+    bodies.push_back({body_names_[b], body_masses_[b], body_facets_[b], times_.size()});
   palpate::physics::write_xdmf(folder_ + "/record.xdmf", "record.h5", bodies, times_);
 }
 

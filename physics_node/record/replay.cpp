@@ -12,7 +12,8 @@ bool Replay::frame() {
   if (difference_ || frame >= record_.frames() || world_.has_stopped()) return false;
   const auto& commands = record_.commands();
   for (; next_command_ < commands.size() && commands[next_command_].frame <= frame; ++next_command_)
-    if (commands[next_command_].command.kind == CommandKind::reset) world_.reset();  // the others move nothing
+    if (commands[next_command_].command.kind == CommandKind::reset)
+      world_.reset();  // the others move nothing
   record_.inputs(frame, world_.scene().tools, hands_);
   world_.frame(hands_);
   compare();
@@ -25,7 +26,8 @@ void Replay::compare() {
   if (next_hash_ >= hashes.size() || hashes[next_hash_].frame != done) return;
   const std::uint64_t found = world_.state_hash();
   ++compared_;
-  if (found != hashes[next_hash_].hash) difference_ = Difference{done, world_.t(), hashes[next_hash_].hash, found};
+  if (found != hashes[next_hash_].hash)
+    difference_ = Difference{done, world_.t(), hashes[next_hash_].hash, found};
   ++next_hash_;
 }
 

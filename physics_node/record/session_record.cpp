@@ -60,7 +60,8 @@ SessionRecord::SessionRecord(const std::string& path) : path_(path) {
   try {
     file_ = std::make_unique<Hdf5File>(path, Hdf5File::Mode::read);
     if (!file_->has_attribute("palpate_record") || !file_->has("/session/hashes"))
-      throw InputError(path + ": is no record of a session; give the record.h5 of palpate run or palpate simulate");
+      throw InputError(path +
+                       ": is no record of a session; give the record.h5 of palpate run or palpate simulate");
     commit_ = file_->text("commit");
     const auto flushed = file_->read<std::uint64_t>("/session/flushed");
     frames_ = flushed.empty() ? 0 : flushed.back();
@@ -89,7 +90,8 @@ std::string SessionRecord::text_of(const std::string& dataset) const {
 }
 
 SessionRecord::LaidOut SessionRecord::lay_out(const std::string& folder) const {
-  SceneSource source{.text = text_of("/scene/text"), .settings = lines_of(text_of("/scene/settings")), .files = {}};
+  SceneSource source{
+      .text = text_of("/scene/text"), .settings = lines_of(text_of("/scene/settings")), .files = {}};
   const auto files = lines_of(text_of("/scene/files"));
   for (std::size_t f = 0; f < files.size(); ++f) {
     std::istringstream line(files[f]);
@@ -97,7 +99,8 @@ SessionRecord::LaidOut SessionRecord::lay_out(const std::string& folder) const {
     std::getline(std::getline(std::getline(line, body, '\t'), kind, '\t'), path);
     const std::string dataset = fmt::format("/scene/file_{}", f);
     if (file_->has(dataset)) {
-      path = (fs::path(folder) / fmt::format("file_{:05}{}", f, fs::path(path).extension().string())).string();
+      path =
+          (fs::path(folder) / fmt::format("file_{:05}{}", f, fs::path(path).extension().string())).string();
       write_bytes(path, file_->read<std::uint8_t>(dataset));
     }
     source.files.push_back({body, path, kind == "slice"});
@@ -126,12 +129,14 @@ void SessionRecord::inputs(std::uint64_t frame, const std::vector<ToolSpec>& spe
       track.n_rows = std::min(file_->shape(base + "/index").at(0), file_->shape(base + "/state").at(0));
     }
     while (track.next < track.n_rows) {
-      if (track.next >= track.block_first + track.index.size() / index_width) read_block(specs[n].name, track);
+      if (track.next >= track.block_first + track.index.size() / index_width)
+        read_block(specs[n].name, track);
       const std::uint64_t row = track.next - track.block_first;
       const std::uint64_t* index = &track.index[row * index_width];
       if (index[0] > frame) break;
       track.now.reset();
-      if (index[1] != 0) track.now = state_of(static_cast<std::uint32_t>(n), index, &track.state[row * state_width]);
+      if (index[1] != 0)
+        track.now = state_of(static_cast<std::uint32_t>(n), index, &track.state[row * state_width]);
       ++track.next;
     }
     tools[n] = track.now;

@@ -11,6 +11,7 @@ struct XdmfBody {
   std::string name;
   std::uint64_t n_masses = 0;
   std::uint64_t n_facets = 0;
+  std::uint64_t n_rows = 0;  // of its series, at least as many as there are times
 };
 
 /// @param hdf5  name of the record, beside the file written
