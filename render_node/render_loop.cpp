@@ -102,8 +102,34 @@ std::vector<std::uint32_t> pointed_tools(const NodeOptions& options, const Scene
   return tools;
 }
 
+/// The pictures on disk. One that cannot be written is a mistake if it is the first; after that the eye goes on without.
+class Album {
+ public:
+  explicit Album(std::string folder) : folder_(std::move(folder)) {}
+
+  /// @throws InputError if the first picture cannot be written
+  void keep(const Picture& picture, std::uint64_t number) {
+    if (lost_) return;
+    const std::string path = fmt::format("{}/frame_{:05}.png", folder_, number);
+    try {
+      picture.save_png(path);
+    } catch (const InputError& error) {
+      std::error_code ignored;
+      std::filesystem::remove(path, ignored);  // half a picture is none
+      if (number == 1) throw;
+      lost_ = true;
+      log_error("{}; the session goes on without pictures", error.what());
+    }
+  }
+  bool lost() const noexcept { return lost_; }
+
+ private:
+  std::string folder_;
+  bool lost_ = false;
+};
+
 int run_headless(const NodeOptions& options, const Scene& scene) {
-  const std::string folder = make_frames_folder(options);
+  Album album(make_frames_folder(options));
   const bool few_cores = std::thread::hardware_concurrency() <= 2;
   if (few_cores) setenv("LP_NUM_THREADS", "1", 0);  // Mesa's software renderer takes every core otherwise
   Wire wire(membership(options, scene, "render"));
@@ -124,7 +150,7 @@ int run_headless(const NodeOptions& options, const Scene& scene) {
     if (picture.model().anything_to_see() && schedule.due(t)) {
       picture.draw(t);
       fare.drew(t);
-      picture.save_png(fmt::format("{}/frame_{:05}.png", folder, fare.frames()));
+      album.keep(picture, fare.frames());
     } else {
       std::this_thread::sleep_for(nap);
     }
@@ -132,8 +158,9 @@ int run_headless(const NodeOptions& options, const Scene& scene) {
     fare.tell(wire, phase_of(picture.model()), schedule.skipped(), false);
   }
   fare.tell(wire, NodePhase::stopping, schedule.skipped(), true);
-  fare.write_report(options.out, picture.model());
-  return wire.unwelcome() ? exit_mistake : exit_ok;
+  if (!album.lost()) fare.write_report(options.out, picture.model());
+  if (wire.unwelcome()) return exit_mistake;
+  return album.lost() ? exit_failed : exit_ok;
 }
 
 void pass_on(const PanelWishes& wishes, ThresholdControl& threshold, Wire& wire) {

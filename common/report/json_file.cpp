@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <stdexcept>
 
 #include "common/error/error.h"
 
@@ -25,7 +26,7 @@ void write_json(const std::string& path, const nlohmann::json& value) {
   if (!written || !closed || std::rename(beside.c_str(), path.c_str()) != 0) {
     const int why = errno;
     std::remove(beside.c_str());
-    throw InputError(
+    throw std::runtime_error(
         fmt::format("{}: could not be completed ({}); make room on the disk", path, std::strerror(why)));
   }
 }

@@ -98,7 +98,8 @@ void require_drivers(const Scene& scene, const RunOptions& options, const Sessio
 void mend_left_record(const fs::path& record) {
   try {
     if (fs::exists(record) && physics::mend_record(record.string()))
-      std::fprintf(stderr, "palpate: %s was cut short; palpate replay runs again what it holds\n", record.c_str());
+      std::fprintf(stderr, "palpate: %s was cut short; palpate replay runs again what it holds\n",
+                   record.c_str());
   } catch (const std::exception& damaged) {
     std::fprintf(stderr, "palpate: %s\n", damaged.what());
   }
@@ -141,7 +142,13 @@ int run(const RunOptions& options) {
   // 3. what it leaves
   if (result.exit_code == exit_mistake) return exit_mistake;
   if (result.exit_code != exit_ok) mend_left_record(out / "record.h5");
-  const fs::path summary = write_summary(out, scene, result);
+  fs::path summary;
+  try {
+    summary = write_summary(out, scene, result);
+  } catch (const std::runtime_error& error) {  // the folder was good when the session began: the disk is full
+    std::fprintf(stderr, "palpate: %s\n", error.what());
+    return exit_failed;
+  }
   const bool plotted = !result.interrupted && draw_plots(out);
   say_where(out, summary, plotted);
   if (result.interrupted) std::printf("plot     palpate plot %s draws it\n", out.c_str());

@@ -204,13 +204,20 @@ bool PhysicsLoop::leave() {
   publish_status(world_->has_stopped() ? NodePhase::failed : NodePhase::stopping);
   const double wall = seconds_from_ns(now_ns() - start_ns_);
   if (!recorder_) return true;
-  try {
-    recorder_->finish(*world_);
-  } catch (const std::runtime_error& lost) {
-    log_error("the record is not complete: {}", lost.what());
-  }
-  write_json(options_.out + "/parts/physics.json", physics_summary(*world_, recorder_.get(), wall));
-  return !recorder_->failed();
+  bool left = true;
+  const auto try_to = [&left](const auto& write) {
+    try {
+      write();
+    } catch (const std::runtime_error& lost) {  // InputError, too: the disk is full, or the folder is gone
+      log_error("not all was recorded: {}", lost.what());
+      left = false;
+    }
+  };
+  try_to([&] { recorder_->finish(*world_); });
+  try_to([&] {
+    write_json(options_.out + "/parts/physics.json", physics_summary(*world_, recorder_.get(), wall));
+  });
+  return left;
 }
 
 }  // namespace palpate::physics

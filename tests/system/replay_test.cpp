@@ -1,0 +1,133 @@
+// A session of real programs is recorded and run again; killed programs and full disks leave what was recorded until then.
+
+#include <sys/mount.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <regex>
+#include <thread>
+#include <vector>
+
+#include "common/report/json_file.h"
+#include "tests/system/command_run.h"
+#include "tests/system/dds_domain.h"
+
+namespace palpate {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ReplayTest : public CommandRun {
+ protected:
+  std::string out(const std::string& name) const { return (folder / name).string(); }
+
+  /// `palpate run` of a shipped scene.
+  int run(const std::string& scene, const std::string& more, const std::string& name = "live") {
+    return palpate("run " + std::string(SCENES) + "/" + scene + " --headless --domain " +
+                   std::to_string(test::own_domain()) + " --out " + out(name) + " " + more);
+  }
+
+  /// The record of a session alone, in another folder.
+  std::string taken_away(const std::string& name = "live") const {
+    fs::create_directories(folder / "elsewhere");
+    const std::string path = out("elsewhere/copied.h5");
+    fs::copy_file(out(name) + "/record.h5", path, fs::copy_options::overwrite_existing);
+    return path;
+  }
+
+  /// Seconds run again, as palpate replay says.
+  double seconds_said() const {
+    std::smatch found;
+    return std::regex_search(log, found, std::regex("([0-9.]+) s run again")) ? std::stod(found[1]) : 0;
+  }
+};
+
+TEST_F(ReplayTest, RunsALiveSessionWithBreaksAgain) {
+  ASSERT_EQ(run("knife_breaks.toml", "--seconds 2"), 0) << log;
+  const auto live = read_json(out("live/summary.json"));
+  const std::string record = taken_away();
+  fs::remove_all(out("live"));
+  for (const char* threads : {"1", "2"}) {
+    ASSERT_EQ(palpate("replay " + record + " --threads " + threads + " --out " + out("again")), 0) << log;
+    EXPECT_NE(log.find("all as recorded"), std::string::npos) << log;
+    EXPECT_NEAR(seconds_said(), live["simulated_s"], 1e-3);
+    const auto again = read_json(out("again/summary.json"));
+    EXPECT_EQ(again["state_hash"], live["state_hash"]);
+    EXPECT_GT(again["bodies"]["block"]["broken_fraction"].get<double>() +
+                  again["bodies"]["knife"]["broken_fraction"].get<double>(),
+              0)
+        << "the test is about what breaks";
+  }
+  ASSERT_EQ(palpate("replay " + record + " --until 0.1"), 0) << log;
+  EXPECT_NEAR(seconds_said(), 0.1, 1e-9);
+  EXPECT_EQ(palpate("replay " + out("again/record.h5") + " --out " + out("again")), 2)
+      << "would write over what it reads";
+  EXPECT_EQ(palpate("replay " + out("again/record.h5")), 0)
+      << "what is run again leaves a record of its own: " << log;
+}
+
+TEST_F(ReplayTest, NamesAFlippedByte) {
+  ASSERT_EQ(palpate("simulate " + std::string(SCENES) + "/box_press.toml --no-frames --seconds 1 --out " +
+                    out("live")),
+            0)
+      << log;
+  const std::string record = taken_away();
+  std::fstream file(record, std::ios::in | std::ios::out | std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  const auto at = bytes.find("modulus_kPa");  // in the text of the scene
+  ASSERT_NE(at, std::string::npos);
+  file.seekp(static_cast<std::streamoff>(at));
+  file.put('n');
+  file.close();
+  EXPECT_EQ(palpate("replay " + record), 2);
+  EXPECT_NE(log.find("copied.h5: damaged or truncated in dataset /scene/text"), std::string::npos) << log;
+}
+
+TEST_F(ReplayTest, HoldsWhatWasFlushedWhenPhysicsIsKilled) {
+  std::thread killer([this] {
+    const fs::path record = folder / "live" / "record.h5";
+    while (!fs::exists(record)) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    std::this_thread::sleep_for(std::chrono::milliseconds(3500));
+    // The physics node of this session and no other: the one whose command line has our folder.
+    std::system(("pkill -9 -f 'palpate-physics .*--out " + out("live") + "'").c_str());
+  });
+  EXPECT_EQ(run("box_press.toml", "--seconds 30"), 1) << log;
+  killer.join();
+  EXPECT_NE(log.find("was cut short"), std::string::npos) << log;
+  ASSERT_EQ(palpate("replay " + taken_away()), 0) << log;
+  EXPECT_GT(seconds_said(), 0.5) << log;
+  EXPECT_EQ(palpate("info " + out("live/record.h5")), 0);
+  EXPECT_EQ(log.find("cut short"), std::string::npos) << "palpate run has mended it: " << log;
+}
+
+/// A disk of its own, small enough to be full soon.
+class FullDisk : public ReplayTest {
+ protected:
+  void SetUp() override {
+    ReplayTest::SetUp();
+    fs::create_directories(folder / "disk");
+    mounted_ = mount("tmpfs", (folder / "disk").c_str(), "tmpfs", 0, "size=1500k") == 0;
+    if (!mounted_) GTEST_SKIP() << "a disk can be mounted by root only";
+  }
+  void TearDown() override {
+    if (mounted_) umount2((folder / "disk").c_str(), MNT_DETACH);
+    ReplayTest::TearDown();
+  }
+  bool mounted_ = false;
+};
+
+TEST_F(FullDisk, StopsTheRecordAndNothingElse) {
+  EXPECT_EQ(run("box_press.toml", "--seconds 4", "disk/live"), 1) << log;
+  for (const char* words : {"the session goes on without pictures",
+                            "the record can no longer be written; the session goes on without it"})
+    EXPECT_NE(log.find(words), std::string::npos) << words << "\n" << log;
+  std::smatch last;
+  EXPECT_TRUE(std::regex_search(log, last, std::regex(" 3\\.[0-9] s \\| physics [1-9]")))
+      << "the tissue went on:\n"
+      << log;
+}
+
+}  // namespace
+}  // namespace palpate
