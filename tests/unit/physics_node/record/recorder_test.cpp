@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <fstream>
 
 #include "tests/support/image/scratch_folder.h"
 #include "tests/support/physics/pressed_world.h"
+#include "tests/unit/physics_node/record/viewer.h"
 
 namespace palpate::physics {
 namespace {
@@ -54,8 +54,9 @@ std::vector<std::string> lines_of(const std::string& path) {
 TEST_F(Recording, LeavesOneRowPerFrame) {
   const auto lines = lines_of(folder_ / Recorder::trace_name("tip"));
   ASSERT_EQ(lines.size(), 1u + n_frames);
-  EXPECT_EQ(lines[0], "t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm,contacts,"
-                      "raw_fx_N,raw_fy_N,raw_fz_N,raw_mx_Nm,raw_my_Nm,raw_mz_Nm");
+  EXPECT_EQ(lines[0],
+            "t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm,contacts,"
+            "raw_fx_N,raw_fy_N,raw_fz_N,raw_mx_Nm,raw_my_Nm,raw_mz_Nm");
   EXPECT_EQ(lines[1].substr(0, 9), "0.001000,");
   double t = 0, x = 0, y = 0, z = 0, fx = 0, fy = 0, fz = 0;
   ASSERT_EQ(std::sscanf(lines.back().c_str(), "%lf,%lf,%lf,%lf,%lf,%lf,%lf", &t, &x, &y, &z, &fx, &fy, &fz),
@@ -102,17 +103,13 @@ TEST_F(Recording, KeepsPositionsAtTheRateAskedFor) {
 }
 
 TEST_F(Recording, OpensInAViewer) {
-  const char* source = std::getenv("PALPATE_SOURCE");
-  const std::string script =
-      std::string(source == nullptr ? "." : source) + "/tests/unit/physics_node/record/open_record.py";
-  const std::string command =
-      "/usr/bin/python3 '" + script + "' '" + (folder_ / "record.xdmf") + "' 6 " + std::to_string(n_masses_);
-  EXPECT_EQ(std::system(command.c_str()), 0);
+  EXPECT_TRUE(opens_in_viewer(folder_ / "record.xdmf", 6, n_masses_, "slab"));
 }
 
 TEST(Recorder, SaysWhereItCannotWrite) {
   const World world(pressed_slab());
-  EXPECT_THROW(Recorder(world, SceneSource{}, "/nowhere/at/all", Recorder::WhenBehind::drop), std::runtime_error);
+  EXPECT_THROW(Recorder(world, SceneSource{}, "/nowhere/at/all", Recorder::WhenBehind::drop),
+               std::runtime_error);
 }
 
 }  // namespace

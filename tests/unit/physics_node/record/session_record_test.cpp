@@ -19,6 +19,7 @@
 #include "physics_node/record/replay.h"
 #include "tests/support/image/scratch_folder.h"
 #include "tests/support/physics/small_worlds.h"
+#include "tests/unit/physics_node/record/viewer.h"
 
 namespace palpate::physics {
 namespace {
@@ -258,6 +259,7 @@ TEST(SessionRecord, OfAKilledWriterIsWholeUpToItsLastFlush) {
     EXPECT_FALSE(SessionRecord(folder / "record.h5").cut_short()) << "others can open it now";
     EXPECT_EQ(run_again(folder / "record.h5").hash, again.hash);
     EXPECT_FALSE(mend_record(folder / "record.h5"));
+    EXPECT_TRUE(test::opens_in_viewer(folder / "record.xdmf", 0, 7 * 7 * 4));
   }
 }
 
