@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <new>
 
+#include "physics_node/record/recorder.h"
+#include "tests/support/image/scratch_folder.h"
 #include "tests/support/physics/pressed_world.h"
 
 namespace {
@@ -73,6 +75,27 @@ TEST(World, TakesNoMemoryWhileItYieldsAndBreaks) {
   World world(scene_of(recipe));
   EXPECT_EQ(allocations_in(world, std::nullopt, 100), 0u);
   EXPECT_GT(world.report().broken, 0);
+}
+
+TEST(Recorder, TakesNoMemoryOfTheFramesThread) {
+  const palpate::test::ScratchFolder folder;
+  Recipe recipe = pressed_slab_recipe();
+  recipe.world += "[record]\nwhat = [\"positions\", \"forces\", \"energy\"]\n";
+  World world(scene_of(recipe));
+  Recorder recorder(world, SceneSource{}, folder.path(), Recorder::WhenBehind::wait);
+  auto hand = steady_hand({0, 0, 1});
+  allocations = 0;
+  for (int n = 0; n < 100; ++n) {
+    ++hand->tick;
+    in_frame = true;
+    world.frame(std::span(&hand, 1));
+    recorder.frame(world, std::span(&hand, 1));
+    if (n == 50) recorder.command(world, {});
+    if (n % 10 == 0) recorder.status({});
+    in_frame = false;
+  }
+  EXPECT_EQ(allocations, 0u);
+  recorder.finish(world);
 }
 
 }  // namespace
