@@ -20,15 +20,15 @@ bool is_volume(const std::string& path) {
 }
 
 std::string info_record(const std::string& path) {
+  const auto datasets = list_datasets(path);
   std::string text = fmt::format("record       {}\n", path);
   if (Hdf5File(path, Hdf5File::Mode::read).cut_short())
     text += fmt::format(
         "cut short    its writer runs still, or was killed; palpate info --mend {} lets other programs open "
         "it\n",
         path);
-  for (const DatasetFacts& dataset : list_datasets(path)) {
+  for (const DatasetFacts& dataset : datasets)
     text += fmt::format("{:<12} {}\n", fmt::format("{}", fmt::join(dataset.shape, " x ")), dataset.path);
-  }
   return text;
 }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <stdexcept>
 
+#include "common/error/error.h"
 #include "common/record/dataset_list.h"
 #include "common/record/hdf5_file.h"
 #include "physics_node/record/xdmf.h"
@@ -10,7 +12,13 @@
 namespace palpate::physics {
 namespace {
 
-bool is_cut_short(const std::string& path) { return Hdf5File(path, Hdf5File::Mode::read).cut_short(); }
+bool is_cut_short(const std::string& path) {
+  try {
+    return Hdf5File(path, Hdf5File::Mode::read).cut_short();
+  } catch (const std::runtime_error& none) {
+    throw InputError(none.what());
+  }
+}
 
 /// The bodies and times of a record, of what all of its series hold.
 void write_xdmf_of(const std::filesystem::path& path) {
