@@ -39,4 +39,8 @@ struct Share {
 Share parse_share(const std::string& deployment, int side, const std::optional<std::string>& nodes,
                   bool beyond);
 
+/// The same for a scene without a tool, which has nothing for a hand to do.
+/// @throws InputError if nothing is left for this PC
+Share without_hand(Share share);
+
 }  // namespace palpate::deploy

@@ -118,7 +118,8 @@ int run(const RunOptions& options) {
   const Scene scene = load_scene(options.scene_path, options.settings);
   const fs::path out = options.out.empty() ? default_out(options.scene_path) : fs::path(options.out);
   const Reach reach = {.interface = options.interface, .peers = comma_list(options.peers)};
-  const Share share = parse_share(options.deployment, options.side, options.nodes, !reach.local());
+  Share share = parse_share(options.deployment, options.side, options.nodes, !reach.local());
+  if (scene.tools.empty()) share = without_hand(std::move(share));
   const SessionPlan plan = {
       .nodes = share.here,
       .elsewhere = share.elsewhere,

@@ -68,6 +68,12 @@ TEST_F(ReplayTest, RunsALiveSessionWithBreaksAgain) {
       << "what is run again leaves a record of its own: " << log;
 }
 
+TEST_F(ReplayTest, RunsASceneWithoutAHandAgain) {
+  ASSERT_EQ(run("fall_crush.toml", "--seconds 1"), 0) << log;
+  ASSERT_EQ(palpate("replay " + taken_away()), 0) << log;
+  EXPECT_GT(seconds_said(), 0.1) << log;
+}
+
 TEST_F(ReplayTest, NamesAFlippedByte) {
   ASSERT_EQ(palpate("simulate " + std::string(SCENES) + "/box_press.toml --no-frames --seconds 1 --out " +
                     out("live")),

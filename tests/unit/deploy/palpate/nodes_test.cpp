@@ -42,6 +42,13 @@ TEST(Share, ExpectsNobodyElsewhereOnOnePc) {
             (std::vector{NodeKind::physics, NodeKind::render}));
 }
 
+TEST(Share, HasNoHandWithoutATool) {
+  using enum NodeKind;
+  EXPECT_EQ(without_hand(parse_share("all", 0, {}, false)).here, (std::vector{physics, render}));
+  EXPECT_EQ(without_hand(parse_share("p2", 1, {}, true)).elsewhere, std::vector{physics});
+  EXPECT_THROW(without_hand(parse_share("p3", 2, {}, true)), InputError);
+}
+
 TEST(Share, RefusesWhatContradictsItself) {
   EXPECT_THROW(parse_share("p2", 0, {}, true), InputError);
   EXPECT_THROW(parse_share("all", 1, {}, true), InputError);
