@@ -20,7 +20,8 @@ constexpr std::int64_t newcomer_ns = 3'000'000'000;  // discovery repeats itself
 Membership membership(const NodeOptions& options, const Scene& scene, const std::string& role) {
   return {.domain = options.domain,
           .reach = options.reach,
-          .identity = own_identity(role, scene.path, scene.checksum)};
+          .identity = own_identity(role, scene.path, scene.checksum),
+          .shared_memory = true};
 }
 
 Newcomer::Newcomer(Participant& participant) : companions_(participant), until_ns_(now_ns() + newcomer_ns) {}

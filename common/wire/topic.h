@@ -45,6 +45,13 @@ using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
 /// The same for topic, writer and reader.
 Qos make_qos(Service service);
 
+/// For a reader where the participant uses shared memory: the depth that DDS means for each key is there the length of one
+/// queue for all of them.
+/// @param queue  samples that may wait, at most most_queued
+void queue_for_all_keys(dds_qos_t& qos, Service service, int queue);
+
+inline constexpr int most_queued = 256;  // MAX_SUBSCRIBER_QUEUE_CAPACITY of iceoryx 2.0
+
 /// A DDS call's answer, or std::runtime_error "DDS: what TOPIC: why".
 dds_entity_t made(dds_entity_t entity, const char* what, const char* topic);
 
