@@ -12,6 +12,7 @@
 #include "common/time/clock.h"
 #include "common/time/histogram.h"
 #include "common/time/ticker.h"
+#include "common/wire/wire_report.h"
 #include "physics_node/report/physics_summary.h"
 
 namespace palpate::physics {
@@ -197,7 +198,10 @@ void PhysicsLoop::leave() {
   const double wall = seconds_from_ns(now_ns() - start_ns_);
   if (!recorder_) return;
   recorder_->finish();
-  write_json(options_.out + "/parts/physics.json", physics_summary(*world_, recorder_.get(), wall));
+  auto part = physics_summary(*world_, recorder_.get(), wall);
+  part.update(wire_report("physics", wire_.participant, wire_.patches, wire_.wrenches, wire_.status,
+                          wire_.eye.surfaces(), wire_.eye.blocks()));
+  write_json(options_.out + "/parts/physics.json", part);
 }
 
 }  // namespace palpate::physics

@@ -78,11 +78,12 @@ inline std::set<std::string> shared_files() {
 /// A child process with its output in a file.
 class Process {
  public:
-  explicit Process(std::vector<std::string> words, std::string output = "/dev/null")
+  explicit Process(std::vector<std::string> words, std::string output)
       : output_(std::move(output)) {
     std::vector<char*> argv;
     for (auto& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
+    std::filesystem::remove(output_);  // what an earlier one said
     pid_ = fork();
     if (pid_ != 0) return;
     if (std::freopen(output_.c_str(), "w", stdout) == nullptr) _exit(126);

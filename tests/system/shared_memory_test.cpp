@@ -170,7 +170,7 @@ TEST_F(SharedMemory, EndsInOrderWhenRouDiIsToldTo) {
   EXPECT_TRUE(run->said("haptic 1")) << run->text();
   end(daemon);
   EXPECT_EQ(run->wait(), 0) << run->text();
-  EXPECT_THAT(run->text(), HasSubstr("RouDi has gone"));
+  EXPECT_THAT(run->text(), HasSubstr("RouDi was stopped, and has told the programs"));
   EXPECT_EQ(summary()["haptic"]["faults"], 0);
 }
 
