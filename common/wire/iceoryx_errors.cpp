@@ -1,9 +1,9 @@
+#include <cstdio>
 #include <iostream>
 #include <mutex>
 #include <streambuf>
 #include <string>
 
-#include "common/report/log.h"
 #include "common/time/clock.h"
 #include "common/wire/shared_memory.h"
 
@@ -39,7 +39,8 @@ class TamedErrors : public std::streambuf {
   void end_line() {
     const std::int64_t now = now_ns();
     if (!line_.empty() && now - last_ns_ >= period_ns) {
-      log_warn("iceoryx: {}", line_);
+      // Not through our log: iceoryx still speaks when the program's own objects have gone.
+      std::fprintf(stderr, "iceoryx: %s\n", line_.c_str());
       last_ns_ = now;
     }
     line_.clear();

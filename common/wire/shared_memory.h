@@ -27,8 +27,7 @@ std::string words(RouDi found);
 /// `config` (loopback_config.h) with shared memory switched on.
 std::string with_shared_memory(std::string_view config);
 
-/// iceoryx says on std::cerr several times a second that RouDi has gone. From now on one line of each second passes, as a
-/// line of our log. Call it once per process.
+/// iceoryx says on std::cerr several times a second that RouDi has gone. From now on one line of each second passes. Call it once per process.
 void tame_iceoryx_errors();
 
 }  // namespace palpate

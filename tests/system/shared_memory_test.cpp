@@ -149,7 +149,7 @@ TEST_F(SharedMemory, OutlivesRouDi) {
   auto daemon = roudi();
   const auto run = session("5");
   EXPECT_TRUE(run->said("go through shared memory"));
-  EXPECT_TRUE(run->said("haptic 1")) << run->text();
+  EXPECT_TRUE(run->said(" Hz loop ")) << run->text();
   daemon->tell(SIGKILL);
   EXPECT_EQ(daemon->wait(), -SIGKILL);
   EXPECT_EQ(run->wait(), 0) << run->text();
@@ -167,7 +167,7 @@ TEST_F(SharedMemory, EndsInOrderWhenRouDiIsToldTo) {
   auto daemon = roudi();
   const auto run = session("20");
   EXPECT_TRUE(run->said("go through shared memory"));
-  EXPECT_TRUE(run->said("haptic 1")) << run->text();
+  EXPECT_TRUE(run->said(" Hz loop ")) << run->text();
   end(daemon);
   EXPECT_EQ(run->wait(), 0) << run->text();
   EXPECT_THAT(run->text(), HasSubstr("RouDi was stopped, and has told the programs"));
