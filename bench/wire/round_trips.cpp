@@ -35,7 +35,7 @@ class End {
  public:
   End(const dds_topic_descriptor_t& type, const char* says, const char* hears, bool loaned)
       : loaned_(loaned), buffer_(std::make_unique<Bytes>()) {
-    const Qos qos = make_qos(Service::newest);
+    const Qos qos = make_qos(Service::blocks);
     const dds_entity_t owner = participant.handle();
     writer_ = made(dds_create_writer(
                        owner, made(dds_create_topic(owner, &type, says, qos.get(), nullptr), "topic", says),

@@ -25,8 +25,7 @@ template <class Work>
     fmt::print(stderr, "palpate bench: wire: {}\n", error.what());
     code = 1;
   }
-  std::fflush(nullptr);
-  _exit(code);
+  std::exit(code);  // not _exit: iceoryx tells RouDi on the way out
 }
 
 void end_within(pid_t child, std::chrono::milliseconds patience) {
@@ -60,7 +59,7 @@ std::vector<double> run_ends(Path path, const std::function<std::vector<double>(
   close(answer[0]);
   int status = 0;
   waitpid(one, &status, 0);
-  end_within(other, std::chrono::seconds(2));
+  end_within(other, std::chrono::seconds(10));
   return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? values : std::vector<double>{};
 }
 

@@ -13,7 +13,7 @@ enum class Path { udp, memory };
 inline constexpr int bench_domain = 98;
 
 /// Runs both ends, each in a process of its own with `path` forced upon it, and gives what `first` answers. `second` is
-/// killed if it has not ended two seconds after `first`.
+/// killed if it has not ended ten seconds after `first`.
 /// @return empty if an end failed
 std::vector<double> run_ends(Path path, const std::function<std::vector<double>()>& first,
                              const std::function<void()>& second);

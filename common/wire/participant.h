@@ -37,7 +37,7 @@ class Participant {
   int domain() const noexcept { return domain_; }
   /// False when a person's configuration is used, or when the kernel refused to tie the sockets to loopback.
   bool local_only() const noexcept;
-  /// What is sent often and may be lost goes through RouDi's memory to those who use it, too. Decided by the first of a
+  /// Vertex blocks go through RouDi's memory to those who use it, too. Decided by the first of a
   /// process's participants in a domain, once: a RouDi that comes later is not used.
   bool shared_memory() const noexcept;
   const Identity& identity() const noexcept { return identity_; }

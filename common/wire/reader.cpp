@@ -1,7 +1,5 @@
 #include "common/wire/reader.h"
 
-#include <type_traits>
-
 #include "common/wire/convert.h"
 #include "common/wire/inbox.h"
 #include "common/wire/topic.h"
@@ -20,7 +18,7 @@ void drain(dds_entity_t reader, void* inbox) { static_cast<BlockInbox*>(inbox)->
 
 template <class M>
 struct Reader<M>::Inner {
-  static constexpr bool many_keys = std::is_same_v<M, VertexBlock>;
+  static constexpr bool many_keys = Topic<M>::service == Service::blocks;
   dds_entity_t topic = 0;
   dds_entity_t reader = 0;
   dds_entity_t waitset = 0;
@@ -42,11 +40,10 @@ void Reader<M>::Inner::open(Participant& participant) {
   const char* name = Topic<M>::name;
   const Qos qos = make_qos(Topic<M>::service);
   topic = made(dds_create_topic(owner, Topic<M>::descriptor(), name, qos.get(), nullptr), "topic", name);
-  if (participant.shared_memory())
-    queue_for_all_keys(*qos, Topic<M>::service, many_keys ? most_queued : int{max_tools});
   dds_listener_t* listener = nullptr;
   if constexpr (many_keys) {
     if (participant.shared_memory()) {
+      queue_for_all_keys(*qos);
       something = made(dds_create_guardcondition(owner), "condition of", name);
       inbox = std::make_unique<BlockInbox>(&key_of, something);
       listener = dds_create_listener(inbox.get());

@@ -29,8 +29,7 @@ class Reader {
 
   // One thread at a time; neither call waits, and nothing of ours allocates.
 
-  /// The next good sample not yet taken: in the order sent per key; on latest-value topics the newest one per key, or
-  /// over shared memory, where a queue lies between, a few of the newest, the newest last.
+  /// The next good sample not yet taken: in the order sent per key, the newest one per key on latest-value topics.
   /// @return false if there is none; `message` is then as it was
   bool take(M& message) noexcept;
 

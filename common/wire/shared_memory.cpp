@@ -78,7 +78,7 @@ std::string words(RouDi found) {
              "loopback. Start "
              "it with --monitoring-mode off";
     case RouDi::ready:
-      return "RouDi runs; tool states, patches, wrenches and vertex blocks go through shared memory";
+      return "RouDi runs; vertex blocks go through shared memory, all else over UDP loopback";
     case RouDi::refused:
       return "PALPATE_SHARED_MEMORY=off; messages go over UDP loopback";
   }

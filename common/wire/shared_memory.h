@@ -1,6 +1,6 @@
 #pragma once
 // Whether the daemon of iceoryx, RouDi, lends this machine's processes its shared memory, through which Cyclone DDS then
-// passes what is sent often and may be lost. Nobody needs it: without RouDi everything goes over UDP.
+// passes vertex blocks (topic.cpp says why only these). Nobody needs it: without RouDi everything goes over UDP.
 
 #include <string>
 #include <string_view>

@@ -15,6 +15,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <string>
@@ -117,9 +118,10 @@ class Process {
     all << file.rdbuf();
     return all.str();
   }
-  bool said(const std::string& words) const {
-    for (int i = 0; i < 4000; ++i) {
-      if (text().find(words) != std::string::npos) return true;
+  /// Waits until its output has a place like `form`. @return false if that takes too long
+  bool said(const std::string& form) const {
+    for (int i = 0; i < 8000; ++i) {
+      if (std::regex_search(text(), std::regex(form))) return true;
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     return false;
