@@ -1,6 +1,8 @@
 #pragma once
 // SIGINT and SIGTERM as a flag that loops look at. The handler only sets it.
 
+#include <string>
+
 namespace palpate {
 
 /// Installs the handlers; call once from main().
@@ -8,6 +10,9 @@ void install_stop_handlers() noexcept;
 
 /// True after SIGINT, SIGTERM or request_stop().
 bool stop_requested() noexcept;
+
+/// Name of the program that sent the last of these signals; empty if none did, or if it has gone.
+std::string stopped_by();
 
 /// As if a signal had come.
 void request_stop() noexcept;

@@ -16,6 +16,7 @@
 #include "common/wire/loopback_config.h"
 #include "common/wire/loopback_sockets.h"
 #include "common/wire/network_config.h"
+#include "common/wire/shared_memory.h"
 #include "common/wire/socket_filter.h"
 #include "common/wire/topic.h"
 
@@ -64,6 +65,7 @@ struct Participant::Domain {
   dds_entity_t entity = 0;  // 0: made by DDS from the environment
   bool joined = false;      // another copy of this code has made it
   bool built_in = false;
+  bool shared_memory = false;
   Route route;  // where built_in
   std::atomic<bool> local_only{false};
   ~Domain() {
@@ -96,8 +98,13 @@ std::shared_ptr<Participant::Domain> Participant::join(const Membership& members
   } else if (!environment_configures()) {
     shared->built_in = true;
     shared->route = resolve(membership.reach);
-    const std::string text =
-        membership.reach.local() ? std::string(loopback_config()) : network_config(shared->route);
+    const bool local = membership.reach.local();
+    // Why asked again where the domain is joined: whoever made it looked as we do, and readers must fit it.
+    shared->shared_memory = membership.shared_memory && local && look_for_roudi() == RouDi::ready;
+    if (shared->shared_memory) tame_iceoryx_errors();
+    const std::string text = !local                  ? network_config(shared->route)
+                             : shared->shared_memory ? with_shared_memory(loopback_config())
+                                                     : std::string(loopback_config());
     if (!make(text)) {
       throw std::runtime_error(
           fmt::format("DDS domain {} cannot be set up ({})", domain, dds_strretcode(-shared->entity)));
@@ -157,5 +164,6 @@ void Participant::close_doors(Domain& shared, const Reach& reach) const {
 Participant::~Participant() { dds_delete(handle_); }
 
 bool Participant::local_only() const noexcept { return shared_->local_only; }
+bool Participant::shared_memory() const noexcept { return shared_->shared_memory; }
 
 }  // namespace palpate

@@ -14,7 +14,8 @@ namespace palpate {
 struct Membership {
   int domain = 0;  // 0 to 100; processes meet only within one domain
   Reach reach;
-  Identity identity;  // empty role: nobody in particular, as tools and tests are
+  Identity identity;           // empty role: nobody in particular, as tools and tests are
+  bool shared_memory = false;  // use it where RouDi is ready and nothing leaves this machine
 };
 
 class Participant {
@@ -36,6 +37,9 @@ class Participant {
   int domain() const noexcept { return domain_; }
   /// False when a person's configuration is used, or when the kernel refused to tie the sockets to loopback.
   bool local_only() const noexcept;
+  /// Vertex blocks go through RouDi's memory to those who use it, too. Decided by the first of a
+  /// process's participants in a domain, once: a RouDi that comes later is not used.
+  bool shared_memory() const noexcept;
   const Identity& identity() const noexcept { return identity_; }
   std::int32_t handle() const noexcept { return handle_; }  // for common/wire only
 

@@ -1,33 +1,71 @@
 #include "common/wire/reader.h"
 
 #include "common/wire/convert.h"
+#include "common/wire/inbox.h"
 #include "common/wire/topic.h"
 
 namespace palpate {
+namespace {
+
+using BlockKey = std::uint64_t;
+using BlockInbox = Inbox<Topic<VertexBlock>::Wire, BlockKey>;
+
+BlockKey key_of(const Topic<VertexBlock>::Wire& block) { return (BlockKey{block.body} << 32U) | block.block; }
+
+void drain(dds_entity_t reader, void* inbox) { static_cast<BlockInbox*>(inbox)->drain(reader); }
+
+}  // namespace
 
 template <class M>
 struct Reader<M>::Inner {
+  static constexpr bool many_keys = Topic<M>::service == Service::blocks;
   dds_entity_t topic = 0;
   dds_entity_t reader = 0;
   dds_entity_t waitset = 0;
-  typename Topic<M>::Wire wire{};  // what is being taken
+  dds_entity_t something = 0;         // a condition: true while there is something to take
+  std::unique_ptr<BlockInbox> inbox;  // of many keys over shared memory
+  typename Topic<M>::Wire wire{};     // what is being taken
   ReaderCounts counts;
 
-  /// Takes samples until a good one has been written to `message`. @return false if none was left
+  void open(Participant& participant);
+  /// Takes a sample into `wire`. @return false if none was left
+  bool fetch(dds_time_t& sent) noexcept;
+  /// Fetches samples until a good one has been written to `message`. @return false if none was left
   bool next(M& message, dds_time_t& sent) noexcept;
 };
 
 template <class M>
-bool Reader<M>::Inner::next(M& message, dds_time_t& sent) noexcept {
+void Reader<M>::Inner::open(Participant& participant) {
+  const dds_entity_t owner = participant.handle();
+  const char* name = Topic<M>::name;
+  const Qos qos = make_qos(Topic<M>::service);
+  topic = made(dds_create_topic(owner, Topic<M>::descriptor(), name, qos.get(), nullptr), "topic", name);
+  dds_listener_t* listener = nullptr;
+  if constexpr (many_keys) {
+    if (participant.shared_memory()) {
+      queue_for_all_keys(*qos);
+      something = made(dds_create_guardcondition(owner), "condition of", name);
+      inbox = std::make_unique<BlockInbox>(&key_of, something);
+      listener = dds_create_listener(inbox.get());
+      dds_lset_data_available(listener, &drain);
+    }
+  }
+  reader = dds_create_reader(owner, topic, qos.get(), listener);
+  dds_delete_listener(listener);
+  made(reader, "reader of", name);
+  waitset = made(dds_create_waitset(owner), "waitset of", name);
+  if (!inbox) something = made(dds_create_readcondition(reader, DDS_ANY_STATE), "condition of", name);
+  made(dds_waitset_attach(waitset, something, 0), "waitset of", name);
+}
+
+template <class M>
+bool Reader<M>::Inner::fetch(dds_time_t& sent) noexcept {
+  if constexpr (many_keys)
+    if (inbox) return inbox->pop(wire, sent);
   void* samples[1] = {&wire};
   dds_sample_info_t info = {};
   while (dds_take(reader, samples, &info, 1, 1) == 1) {
     if (!info.valid_data) continue;  // a writer has gone
-    if (const Verdict verdict = from_wire(wire, message)) {
-      ++counts.rejected[static_cast<std::size_t>(*verdict)];
-      continue;
-    }
-    ++counts.received;
     sent = info.source_timestamp;
     return true;
   }
@@ -35,23 +73,28 @@ bool Reader<M>::Inner::next(M& message, dds_time_t& sent) noexcept {
 }
 
 template <class M>
+bool Reader<M>::Inner::next(M& message, dds_time_t& sent) noexcept {
+  while (fetch(sent)) {
+    if (const Verdict verdict = from_wire(wire, message)) {
+      ++counts.rejected[static_cast<std::size_t>(*verdict)];
+      continue;
+    }
+    ++counts.received;
+    return true;
+  }
+  return false;
+}
+
+template <class M>
 Reader<M>::Reader(Participant& participant) : inner_(std::make_unique<Inner>()) {
-  const dds_entity_t owner = participant.handle();
-  const char* name = Topic<M>::name;
-  const Qos qos = make_qos(Topic<M>::service);
-  inner_->topic =
-      made(dds_create_topic(owner, Topic<M>::descriptor(), name, qos.get(), nullptr), "topic", name);
-  inner_->reader = made(dds_create_reader(owner, inner_->topic, qos.get(), nullptr), "reader of", name);
-  inner_->waitset = made(dds_create_waitset(owner), "waitset of", name);
-  const dds_entity_t condition =
-      made(dds_create_readcondition(inner_->reader, DDS_ANY_STATE), "condition of", name);
-  made(dds_waitset_attach(inner_->waitset, condition, 0), "waitset of", name);
+  inner_->open(participant);
 }
 
 template <class M>
 Reader<M>::~Reader() {
   dds_delete(inner_->waitset);
-  dds_delete(inner_->reader);
+  dds_delete(inner_->reader);  // waits for what DDS is about to tell the inbox
+  if (inner_->inbox) dds_delete(inner_->something);
   dds_delete(inner_->topic);
 }
 
@@ -65,18 +108,15 @@ template <class M>
 bool Reader<M>::take_newest(M& message) noexcept {
   dds_time_t newest = 0;
   if (!inner_->next(message, newest)) return false;
-  void* samples[1] = {&inner_->wire};
-  dds_sample_info_t info = {};
-  while (dds_take(inner_->reader, samples, &info, 1, 1) == 1) {
-    if (!info.valid_data) continue;
-    const bool newer = info.source_timestamp >= newest;
+  for (dds_time_t sent = 0; inner_->fetch(sent);) {
+    const bool newer = sent >= newest;
     const Verdict verdict = newer ? from_wire(inner_->wire, message) : judge(inner_->wire);
     if (verdict) {
       ++inner_->counts.rejected[static_cast<std::size_t>(*verdict)];
       continue;
     }
     ++inner_->counts.received;
-    if (newer) newest = info.source_timestamp;
+    if (newer) newest = sent;
   }
   return true;
 }

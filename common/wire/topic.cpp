@@ -18,8 +18,15 @@ Qos make_qos(Service service) {
   Qos qos(dds_create_qos(), &dds_delete_qos);
   // A node that ends takes nothing back: what it said last stays said.
   dds_qset_writer_data_lifecycle(qos.get(), false);
+  // Only blocks go through shared memory. What must arrive cannot: iceoryx keeps neither the newest of each key for who
+  // comes late nor what a slow reader has not taken. What is small gains nothing there (docs/benchmarks.md), and the hand
+  // shall not depend on RouDi. Cyclone DDS 0.10 leaves out whoever's liveliness is not automatic; without a lease that
+  // means nothing else.
+  if (service != Service::blocks)
+    dds_qset_liveliness(qos.get(), DDS_LIVELINESS_MANUAL_BY_TOPIC, DDS_INFINITY);
   switch (service) {
     case Service::newest:
+    case Service::blocks:
       dds_qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
       dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 1);
       break;
@@ -41,6 +48,8 @@ Qos make_qos(Service service) {
   }
   return qos;
 }
+
+void queue_for_all_keys(dds_qos_t& qos) { dds_qset_history(&qos, DDS_HISTORY_KEEP_LAST, most_queued); }
 
 dds_entity_t made(dds_entity_t entity, const char* what, const char* topic) {
   if (entity < 0)

@@ -13,6 +13,7 @@ namespace palpate {
 
 enum class Service {
   newest,      // best effort, keep last 1 per key: what is missed is replaced by what comes
+  blocks,      // the same for many keys at once; through shared memory where there is some
   state,       // reliable, transient local, keep last 1 per key: a late joiner gets all keys
   batches,     // reliable, keep last 64 per key
   everything,  // reliable, keep all
@@ -33,7 +34,7 @@ PALPATE_TOPIC(ToolState, Service::newest);
 PALPATE_TOPIC(ContactPatch, Service::newest);
 PALPATE_TOPIC(ToolWrench, Service::newest);
 PALPATE_TOPIC(Pointer, Service::newest);
-PALPATE_TOPIC(VertexBlock, Service::newest);
+PALPATE_TOPIC(VertexBlock, Service::blocks);
 PALPATE_TOPIC(BodySurface, Service::state);
 PALPATE_TOPIC(NodeStatus, Service::state);
 PALPATE_TOPIC(HapticTrace, Service::batches);
@@ -44,6 +45,12 @@ using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
 
 /// The same for topic, writer and reader.
 Qos make_qos(Service service);
+
+/// For a reader of blocks where the participant uses shared memory: the depth that DDS means for each key is there the
+/// length of one queue for all of them.
+void queue_for_all_keys(dds_qos_t& qos);
+
+inline constexpr int most_queued = 256;  // MAX_SUBSCRIBER_QUEUE_CAPACITY of iceoryx 2.0
 
 /// A DDS call's answer, or std::runtime_error "DDS: what TOPIC: why".
 dds_entity_t made(dds_entity_t entity, const char* what, const char* topic);

@@ -1,5 +1,7 @@
 #include "common/wire/writer.h"
 
+#include <atomic>
+
 #include "common/wire/convert.h"
 #include "common/wire/topic.h"
 
@@ -10,6 +12,7 @@ struct Writer<M>::Inner {
   dds_entity_t topic = 0;
   dds_entity_t writer = 0;
   typename Topic<M>::Wire wire{};  // what is being sent
+  std::atomic<std::uint64_t> samples{0};
 };
 
 template <class M>
@@ -32,7 +35,20 @@ template <class M>
 bool Writer<M>::write(const M& message) noexcept {
   to_wire(message, inner_->wire);
   if (judge(inner_->wire)) return false;
-  return dds_write(inner_->writer, &inner_->wire) == DDS_RETCODE_OK;
+  if (dds_write(inner_->writer, &inner_->wire) != DDS_RETCODE_OK) return false;
+  inner_->samples.fetch_add(1, std::memory_order_relaxed);
+  return true;
+}
+
+template <class M>
+WriterCounts Writer<M>::counts() const noexcept {
+  const std::uint64_t samples = inner_->samples.load(std::memory_order_relaxed);
+  return {samples, samples * sizeof inner_->wire};
+}
+
+template <class M>
+const char* Writer<M>::topic() const noexcept {
+  return Topic<M>::name;
 }
 
 template <class M>

@@ -1,12 +1,19 @@
 #pragma once
 // Publishes one kind of message. M: any of the nine structs of common/message/messages.h.
 
+#include <cstdint>
 #include <memory>
 
 #include "common/message/messages.h"
 #include "common/wire/participant.h"
 
 namespace palpate {
+
+/// What has been handed to DDS. On the network each sample also has the headers of RTPS, UDP and IP, once a datagram.
+struct WriterCounts {
+  std::uint64_t samples = 0;
+  std::uint64_t bytes = 0;  // of the samples
+};
 
 template <class M>
 class Writer {
@@ -24,6 +31,10 @@ class Writer {
 
   /// How many readers this writer has now.
   int matched() noexcept;
+
+  /// Any thread.
+  WriterCounts counts() const noexcept;
+  const char* topic() const noexcept;
 
  private:
   struct Inner;

@@ -2,13 +2,13 @@
 
 #include <chrono>
 #include <cstdlib>
-#include <fstream>
 #include <optional>
 #include <stdexcept>
 
 #include "common/error/error.h"
 #include "common/wire/loopback_sockets.h"
 #include "common/wire/reader.h"
+#include "common/wire/shared_memory.h"
 #include "common/wire/writer.h"
 #include "deploy/palpate/doctor.h"
 #include "deploy/palpate/ports.h"
@@ -72,14 +72,9 @@ Finding check_wire() {
 }
 
 Finding check_shared_memory() {
-  std::ifstream sockets("/proc/net/unix");
-  for (std::string line; std::getline(sockets, line);) {
-    if (line.ends_with(" /tmp/roudi")) {
-      return {"shared memory", Finding::State::ok,
-              "RouDi is running; CYCLONEDDS_URI chooses whether DDS uses it"};
-    }
-  }
-  return {"shared memory", Finding::State::ok, "RouDi is not running; messages go over UDP loopback"};
+  const RouDi found = look_for_roudi();
+  const bool in_the_way = found == RouDi::unreachable || found == RouDi::watching;
+  return {"shared memory", in_the_way ? Finding::State::lacks : Finding::State::ok, words(found)};
 }
 
 }  // namespace palpate::deploy

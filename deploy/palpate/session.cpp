@@ -11,6 +11,7 @@
 #include "common/process/stop_flag.h"
 #include "common/wire/reader.h"
 #include "deploy/palpate/company.h"
+#include "deploy/palpate/memory_watch.h"
 #include "deploy/palpate/nodes.h"
 #include "deploy/palpate/status_board.h"
 #include "deploy/palpate/status_line.h"
@@ -47,9 +48,11 @@ class Session {
       listen(tick);
       watch_start();
       meet();
+      if (const auto text = memory_.news(); !text.empty()) say(text);
       line_.show(board_, shown_, shown_seconds());
     }
     listen(std::chrono::milliseconds(0));
+    if (const auto text = memory_.last_words(); !text.empty()) say(text);
     if (running_since_) result_.wall_s = seconds_since(*running_since_);
     line_.finish();
     result_.interrupted = stop_requested();
@@ -159,7 +162,8 @@ class Session {
   Reader<NodeStatus> statuses_;
   StatusBoard board_;
   std::optional<Company> company_;  // across PCs only
-  std::vector<NodeKind> shown_;     // ours, then those elsewhere
+  MemoryWatch memory_{plan_.membership.reach.local()};
+  std::vector<NodeKind> shown_;  // ours, then those elsewhere
   bool quarrelled_ = false;
   StatusLine line_;
   Clock::time_point started_ = Clock::now();

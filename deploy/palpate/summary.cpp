@@ -41,7 +41,7 @@ json node_report(const NodeOutcome& outcome) {
 json merged_summary(const fs::path& out, const Scene& scene, const SessionResult& result) {
   json summary = json::object();
   for (const NodeKind node : all_nodes)
-    summary.update(part_of(out / "parts" / fmt::format("{}.json", name_of(node))));
+    summary.update(part_of(out / "parts" / fmt::format("{}.json", name_of(node))), true);
   const json ours = {
       {"scene", scene.path}, {"commit", commit()}, {"seed", scene.seed}, {"wall_s", result.wall_s}};
   for (const auto& [key, value] : ours.items()) {

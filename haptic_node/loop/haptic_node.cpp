@@ -217,8 +217,7 @@ int HapticNode::leave() {
   keep_flights();
   wire_->finish();
   publish_status(NodePhase::stopping);
-  if (!options_.out.empty())
-    write_haptic_summary(options_.out, *loop_->stats(), reports_, wire_->trace_lost());
+  if (!options_.out.empty()) write_haptic_summary(options_.out, *loop_->stats(), reports_, *wire_);
   if (unwelcome_) return exit_mistake;
   const bool faulty = std::any_of(reports_.begin(), reports_.end(), [](const SessionReport& report) {
     return report.state == HapticState::fault;

@@ -6,6 +6,7 @@
 
 #include "common/report/json_file.h"
 #include "common/time/clock.h"
+#include "common/wire/wire_report.h"
 
 namespace palpate::haptic {
 namespace {
@@ -59,10 +60,12 @@ nlohmann::json haptic_summary(const LoopStats& stats, const std::vector<SessionR
 }
 
 void write_haptic_summary(const std::string& out, const LoopStats& stats,
-                          const std::vector<SessionReport>& tools, std::uint64_t trace_lost) {
+                          const std::vector<SessionReport>& tools, const Wire& wire) {
   std::error_code already;  // write_json says what is wrong with the folder
   std::filesystem::create_directories(out + "/parts", already);
-  write_json(out + "/parts/haptic.json", haptic_summary(stats, tools, trace_lost));
+  auto part = haptic_summary(stats, tools, wire.trace_lost());
+  part.update(wire_report("haptic", wire.participant(), wire.states(), wire.traces(), wire.status()));
+  write_json(out + "/parts/haptic.json", part);
 }
 
 }  // namespace palpate::haptic

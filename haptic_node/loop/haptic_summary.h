@@ -8,6 +8,7 @@
 
 #include "haptic_node/loop/loop_stats.h"
 #include "haptic_node/loop/tool_channel.h"
+#include "haptic_node/loop/wire.h"
 
 namespace palpate::haptic {
 
@@ -16,8 +17,8 @@ namespace palpate::haptic {
 nlohmann::json haptic_summary(const LoopStats& stats, const std::vector<SessionReport>& tools,
                               std::uint64_t trace_lost);
 
-/// Writes it to OUT/parts/haptic.json. @throws InputError as write_json does
+/// Writes it, and what went over the wire, to OUT/parts/haptic.json. @throws InputError as write_json does
 void write_haptic_summary(const std::string& out, const LoopStats& stats,
-                          const std::vector<SessionReport>& tools, std::uint64_t trace_lost);
+                          const std::vector<SessionReport>& tools, const Wire& wire);
 
 }  // namespace palpate::haptic

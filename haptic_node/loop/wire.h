@@ -36,6 +36,10 @@ class Wire {
   bool write_status(const NodeStatus& status) noexcept { return status_.write(status); }
   ReaderCounts patch_counts() const noexcept;
   std::uint64_t trace_lost() const noexcept;
+  const Participant& participant() const noexcept { return participant_; }
+  const Writer<ToolState>& states() const noexcept { return states_; }
+  const Writer<HapticTrace>& traces() const noexcept { return traces_; }
+  const Writer<NodeStatus>& status() const noexcept { return status_; }
 
  private:
   struct Batch {

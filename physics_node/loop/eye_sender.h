@@ -29,6 +29,9 @@ class EyeSender {
 
   int watchers() noexcept { return blocks_.matched(); }
 
+  const Writer<BodySurface>& surfaces() const noexcept { return surfaces_; }
+  const Writer<VertexBlock>& blocks() const noexcept { return blocks_; }
+
  private:
   using Key = std::pair<std::uint32_t, std::uint32_t>;  // body, and its chunk or block
   void send();

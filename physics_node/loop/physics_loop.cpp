@@ -12,6 +12,7 @@
 #include "common/time/clock.h"
 #include "common/time/histogram.h"
 #include "common/time/ticker.h"
+#include "common/wire/wire_report.h"
 #include "physics_node/report/physics_summary.h"
 
 namespace palpate::physics {
@@ -214,9 +215,10 @@ bool PhysicsLoop::leave() {
     }
   };
   try_to([&] { recorder_->finish(*world_); });
-  try_to([&] {
-    write_json(options_.out + "/parts/physics.json", physics_summary(*world_, recorder_.get(), wall));
-  });
+  auto part = physics_summary(*world_, recorder_.get(), wall);
+  part.update(wire_report("physics", wire_.participant, wire_.patches, wire_.wrenches, wire_.status,
+                          wire_.eye.surfaces(), wire_.eye.blocks()));
+  try_to([&] { write_json(options_.out + "/parts/physics.json", part); });
   return left;
 }
 

@@ -34,8 +34,8 @@ struct Door {
 const std::vector<Door>& doors() {
   static const std::vector<Door> all = {
       {"DDS", std::regex("^(dds/|ddsc/|palpate\\.h$|idl/palpate\\.h$)"),
-       std::regex("^(common/wire/|(physics|haptic|render)_node/wire|tests/)"),
-       "common/wire and the wire.* of a node"},
+       std::regex("^(common/wire/|bench/wire/|(physics|haptic|render)_node/wire|tests/)"),
+       "common/wire, the wire.* of a node, and bench/wire"},
       {"HDF5", std::regex("^(hdf5|H5)"), std::regex("^(common/record/|tests/)"), "common/record"},
       {"PNG", std::regex("^(png|pngconf|libpng.*/png)\\.h$"), std::regex("^(common/record/png_|render_node/image/|tests/)"),
        "common/record/png_* and render_node/image"},

@@ -1,0 +1,135 @@
+#pragma once
+// A room of its own for shared memory: /dev/shm, /tmp and the loopback interface of this process and its children are
+// nobody else's, so that a RouDi of the test is seen by the test alone, and what is left behind is seen by the test.
+
+#include <net/if.h>
+#include <sched.h>
+#include <sys/ioctl.h>
+#include <sys/mount.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace palpate::test {
+
+inline bool write_file(const std::string& path, const std::string& text) {
+  std::ofstream file(path);
+  return static_cast<bool>(file << text << std::flush);
+}
+
+inline bool raise_loopback() {
+  const int descriptor = socket(AF_INET, SOCK_DGRAM, 0);
+  ifreq request = {};
+  std::strncpy(request.ifr_name, "lo", IFNAMSIZ);
+  request.ifr_flags = IFF_UP | IFF_RUNNING;
+  const bool up = ioctl(descriptor, SIOCSIFFLAGS, &request) == 0;
+  close(descriptor);
+  return up;
+}
+
+/// Moves this process, which must have one thread, into the room. @return why that is not possible; empty: it is there
+inline std::string enter_memory_room() {
+  const auto user = std::to_string(geteuid()), group = std::to_string(getegid());
+  if (geteuid() == 0) {
+    if (unshare(CLONE_NEWNS | CLONE_NEWNET) != 0) return "no namespaces here";
+  } else {
+    if (unshare(CLONE_NEWUSER | CLONE_NEWNS | CLONE_NEWNET) != 0) return "no namespaces for users here";
+    write_file("/proc/self/setgroups", "deny");
+    write_file("/proc/self/uid_map", "0 " + user + " 1");
+    write_file("/proc/self/gid_map", "0 " + group + " 1");
+  }
+  if (mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
+      mount("room", "/dev/shm", "tmpfs", 0, nullptr) != 0 || mount("room", "/tmp", "tmpfs", 0, nullptr) != 0)
+    return "no file systems of our own here";
+  return raise_loopback() ? "" : "no loopback interface of our own here";
+}
+
+/// Bytes that the loopback interface of the room has carried.
+inline std::uint64_t loopback_bytes() {
+  std::ifstream table("/proc/net/dev");
+  for (std::string line; std::getline(table, line);) {
+    const auto at = line.find("lo:");
+    if (at == std::string::npos) continue;
+    std::uint64_t received = 0;
+    std::istringstream(line.substr(at + 3)) >> received;
+    return received;
+  }
+  return 0;
+}
+
+inline std::set<std::string> shared_files() {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator("/dev/shm"))
+    names.insert(entry.path().filename().string());
+  return names;
+}
+
+/// A child process with its output in a file.
+class Process {
+ public:
+  explicit Process(std::vector<std::string> words, std::string output)
+      : output_(std::move(output)) {
+    std::vector<char*> argv;
+    for (auto& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    std::filesystem::remove(output_);  // what an earlier one said
+    pid_ = fork();
+    if (pid_ != 0) return;
+    if (std::freopen(output_.c_str(), "w", stdout) == nullptr) _exit(126);
+    dup2(STDOUT_FILENO, STDERR_FILENO);
+    execvp(argv[0], argv.data());
+    _exit(127);
+  }
+  ~Process() {
+    if (pid_ <= 0) return;
+    tell(SIGKILL);
+    waitpid(pid_, nullptr, 0);
+  }
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  void tell(int signal) const { kill(pid_, signal); }
+  /// Exit code; minus the signal that ended it; -1000 if it does not end within a minute.
+  int wait() {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    int status = 0;
+    while (waitpid(pid_, &status, WNOHANG) != pid_) {
+      if (std::chrono::steady_clock::now() > end) return -1000;
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    pid_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+  std::string text() const {
+    std::ifstream file(output_);
+    std::stringstream all;
+    all << file.rdbuf();
+    return all.str();
+  }
+  /// Waits until its output has a place like `form`. @return false if that takes too long
+  bool said(const std::string& form) const {
+    for (int i = 0; i < 8000; ++i) {
+      if (std::regex_search(text(), std::regex(form))) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return false;
+  }
+
+ private:
+  std::string output_;
+  pid_t pid_ = -1;
+};
+
+}  // namespace palpate::test
