@@ -13,15 +13,12 @@
 namespace palpate::bench {
 namespace {
 
-using haptic::Mat6;
-using haptic::Vec6;
-
 constexpr double torque_limit = 0.02, force_limit = 3.0;
 constexpr std::int64_t tick_ns = 1'000'000;
 
 struct SixTally {
-  double torque_most = 0, force_most = 0, off_direction = 0, surplus = 0, torque_step = 0;
-  double spring_excess = -1;  // of the work of springs above its bound [J]
+  double torque_most = 0, force_most = 0, off_direction = 0, surplus = 0;
+  double excess = -1;  // of the work of springs above its bound [J]
   bool bad_rejected = true, faulted = true;
 };
 
