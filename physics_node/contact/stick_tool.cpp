@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "common/message/vec3.h"
@@ -44,7 +43,8 @@ void StickTool::reset() noexcept {
   n_near_ = contacts_ = 0;
   searched_when_ = -1e9;
   sum_ = {};
-  raw_ = once_ = twice_ = Wrench{};
+  raw_ = {};
+  felt_ = {};
   tangent_.reset();
 }
 
@@ -146,11 +146,7 @@ LeadWork StickTool::lead(double done, double dt) noexcept {
 void StickTool::end_frame(Collisions*, double frame_seconds) noexcept {
   raw_.force = sum_.impulse.head<3>() / frame_seconds;
   raw_.moment = sum_.impulse.tail<3>() / frame_seconds + (to_.p - set_point_).cross(raw_.force);
-  const double part = 1 - std::exp(-2 * std::numbers::pi * low_pass_Hz_ * frame_seconds);
-  once_.force += part * (raw_.force - once_.force);
-  once_.moment += part * (raw_.moment - once_.moment);
-  twice_.force += part * (once_.force - twice_.force);
-  twice_.moment += part * (once_.moment - twice_.moment);
+  felt_.pass(raw_, low_pass_part(low_pass_Hz_, frame_seconds));
   tangent_.frame(sum_, motion(from_, to_), frame_seconds);
   sum_ = {};
 }

@@ -34,7 +34,7 @@ class StickTool final : public LedTool {
   void write_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) noexcept override;
 
   Vec3 tip() const noexcept override { return to_.p; }
-  Wrench wrench() const noexcept override { return twice_; }
+  Wrench wrench() const noexcept override { return felt_.value(); }
   Wrench raw_wrench() const noexcept override { return raw_; }
   std::uint32_t contacts() const noexcept override { return contacts_; }  // collided masses in the last frame
   Stick stick_at(const Pose& pose) const noexcept;
@@ -66,7 +66,8 @@ class StickTool final : public LedTool {
   Vec3 searched_A_ = Vec3::Constant(1e9), searched_D_ = Vec3::Zero();
   double searched_when_ = -1e9;
   ContactSum sum_;  // of the frame, about the tip at its end
-  Wrench raw_, once_, twice_;
+  Wrench raw_;
+  TwiceLowPassedWrench felt_;
   TangentEstimate tangent_;
   std::uint32_t contacts_ = 0;
 };

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "common/message/messages.h"
+#include "physics_node/contact/low_pass.h"
 #include "physics_node/contact/tangent_estimate.h"
 #include "physics_node/step/moving_body.h"
 
@@ -13,6 +14,18 @@ namespace palpate::physics {
 struct Wrench {
   Vec3 force = Vec3::Zero();   // [N]
   Vec3 moment = Vec3::Zero();  // [N m]
+};
+
+class TwiceLowPassedWrench {
+ public:
+  void pass(const Wrench& now, double part) noexcept {
+    force_.pass(now.force, part);
+    moment_.pass(now.moment, part);
+  }
+  Wrench value() const noexcept { return {force_.value(), moment_.value()}; }
+
+ private:
+  TwiceLowPassed<Vec3> force_, moment_;
 };
 
 class Tool {
@@ -53,7 +66,7 @@ class Tool {
  private:
   std::uint64_t tick_ = 0;
   std::int64_t stamp_ns_ = 0;
-  Array3 p_WT_{};              // of the hand then [m]
+  Array3 p_WT_{};  // of the hand then [m]
   Array4 q_WT_{1, 0, 0, 0};
 };
 

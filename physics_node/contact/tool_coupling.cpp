@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "common/message/vec3.h"
 
@@ -50,7 +49,7 @@ void ToolCoupling::take(const ToolState* state, double dt) noexcept {
     return;
   }
   // First-order low pass: F := F + (1 - e^(-2 pi f dt)) (target - F).
-  force_ += (1 - std::exp(-2 * std::numbers::pi * force_cutoff_Hz * dt)) * (target - force_);
+  force_ += low_pass_part(force_cutoff_Hz, dt) * (target - force_);
   if (target.isZero() && force_.norm() < negligible_force) force_.setZero();
 }
 
