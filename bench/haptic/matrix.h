@@ -37,8 +37,17 @@ struct MatrixSize {
   std::vector<double> stiffnesses{300, 500};
 };
 
+/// Each of `bases` over every link.
+std::vector<Case> over_links(const std::vector<Case>& bases, const MatrixSize& size);
+
 /// Every hand but none, every object, for one device.
 std::vector<Case> matrix(const DeviceModel& device, const MatrixSize& size, RenderMode mode);
+
+/// full: every case. quick: some of them, for tests.
+enum class Effort { quick, full };
+
+/// Every k-th case, so many that about `wanted` remain; all of them in a full run.
+std::vector<Case> chosen(std::vector<Case> cases, Effort effort, std::size_t wanted);
 
 /// In `jobs` threads; in the order of `cases`.
 std::vector<CaseResult> run_cases(const std::vector<Case>& cases, int jobs,

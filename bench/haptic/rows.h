@@ -17,9 +17,6 @@ struct Row {
   bool pass = false;
 };
 
-/// full: every case. quick: some of them, for tests.
-enum class Effort { quick, full };
-
 struct Runs {
   Effort effort = Effort::full;
   int jobs = 1;

@@ -7,16 +7,6 @@
 namespace palpate::bench {
 namespace {
 
-/// Every k-th case, so many that about `wanted` remain; all of them in a full run.
-std::vector<Case> chosen(std::vector<Case> cases, Effort effort, std::size_t wanted) {
-  if (effort == Effort::full || cases.size() <= wanted) return cases;
-  const std::size_t stride =
-      cases.size() / wanted + (cases.size() / wanted) % 2 + 1;  // odd: no factor is skipped
-  std::vector<Case> some;
-  for (std::size_t i = 0; i < cases.size(); i += stride) some.push_back(cases[i]);
-  return some;
-}
-
 /// Above 500 N/m two newton seconds per metre are needed.
 double damping_for(double stiffness) { return stiffness > 500 ? 2.0 : 1.0; }
 

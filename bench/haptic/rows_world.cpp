@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/haptic/dead_physics.h"
 #include "bench/haptic/rows.h"
 
 namespace palpate::bench {
@@ -23,30 +24,20 @@ Case case_of(const SlabModel& slab) {
 }
 
 std::vector<Case> world_cases(Effort effort, RenderMode mode, const DeviceModel& device) {
-  const bool full = effort == Effort::full;
-  const std::vector<double> delays =
-      full ? std::vector<double>{0, 5e-3, 20e-3, 50e-3} : std::vector<double>{5e-3, 50e-3};
-  const std::vector<double> rates =
-      full ? std::vector<double>{20, 60, 150, 1000} : std::vector<double>{60, 1000};
-  std::vector<Case> cases;
+  std::vector<Case> bases;
   for (const SlabModel& slab : slab_models)
-    for (const HandSpring& hand : {hand_springs[0], hand_springs[1], hand_springs[2]})
-      for (const double rate : rates)
-        for (const double delay : delays)
-          for (const double loss : full ? std::vector<double>{0, 0.1} : std::vector<double>{0.1}) {
-            if (!full && &hand != &hand_springs[0] && hand.name != hand_springs[cases.size() % 3].name)
-              continue;
-            Case c = case_of(slab);
-            c.device = device;
-            c.hand = hand;
-            c.rate_Hz = rate;
-            c.link.delay = delay;
-            c.link.loss = loss;
-            c.mode = mode;
-            c.seed = cases.size() + 1;
-            cases.push_back(c);
-          }
-  return cases;
+    for (const HandSpring& hand : hand_springs) {
+      if (hand.stiffness <= 0) continue;
+      Case c = case_of(slab);
+      c.device = device;
+      c.hand = hand;
+      c.mode = mode;
+      bases.push_back(c);
+    }
+  MatrixSize size;
+  size.losses = {0, 0.1};
+  if (effort == Effort::quick) size = {{60, 1000}, {5e-3, 50e-3}, {0.1}, {}};
+  return chosen(over_links(bases, size), effort, 12);
 }
 
 std::string figure_of(const Tally& t) {
@@ -112,70 +103,37 @@ Row world_force_is_true(Runs& runs) {
 }
 
 Row world_silence_fades() {
-  constexpr double when = 2.0;
-  double latest = 0, step = -1, surplus = 0;
-  bool monotone = true, went_stale = true;
+  std::vector<Case> cases;
   for (const SlabModel& slab : slab_models)
     for (const double rate : {20.0, 1000.0}) {
-      Case c = case_of(slab);
-      c.rate_Hz = rate;
-      Trial trial(c, press_path(c));
-      trial.run(when);
-      trial.physics_alive = false;
-      double last_message = when, last = 1e9, gone = 10;
-      const auto taken = [&] {
-        return trial.controller().patches().taken() + trial.controller().wrenches().taken();
-      };
-      std::uint64_t seen = taken();
-      bool stale = false;
-      trial.run(when + 0.7, [&] {
-        if (taken() != seen) seen = taken(), last_message = trial.t();
-        const bool now_stale = trial.controller().state() == haptic::HapticState::stale;
-        const double f = trial.rendered().force.norm();
-        if (now_stale && stale) monotone = monotone && f <= last * (1 + 1e-12);
-        stale = stale || now_stale;
-        last = f;
-        if (f == 0) gone = std::min(gone, trial.t());
-      });
-      latest = std::max(latest, gone - last_message);
-      went_stale = went_stale && stale;
-      step = std::max(step, trial.force_step_beyond_motion());
-      surplus = std::max(surplus, trial.energy().surplus());
+      cases.push_back(case_of(slab));
+      cases.back().rate_Hz = rate;
     }
+  const Silence s = silence_in(cases);
   return {"F1", "real tissue: physics dies in contact, 20 and 1000 Hz",
           "stale; falls steadily to 0 N within 400 ms; steps <= K (v T + q) + 0.1 N; G <= 0.1 mJ",
-          fmt::format("0 N after {:.0f} ms at most, {}; beyond K v T {:.3f} N; G {:.3f} mJ", 1e3 * latest,
-                      monotone ? "never rising" : "rising", step, 1e3 * surplus),
-          latest <= 0.4 && monotone && went_stale && step <= limit_step && surplus <= EnergyBook::G_allowed};
+          fmt::format("0 N after {:.0f} ms at most, {}; beyond K v T {:.3f} N; G {:.3f} mJ", 1e3 * s.latest,
+                      s.monotone ? "never rising" : "rising", s.step, 1e3 * s.surplus),
+          s.latest <= 0.4 && s.monotone && s.went_stale && s.step <= limit_step &&
+              s.surplus <= EnergyBook::G_allowed};
 }
 
 Row world_return_is_no_kick() {
-  double inside = 0, step = -1, excess = -1, least_again = 1e9;
-  for (const SlabModel& slab : slab_models)
-    for (const double away : {0.1, 1.0}) {
-      Case c = case_of(slab);
-      c.rate_Hz = 150;
-      const Path press = press_path(c, 1.0, 3.0);
-      Trial trial(c, [press](double t) { return t < 5 ? press(t) : press(t - 5); });
-      trial.run(2.0);
-      trial.physics_alive = false;
-      trial.run(2.0 + away);
-      trial.restart_physics();
-      trial.run(7.0, [&] {
-        if (away > 0.5 && trial.t() <= 4) inside = std::max(inside, trial.rendered().force.norm());
-      });
-      least_again = std::min(least_again, trial.rendered().force.norm());
-      step = std::max(step, trial.force_step_beyond_motion());
-      excess = std::max(excess, trial.energy().plane_excess());
-    }
+  std::vector<Case> cases;
+  for (const SlabModel& slab : slab_models) {
+    cases.push_back(case_of(slab));
+    cases.back().rate_Hz = 150;
+  }
+  const Return r = return_in(cases, {0.1, 1.0});
+  const double least_again = *std::min_element(r.again.begin(), r.again.end());
   return {
       "F2", "real tissue: physics falls silent for 0.1 and 1 s with the tool inside",
       "after 1 s: 0 N until the tool has left; steps <= K (v T + q) + 0.1 N; bound on plane work kept; felt "
       "again later",
       fmt::format(
           "inside {:g} N; beyond K v T {:.3f} N; plane work {:+.3f} mJ of its bound; {:.2f} N again at least",
-          inside, step, 1e3 * excess, least_again),
-      inside == 0 && step <= limit_step && excess <= 1e-9 && least_again > 0.3};
+          r.inside, r.step, 1e3 * r.excess, least_again),
+      r.inside == 0 && r.step <= limit_step && r.excess <= 1e-9 && least_again > 0.3};
 }
 
 /// A stick of the real physics, pressed into a slab: six dimensions. It may swing, but not gain.
