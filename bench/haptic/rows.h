@@ -33,6 +33,8 @@ Row matrix_is_stable(Runs& runs);                   // S2
 Row push_without_a_hand_gains_nothing(Runs& runs);  // S2
 Row stiff_matrix_is_stable(Runs& runs);             // S3
 Row unruly_links_are_borne(Runs& runs);             // N1
+Row gaps_are_borne(Runs& runs);                     // N1
+Row clocks_may_differ(const Runs& runs);            // N1
 
 // rows_force.cpp
 Row force_is_true(Runs& runs);                // S4

@@ -157,4 +157,33 @@ Row unruly_links_are_borne(Runs& runs) {
           figure_of(t), t.above_200_um == 0 && t.above_100_um * 100 <= t.cases && t.energy_broken == 0};
 }
 
+/// Nothing for 100 ms once a second, then all at once: the hand lives through it on the planes that it has.
+Row gaps_are_borne(Runs& runs) {
+  MatrixSize size;
+  size.losses = {0};
+  std::vector<Case> cases = chosen(all_devices(size), runs.effort, 48);
+  for (Case& c : cases) c.link.gap = 0.1;
+  const Tally t = tally(run(runs, cases));
+  return {"N1", "S2 with gaps of 100 ms once a second, each way, after which all comes at once", "as S2",
+          figure_of(t), t.above_200_um == 0 && t.above_100_um * 100 <= t.cases && t.energy_broken == 0};
+}
+
+/// Stamps of another machine mean nothing to the hand: ages are of its own clock.
+Row clocks_may_differ(const Runs& runs) {
+  MatrixSize size;
+  size.losses = {0.1};
+  std::vector<Case> cases = chosen(matrix(device_models[0], size, RenderMode::local), runs.effort, 12);
+  int differ = 0;
+  for (const double ahead : {-5.0, 5.0}) {
+    std::vector<Case> moved = cases;
+    for (Case& c : moved) c.clock_ahead = ahead;
+    const auto a = run_cases(cases, runs.jobs), b = run_cases(moved, runs.jobs);
+    for (std::size_t i = 0; i < a.size(); ++i)
+      differ += a[i].swing != b[i].swing || a[i].force != b[i].force || a[i].surplus != b[i].surplus;
+  }
+  return {"N1", "the clock of physics 5 s behind and 5 s ahead of the hand's",
+          "the same bits as with one clock",
+          fmt::format("{} of {} pairs of cases differ", differ, 2 * cases.size()), differ == 0};
+}
+
 }  // namespace palpate::bench

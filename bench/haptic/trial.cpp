@@ -71,7 +71,7 @@ void Trial::answer_of_world() {
   }
   Answer answer;
   const bool fresh = known_.state.tick > 0 && now_ns_ - known_ns_ <= silence_ns;
-  world_->frame(fresh ? &known_.state : nullptr, now_ns_, answer.patch, answer.wrench);
+  world_->frame(fresh ? &known_.state : nullptr, physics_clock_ns(), answer.patch, answer.wrench);
   answer.patch.tick = answer.wrench.tick = ++frame_;
   if (!physics_alive) return;
   if (alter_patch) alter_patch(answer.patch, known_.proxy);
@@ -94,6 +94,7 @@ void Trial::exchange() {
     tissue_.take(known_.force);
     if (physics_alive) {
       Answer answer{tissue_.patch(++frame_), known_.force, {}};
+      answer.patch.stamp_ns = physics_clock_ns();
       if (alter_patch) alter_patch(answer.patch, known_.proxy);
       down_.send(now_ns_, answer);
     }

@@ -24,6 +24,7 @@ struct Case {
       nullptr;          // the real physics library instead of `object`, whose stiffness is then only aimed by
   double rate_Hz = 60;  // of patches
   LinkModel link;       // each way
+  double clock_ahead = 0;  // the clock of physics before the hand's [s]
   double stiffness = 500;
   double damping = 1;
   RenderMode mode = RenderMode::local;
@@ -89,6 +90,9 @@ class Trial {
   };
 
   void exchange();
+  std::int64_t physics_clock_ns() const noexcept {
+    return now_ns_ + static_cast<std::int64_t>(case_.clock_ahead * 1e9);
+  }
   HandReport report();
   void answer_of_world();
   void render();
