@@ -12,7 +12,7 @@ namespace {
 ForceModel model_of(const Case& c) {
   if (c.mode == RenderMode::raw_planes) return ForceModel::raw_planes;
   if (c.mode == RenderMode::direct) return ForceModel::direct;
-  return c.slab->stick ? ForceModel::tangent : ForceModel::norton;
+  return c.slab->stick && c.torque_limit > 0 ? ForceModel::tangent : ForceModel::norton;
 }
 
 haptic::ControllerSettings settings_of(const Case& c) {
@@ -21,6 +21,7 @@ haptic::ControllerSettings settings_of(const Case& c) {
   settings.damping = c.damping;
   settings.force_limit = c.device.force_limit;
   settings.resolution = c.device.resolution;
+  settings.torque_limit = c.torque_limit;
   if (c.slab != nullptr) settings.model = model_of(c);
   return settings;
 }

@@ -27,6 +27,7 @@ struct Case {
   double clock_ahead = 0;  // the clock of physics before the hand's [s]
   double stiffness = 500;
   double damping = 1;
+  double torque_limit = 0;  // above 0 a stick is felt by its wrench, without torques by its plane [N m]
   RenderMode mode = RenderMode::local;
   int io_latency = 1;  // ticks from a sample to its force
   std::uint64_t seed = 1;

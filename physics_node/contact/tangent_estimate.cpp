@@ -45,7 +45,8 @@ void TangentEstimate::learn(const Vec3& force, const Vec3& way, double part, dou
   k_ = std::clamp((way_force_ + guess * first_) / (way_way_ + guess), first_ / range, first_ * range);
 }
 
-void TangentEstimate::frame(const ContactSum& sum, const Vec6& motion, double seconds) noexcept {
+void TangentEstimate::frame(const ContactSum& sum, const Vec6& motion, double seconds,
+                            double known) noexcept {
   const double part = low_pass_part(low_pass_Hz_, seconds);
   const Mat6 to_new_tip = lever(-motion.head<3>());
   once_.move(motion, to_new_tip);
@@ -60,6 +61,7 @@ void TangentEstimate::frame(const ContactSum& sum, const Vec6& motion, double se
   // Way without contact makes no force: counted, it would look like soft tissue.
   if (present) way_ += motion.head<3>();
   learn(now.W.head<3>(), way_, part, seconds);
+  if (known > 0) k_ = std::clamp(known, first_ / range, first_ * range);
 
   const double F = force_.value().norm();
   const double all = spread_.topLeftCorner<3, 3>().trace();

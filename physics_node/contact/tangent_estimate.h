@@ -30,7 +30,8 @@ class TangentEstimate {
   /// Once a frame.
   /// @param sum     on the tool in this frame, about its tip
   /// @param motion  of the hand in the frame: way of the tip and turn [m], [rad]
-  void frame(const ContactSum& sum, const Vec6& motion, double seconds) noexcept;
+  /// @param known   k where it is known otherwise; 0: it is learnt [N/m]
+  void frame(const ContactSum& sum, const Vec6& motion, double seconds, double known = 0) noexcept;
 
   const Vec6& wrench() const noexcept { return twice_.W; }  // about the tip [N], [N m]
   const Mat6& stiffness() const noexcept { return K_; }

@@ -1,6 +1,7 @@
 #pragma once
 // What the frame, the wire and the record ask of a tool, whatever it is.
 
+#include <limits>
 #include <span>
 
 #include "common/message/messages.h"
@@ -46,6 +47,9 @@ class Tool {
   void write_wrench(ToolWrench& wrench, std::uint64_t frame, std::int64_t now_ns, double t) const noexcept;
   /// How the wrench changes with the pose of the hand; null: the hand feels planes instead.
   virtual const TangentEstimate* tangent() const noexcept { return nullptr; }
+
+  /// Of the spring between hand and tool [N/m]; infinite: the tool is where the hand has it.
+  virtual double spring_to_hand() const noexcept { return std::numeric_limits<double>::infinity(); }
 
   virtual Vec3 tip() const noexcept = 0;                // where the hand holds it [m]
   virtual Wrench wrench() const noexcept = 0;           // low-passed
