@@ -33,6 +33,12 @@ Silence silence_in(const std::vector<Case>& cases) {
       last = f;
       if (f == 0) gone = std::min(gone, trial.t());
     });
+    trial.restart_physics();
+    double ready = 10;
+    trial.run(when + watched + 0.5, [&] {
+      if (trial.controller().state() == haptic::HapticState::ready) ready = std::min(ready, trial.t());
+    });
+    all.found = std::max(all.found, ready - (when + watched) - c.link.delay);
     all.latest = std::max(all.latest, gone - last_message);
     all.went_stale = all.went_stale && stale;
     all.step = std::max(all.step, trial.force_step_beyond_motion());

@@ -20,6 +20,8 @@ struct CaseResult {
   double force_least = 0, force_most = 0;  // then [N]
   double settled = 0;                      // after the end of the approach, within 5 % of `force` [s]
   double force_outside = 0;                // largest when the hand is 5 mm outside [N]
+  double sideways = 0;                     // of the tip, the larger of x and y, then [m]
+  double tissue_force = 0;                 // mean of what real tissue presses with then [N]
   bool energy_kept() const noexcept { return surplus <= EnergyBook::G_allowed && plane_excess <= 1e-9; }
 };
 

@@ -59,6 +59,7 @@ Row world_force_is_true(Runs& runs);    // S4
 Row world_silence_fades();              // F1
 Row world_return_is_no_kick();          // F2
 Row world_raw_is_unstable(Runs& runs);  // S0
+Row stick_is_steady(Runs& runs);        // S12
 Row stick_gains_nothing(Runs& runs);    // S12
 
 // rows_six.cpp

@@ -32,6 +32,37 @@ struct Teleport {
   std::function<void(ContactPatch&, double t)> change;
 };
 
+/// Tissue appears 10 mm above a hand that stands still: its planes begin at the hand, where they do not push, and move out as
+/// fast as the tank pays.
+struct Appearance {
+  double first = 0;    // force in the first tick that has one [N]
+  double unpaid = -1;  // S above what the tank may have paid since [J]
+  bool pushed = true;  // there was a force in the end
+};
+Appearance appear_around(const ObjectModel& object, double rate_Hz) {
+  constexpr double when = 2.0;
+  Case c = pressed_case();
+  c.object = object;
+  c.rate_Hz = rate_Hz;
+  Trial trial(c, [](double) { return Aim{}; });
+  trial.kinematic = true;
+  trial.alter_patch = [&](ContactPatch& p, const Vec3&) {
+    p = flat_square(p.tick, 0.01, 0.01, p.facets[0].stiffness);
+    if (trial.t() < when) p.n_facets = 0;
+  };
+  Appearance seen;
+  double since = -1;
+  trial.run(4.0, [&] {
+    const double f = trial.rendered().force.norm();
+    if (f <= 0) return;
+    if (since < 0) since = trial.t(), seen.first = f;
+    const double paid = EnergyBook::cap + EnergyBook::allowance * (trial.t() - since + 1e-3);
+    seen.unpaid = std::max(seen.unpaid, trial.controller().contact().stored - paid);
+  });
+  seen.pushed = since >= 0;
+  return seen;
+}
+
 }  // namespace
 
 Row teleports_push_gently() {
@@ -72,11 +103,24 @@ Row teleports_push_gently() {
         if (trial.force_step_beyond_motion() > step) worst = teleport.name;
         step = std::max(step, trial.force_step_beyond_motion());
       }
-  return {"S7", "plane jumps 20 mm, appears 10 mm above the hand, stiffens tenfold, turns by 90 deg",
-          "steps <= K v T + 0.1 N, bound on plane work kept, G <= 0.1 mJ",
-          fmt::format("beyond K v T {:.3f} N ({}); plane work {:+.3f} mJ of its bound; G {:.3f} mJ", step,
-                      worst, 1e3 * excess, 1e3 * surplus),
-          step <= limit_step * (1 + 1e-9) && excess <= 1e-9 && surplus <= EnergyBook::G_allowed};
+  double first = 0, unpaid = -1;
+  bool pushed = true;
+  for (const ObjectModel& object : {object_models[0], object_models[1]})
+    for (const double rate : {20.0, 150.0, 1000.0}) {
+      const Appearance seen = appear_around(object, rate);
+      first = std::max(first, seen.first);
+      unpaid = std::max(unpaid, seen.unpaid);
+      pushed = pushed && seen.pushed;
+    }
+  return {
+      "S7", "plane jumps 20 mm, appears 10 mm above the hand, stiffens tenfold, turns by 90 deg",
+      "steps <= K v T + 0.1 N, bound on plane work kept, G <= 0.1 mJ; around a hand that stands still they "
+      "begin at 0 N and store no more than the tank has paid",
+      fmt::format("beyond K v T {:.3f} N ({}); plane work {:+.3f} mJ of its bound; G {:.3f} mJ; begins with "
+                  "{:.3f} N, {:+.3f} mJ of what was paid",
+                  step, worst, 1e3 * excess, 1e3 * surplus, first, 1e3 * unpaid),
+      step <= limit_step * (1 + 1e-9) && excess <= 1e-9 && surplus <= EnergyBook::G_allowed && pushed &&
+          first <= limit_step && unpaid <= 1e-9};
 }
 
 Row silence_fades() {
@@ -92,11 +136,15 @@ Row silence_fades() {
     }
   const Silence s = silence_in(cases);
   return {"F1", "physics dies in contact, 20 to 1000 Hz, 0 and 50 ms",
-          "stale; falls steadily to 0 N within 400 ms of the last patch; steps <= K v T + 0.1 N; G <= 0.1 mJ",
-          fmt::format("0 N after {:.0f} ms at most, {}; beyond K v T {:.3f} N; G {:.3f} mJ", 1e3 * s.latest,
-                      s.monotone ? "never rising" : "rising", s.step, 1e3 * s.surplus),
+          "stale; falls steadily to 0 N within 400 ms of the last patch; steps <= K v T + 0.1 N; G <= 0.1 "
+          "mJ; ready within 0.1 s of "
+          "its return",
+          fmt::format("0 N after {:.0f} ms at most, {}; beyond K v T {:.3f} N; G {:.3f} mJ; ready "
+                      "after {:.0f} ms",
+                      1e3 * s.latest, s.monotone ? "never rising" : "rising", s.step, 1e3 * s.surplus,
+                      1e3 * s.found),
           s.latest <= 0.4 && s.monotone && s.went_stale && s.step <= limit_step &&
-              s.surplus <= EnergyBook::G_allowed};
+              s.surplus <= EnergyBook::G_allowed && s.found <= 0.1};
 }
 
 Row return_is_no_kick() {

@@ -95,6 +95,7 @@ std::vector<Row> all_rows(Runs& runs) {
           world_silence_fades(),
           world_return_is_no_kick(),
           torque_is_bounded(runs),
+          stick_is_steady(runs),
           stick_gains_nothing(runs)};
 }
 
