@@ -9,6 +9,7 @@ namespace {
 constexpr double margin = 0.010;         // around the stick: what a hand at 0.2 m/s covers in 50 ms [m]
 constexpr double search_period = 0.020;  // after which tissue may have come near by itself [s]
 constexpr double facing_limit = 0.2;     // cosine below which a facet belongs to another side
+constexpr std::size_t room = 16384;      // facets that it may touch at the most
 
 }  // namespace
 
@@ -18,7 +19,7 @@ StickSurface::StickSurface(const ContactSurface& surface, const MovingBody& movi
   reach_ = std::max(2 * radius, 2 * spacing);
   depth_ = 0.25 * spacing;
   near_.reserve(surface.surface().facets.size());
-  facets_.reserve(surface.surface().facets.size());
+  facets_.reserve(std::min(room, surface.surface().facets.size()));
 }
 
 void StickSurface::look(const Stick& stick, double t) noexcept {
@@ -31,8 +32,14 @@ void StickSurface::look(const Stick& stick, double t) noexcept {
   near_.clear();
   const double around = reach_ + stick.radius + 2 * margin;
   surface_.facets_near(stick.axis_point(0.5), 0.5 * stick.D.norm() + around, moving_, near_);
+  const Surface& surface = surface_.surface();
   near_.erase(std::remove_if(near_.begin(), near_.end(),
                              [&](std::uint32_t id) {
+                               const auto& corners = surface.facets[id];
+                               // A stick meets masses, not scenery.
+                               if (std::all_of(corners.begin(), corners.end(),
+                                               [&](auto corner) { return corner >= surface.n_moving(); }))
+                                 return true;
                                const Vec3 c = surface_.centroid(id, moving_);
                                return (c - stick.axis_point(stick.nearest(c))).squaredNorm() >
                                       around * around;
@@ -46,6 +53,7 @@ void StickSurface::collect(const Stick& stick, bool at_rest) noexcept {
   double least = std::numeric_limits<double>::infinity();
   Vec3 side = Vec3::Zero();
   for (const std::uint32_t id : near_) {
+    if (facets_.size() == facets_.capacity()) break;
     const auto now = surface_.centroid_and_area(id, moving_);
     Facet facet;
     facet.rest = surface_.rest_centroid(id);
