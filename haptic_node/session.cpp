@@ -52,6 +52,8 @@ ControllerSettings settings_of(const Scene& scene, std::uint32_t tool_index, con
       torque = std::min(torque, info.cont_torque * calibration.scale() / calibration.force_scale());
     settings.torque_limit = std::min(tool.torque_limit, torque);
   }
+  if (tool.shape == ToolShape::stick && settings.model == ForceModel::tangent && settings.torque_limit <= 0)
+    settings.model = ForceModel::norton;  // nothing to turn with: the plane under the stick says all
   if ((info.caps & HDEV_CAP_HW_WATCHDOG) != 0) settings.hold = info.hw_watchdog_s;
   settings.resolution = info.pos_resolution * calibration.scale();
   return settings;
@@ -138,7 +140,8 @@ DeviceSample HapticSession::sample_device() noexcept {
 /// E += F . dx + M . turn, with what was held while the hand moved. What the motors really did.
 void HapticSession::book_energy(const Vec3& x_d, const Eigen::Quaterniond& q_w) noexcept {
   if (counts_.ticks > before_.ticks && x_d.allFinite()) counts_.energy += force_d_.dot(x_d - last_x_d_);
-  if (counts_.ticks > before_.ticks && !torque_w_.isZero()) counts_.energy += torque_w_.dot(turn_between(last_q_, q_w));
+  if (counts_.ticks > before_.ticks && !torque_w_.isZero())
+    counts_.energy += torque_w_.dot(turn_between(last_q_, q_w));
   last_q_ = q_w;
   if (x_d.allFinite()) last_x_d_ = x_d;
   counts_.energy_max = std::max(counts_.energy_max, counts_.energy);
@@ -215,7 +218,8 @@ void HapticSession::tick(const ContactPatch* newest, const ToolWrench* wrench) n
   counts_.safe_events = before_.safe_events + controller_.safe_events();
   counts_.faults = before_.faults + controller_.faults();
   counts_.patches_taken = before_.patches_taken + controller_.patches().taken();
-  counts_.patches_rejected = before_.patches_rejected + controller_.patches().rejected() + controller_.wrenches().rejected();
+  counts_.patches_rejected =
+      before_.patches_rejected + controller_.patches().rejected() + controller_.wrenches().rejected();
   counts_.samples_rejected = before_.samples_rejected + controller_.motion().rejected();
   counts_.outran = before_.outran + controller_.outran();
   counts_.surplus = controller_.surplus();

@@ -86,7 +86,7 @@ std::vector<std::size_t> World::make_tools() {
       if (scene_.physics.integrator == Integrator::backward_euler)
         throw InputError(spec.place.text() + ": a stick moves masses step by step, which \"backward_euler\" does not; write "
                          "integrator = \"symplectic_euler\" or \"velocity_verlet\"");
-      auto stick = std::make_unique<StickTool>(spec, n, bodies_);
+      auto stick = std::make_unique<StickTool>(spec, n, bodies_, touchable_);
       for (const auto& body : bodies_)
         if (body->body().n_held < body->body().lattice.n_masses() && spec.radius < 0.5 * body->body().lattice.spacing())
           remarks_.push_back(fmt::format("{}: stick \"{}\" of radius {:.3g} mm meets masses {:.3g} mm apart and may slip between "

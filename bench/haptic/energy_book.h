@@ -20,7 +20,8 @@ class EnergyBook {
   static constexpr double allowance = 5e-3;    // [W]
   static constexpr double rest = 0.05;         // without contact, after which a contact counts as new [s]
 
-  void moved(const Vec3& force, const Vec3& by) noexcept { port_ += force.dot(by); }
+  void moved(const Vec3& force, const Vec3& by) noexcept { given(force.dot(by)); }
+  void given(double work) noexcept { port_ += work; }
 
   /// Once a tick, after the renderer has answered.
   void tick(double dt, double stored, double plane_work, bool touching) noexcept {

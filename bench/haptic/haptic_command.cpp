@@ -70,6 +70,7 @@ int run_haptic(const Options& options) {
   fmt::print("proxy of 8 planes: {:.2f} us median, {:.2f} us p99 (CPU time)\n", cost.median_us, cost.p99_us);
   std::vector<CaseResult> cases = runs.seen;
   cases.insert(cases.end(), runs.raw.begin(), runs.raw.end());
+  cases.insert(cases.end(), runs.world.begin(), runs.world.end());
   folder.write_csv(table_of(cases));
   folder.write_json({{"rows", rows},
                      {"cases", cases.size()},

@@ -1,6 +1,7 @@
 #pragma once
-// One direction of a network, in simulated time: delay, jitter, loss, duplicates, reordering.
+// One direction of a network, in simulated time: delay, jitter, loss, duplicates, reordering, gaps.
 
+#include <algorithm>
 #include <cstdint>
 #include <queue>
 #include <random>
@@ -14,6 +15,7 @@ struct LinkModel {
   double jitter = 0;     // added, uniform in [0, jitter] [s]; more than a period apart reorders
   double loss = 0;       // probability
   double duplicate = 0;  // probability that a message comes twice, each with a jitter of its own
+  double gap = 0;        // once a second nothing is carried for so long, then all of it at once [s]
 };
 
 template <class T>
@@ -26,7 +28,7 @@ class Link {
     const int copies = chance(model_.duplicate) ? 2 : 1;
     for (int i = 0; i < copies; ++i) {
       if (chance(model_.loss)) continue;
-      double late = model_.delay;
+      double late = model_.delay + held_up(now_ns);
       if (model_.jitter > 0) late += model_.jitter * uniform_(random_);
       queue_.push({now_ns + static_cast<std::int64_t>(late * 1e9), sent_, message});
     }
@@ -54,6 +56,11 @@ class Link {
     }
   };
 
+  /// Until the end of a gap [s].
+  double held_up(std::int64_t now_ns) const {
+    const double since = 1e-9 * static_cast<double>(now_ns % 1'000'000'000);
+    return std::max(0.0, model_.gap - since);
+  }
   bool chance(double probability) { return probability > 0 && uniform_(random_) < probability; }
 
   LinkModel model_;

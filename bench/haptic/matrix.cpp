@@ -31,7 +31,8 @@ CaseResult run_case(const Case& c, const std::function<void(Tissue&, double)>& m
   result.c = c;
   result.force_least = c.device.force_limit;
   std::vector<double> forces;
-  double low = 1, high = -1, sum = 0;
+  Eigen::Array3d low(1, 1, 1), high(-1, -1, -1);
+  double sum = 0, tissue = 0;
   int n = 0;
   const double end = held ? hold_end : 6.0;
   if (!held) trial.run(0);
@@ -41,14 +42,17 @@ CaseResult run_case(const Case& c, const std::function<void(Tissue&, double)>& m
     if (t > approach_end && t <= end) forces.push_back(f);
     if (z > 5e-3) result.force_outside = std::max(result.force_outside, trial.rendered().force.norm());
     if (t < end - 1.0 || t > end) return;
-    low = std::min(low, z);
-    high = std::max(high, z);
+    low = low.min(trial.plant().x().array());
+    high = high.max(trial.plant().x().array());
+    if (trial.world() != nullptr) tissue += trial.world()->world().tool(0).raw_wrench().force.z();
     result.force_least = std::min(result.force_least, f);
     result.force_most = std::max(result.force_most, f);
     sum += f;
     ++n;
   });
-  result.swing = high - low;
+  result.swing = high.z() - low.z();
+  result.sideways = (high - low).head<2>().maxCoeff();
+  result.tissue_force = tissue / n;
   result.force = sum / n;
   result.settled = settling_time(forces, result.force);
   result.surplus = trial.energy().surplus();
@@ -58,28 +62,45 @@ CaseResult run_case(const Case& c, const std::function<void(Tissue&, double)>& m
   return result;
 }
 
-std::vector<Case> matrix(const DeviceModel& device, const MatrixSize& size, RenderMode mode) {
+std::vector<Case> over_links(const std::vector<Case>& bases, const MatrixSize& size) {
   std::vector<Case> cases;
+  for (Case c : bases)
+    for (const double rate : size.rates_Hz)
+      for (const double delay : size.delays)
+        for (const double loss : size.losses) {
+          c.rate_Hz = rate;
+          c.link.delay = delay;
+          c.link.loss = loss;
+          c.seed = cases.size() + 1;
+          cases.push_back(c);
+        }
+  return cases;
+}
+
+std::vector<Case> matrix(const DeviceModel& device, const MatrixSize& size, RenderMode mode) {
+  std::vector<Case> bases;
   for (const double stiffness : size.stiffnesses)
     for (const HandSpring& hand : hand_springs)
-      for (const ObjectModel& object : object_models)
-        for (const double rate : size.rates_Hz)
-          for (const double delay : size.delays)
-            for (const double loss : size.losses) {
-              if (hand.stiffness <= 0) continue;
-              Case c;
-              c.device = device;
-              c.hand = hand;
-              c.object = object;
-              c.rate_Hz = rate;
-              c.link.delay = delay;
-              c.link.loss = loss;
-              c.stiffness = stiffness;
-              c.mode = mode;
-              c.seed = cases.size() + 1;
-              cases.push_back(c);
-            }
-  return cases;
+      for (const ObjectModel& object : object_models) {
+        if (hand.stiffness <= 0) continue;
+        Case c;
+        c.device = device;
+        c.hand = hand;
+        c.object = object;
+        c.stiffness = stiffness;
+        c.mode = mode;
+        bases.push_back(c);
+      }
+  return over_links(bases, size);
+}
+
+std::vector<Case> chosen(std::vector<Case> cases, Effort effort, std::size_t wanted) {
+  if (effort == Effort::full || cases.size() <= wanted) return cases;
+  const std::size_t stride =
+      cases.size() / wanted + (cases.size() / wanted) % 2 + 1;  // odd: no factor is skipped
+  std::vector<Case> some;
+  for (std::size_t i = 0; i < cases.size(); i += stride) some.push_back(cases[i]);
+  return some;
 }
 
 std::vector<CaseResult> run_cases(const std::vector<Case>& cases, int jobs,

@@ -20,6 +20,8 @@ struct CaseResult {
   double force_least = 0, force_most = 0;  // then [N]
   double settled = 0;                      // after the end of the approach, within 5 % of `force` [s]
   double force_outside = 0;                // largest when the hand is 5 mm outside [N]
+  double sideways = 0;                     // of the tip, the larger of x and y, then [m]
+  double tissue_force = 0;                 // mean of what real tissue presses with then [N]
   bool energy_kept() const noexcept { return surplus <= EnergyBook::G_allowed && plane_excess <= 1e-9; }
 };
 
@@ -37,8 +39,17 @@ struct MatrixSize {
   std::vector<double> stiffnesses{300, 500};
 };
 
+/// Each of `bases` over every link.
+std::vector<Case> over_links(const std::vector<Case>& bases, const MatrixSize& size);
+
 /// Every hand but none, every object, for one device.
 std::vector<Case> matrix(const DeviceModel& device, const MatrixSize& size, RenderMode mode);
+
+/// full: every case. quick: some of them, for tests.
+enum class Effort { quick, full };
+
+/// Every k-th case, so many that about `wanted` remain; all of them in a full run.
+std::vector<Case> chosen(std::vector<Case> cases, Effort effort, std::size_t wanted);
 
 /// In `jobs` threads; in the order of `cases`.
 std::vector<CaseResult> run_cases(const std::vector<Case>& cases, int jobs,

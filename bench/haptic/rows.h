@@ -17,9 +17,6 @@ struct Row {
   bool pass = false;
 };
 
-/// full: every case. quick: some of them, for tests.
-enum class Effort { quick, full };
-
 struct Runs {
   Effort effort = Effort::full;
   int jobs = 1;
@@ -36,6 +33,8 @@ Row matrix_is_stable(Runs& runs);                   // S2
 Row push_without_a_hand_gains_nothing(Runs& runs);  // S2
 Row stiff_matrix_is_stable(Runs& runs);             // S3
 Row unruly_links_are_borne(Runs& runs);             // N1
+Row gaps_are_borne(Runs& runs);                     // N1
+Row clocks_may_differ(const Runs& runs);            // N1
 
 // rows_force.cpp
 Row force_is_true(Runs& runs);                // S4
@@ -60,6 +59,7 @@ Row world_force_is_true(Runs& runs);    // S4
 Row world_silence_fades();              // F1
 Row world_return_is_no_kick();          // F2
 Row world_raw_is_unstable(Runs& runs);  // S0
+Row stick_is_steady(Runs& runs);        // S12
 Row stick_gains_nothing(Runs& runs);    // S12
 
 // rows_six.cpp

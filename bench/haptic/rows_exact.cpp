@@ -83,6 +83,8 @@ std::vector<Row> all_rows(Runs& runs) {
           saturation_is_quiet(runs),
           calibration_is_exact(runs),
           unruly_links_are_borne(runs),
+          gaps_are_borne(runs),
+          clocks_may_differ(runs),
           silence_fades(),
           return_is_no_kick(),
           rubbish_is_harmless(runs),
@@ -93,6 +95,7 @@ std::vector<Row> all_rows(Runs& runs) {
           world_silence_fades(),
           world_return_is_no_kick(),
           torque_is_bounded(runs),
+          stick_is_steady(runs),
           stick_gains_nothing(runs)};
 }
 

@@ -7,16 +7,6 @@
 namespace palpate::bench {
 namespace {
 
-/// Every k-th case, so many that about `wanted` remain; all of them in a full run.
-std::vector<Case> chosen(std::vector<Case> cases, Effort effort, std::size_t wanted) {
-  if (effort == Effort::full || cases.size() <= wanted) return cases;
-  const std::size_t stride =
-      cases.size() / wanted + (cases.size() / wanted) % 2 + 1;  // odd: no factor is skipped
-  std::vector<Case> some;
-  for (std::size_t i = 0; i < cases.size(); i += stride) some.push_back(cases[i]);
-  return some;
-}
-
 /// Above 500 N/m two newton seconds per metre are needed.
 double damping_for(double stiffness) { return stiffness > 500 ? 2.0 : 1.0; }
 
@@ -165,6 +155,35 @@ Row unruly_links_are_borne(Runs& runs) {
   const Tally t = tally(run(runs, cases));
   return {"N1", "S2 with 0 to 25 ms of jitter (which reorders), 20 % duplicates, 1 % loss", "as S2",
           figure_of(t), t.above_200_um == 0 && t.above_100_um * 100 <= t.cases && t.energy_broken == 0};
+}
+
+/// Nothing for 100 ms once a second, then all at once: the hand lives through it on the planes that it has.
+Row gaps_are_borne(Runs& runs) {
+  MatrixSize size;
+  size.losses = {0};
+  std::vector<Case> cases = chosen(all_devices(size), runs.effort, 48);
+  for (Case& c : cases) c.link.gap = 0.1;
+  const Tally t = tally(run(runs, cases));
+  return {"N1", "S2 with gaps of 100 ms once a second, each way, after which all comes at once", "as S2",
+          figure_of(t), t.above_200_um == 0 && t.above_100_um * 100 <= t.cases && t.energy_broken == 0};
+}
+
+/// Stamps of another machine mean nothing to the hand: ages are of its own clock.
+Row clocks_may_differ(const Runs& runs) {
+  MatrixSize size;
+  size.losses = {0.1};
+  std::vector<Case> cases = chosen(matrix(device_models[0], size, RenderMode::local), runs.effort, 12);
+  int differ = 0;
+  for (const double ahead : {-5.0, 5.0}) {
+    std::vector<Case> moved = cases;
+    for (Case& c : moved) c.clock_ahead = ahead;
+    const auto a = run_cases(cases, runs.jobs), b = run_cases(moved, runs.jobs);
+    for (std::size_t i = 0; i < a.size(); ++i)
+      differ += a[i].swing != b[i].swing || a[i].force != b[i].force || a[i].surplus != b[i].surplus;
+  }
+  return {"N1", "the clock of physics 5 s behind and 5 s ahead of the hand's",
+          "the same bits as with one clock",
+          fmt::format("{} of {} pairs of cases differ", differ, 2 * cases.size()), differ == 0};
 }
 
 }  // namespace palpate::bench

@@ -12,7 +12,7 @@ namespace {
 ForceModel model_of(const Case& c) {
   if (c.mode == RenderMode::raw_planes) return ForceModel::raw_planes;
   if (c.mode == RenderMode::direct) return ForceModel::direct;
-  return c.slab->stick ? ForceModel::tangent : ForceModel::norton;
+  return c.slab->stick && c.torque_limit > 0 ? ForceModel::tangent : ForceModel::norton;
 }
 
 haptic::ControllerSettings settings_of(const Case& c) {
@@ -21,6 +21,7 @@ haptic::ControllerSettings settings_of(const Case& c) {
   settings.damping = c.damping;
   settings.force_limit = c.device.force_limit;
   settings.resolution = c.device.resolution;
+  settings.torque_limit = c.torque_limit;
   if (c.slab != nullptr) settings.model = model_of(c);
   return settings;
 }
@@ -71,7 +72,7 @@ void Trial::answer_of_world() {
   }
   Answer answer;
   const bool fresh = known_.state.tick > 0 && now_ns_ - known_ns_ <= silence_ns;
-  world_->frame(fresh ? &known_.state : nullptr, now_ns_, answer.patch, answer.wrench);
+  world_->frame(fresh ? &known_.state : nullptr, physics_clock_ns(), answer.patch, answer.wrench);
   answer.patch.tick = answer.wrench.tick = ++frame_;
   if (!physics_alive) return;
   if (alter_patch) alter_patch(answer.patch, known_.proxy);
@@ -94,6 +95,7 @@ void Trial::exchange() {
     tissue_.take(known_.force);
     if (physics_alive) {
       Answer answer{tissue_.patch(++frame_), known_.force, {}};
+      answer.patch.stamp_ns = physics_clock_ns();
       if (alter_patch) alter_patch(answer.patch, known_.proxy);
       down_.send(now_ns_, answer);
     }

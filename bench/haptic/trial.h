@@ -24,8 +24,10 @@ struct Case {
       nullptr;          // the real physics library instead of `object`, whose stiffness is then only aimed by
   double rate_Hz = 60;  // of patches
   LinkModel link;       // each way
+  double clock_ahead = 0;  // the clock of physics before the hand's [s]
   double stiffness = 500;
   double damping = 1;
+  double torque_limit = 0;  // above 0 a stick is felt by its wrench, without torques by its plane [N m]
   RenderMode mode = RenderMode::local;
   int io_latency = 1;  // ticks from a sample to its force
   std::uint64_t seed = 1;
@@ -89,6 +91,9 @@ class Trial {
   };
 
   void exchange();
+  std::int64_t physics_clock_ns() const noexcept {
+    return now_ns_ + static_cast<std::int64_t>(case_.clock_ahead * 1e9);
+  }
   HandReport report();
   void answer_of_world();
   void render();

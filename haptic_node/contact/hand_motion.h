@@ -1,14 +1,13 @@
 #pragma once
-// Where a hand holds a tool and how it moves, in the world; and forces with moments as one vector of six.
+// Where a hand holds a tool and how it moves, in the world.
 
 #include <Eigen/Geometry>
+#include <cmath>
 
+#include "common/math/six.h"
 #include "common/scene/scene.h"
 
 namespace palpate::haptic {
-
-using Vec6 = Eigen::Matrix<double, 6, 1>;  // force [N] and moment [N m], or motion [m] and turn [rad]
-using Mat6 = Eigen::Matrix<double, 6, 6>;
 
 struct HandMotion {
   Vec3 x = Vec3::Zero();                                  // tip [m]

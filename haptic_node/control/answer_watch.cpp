@@ -74,7 +74,7 @@ double AnswerWatch<Answer>::silence(std::int64_t now_ns) const noexcept {
 
 template <class Answer>
 double AnswerWatch<Answer>::patience() const noexcept {
-  return std::clamp(3.0 * period_, 0.03, 0.2);
+  return std::clamp(3.0 * period_, 0.12, 0.2);
 }
 
 template <class Answer>

@@ -28,7 +28,8 @@ class AnswerWatch {
   bool ever() const noexcept { return ever_; }
   /// Measured time between answers [s], smoothed: slower ones are believed sooner than faster ones. Begins at 50 ms.
   double period() const noexcept { return period_; }
-  /// Silence after which forces fade: three periods, within 30 to 200 ms [s].
+  /// Silence after which forces fade: three periods, within 120 to 200 ms [s]. Planes that stand still give no energy, so that
+  /// a network that holds up everything for 100 ms is not felt.
   double patience() const noexcept;
   static constexpr double fade_time = 0.2;  // from full force to none [s]
 

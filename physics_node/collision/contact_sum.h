@@ -1,14 +1,10 @@
 #pragma once
 // Impulses on something in a frame: their sum, their moment, and which springs in their place would look like.
 
-#include <Eigen/Core>
-
+#include "common/math/six.h"
 #include "common/scene/scene.h"
 
 namespace palpate::physics {
-
-using Vec6 = Eigen::Matrix<double, 6, 1>;
-using Mat6 = Eigen::Matrix<double, 6, 6>;
 
 /// T that moves the point that moments are about: W' = T W, K' = T K T^T.
 /// @param from_new  the old point seen from the new one [m]

@@ -1,8 +1,5 @@
 #include "physics_node/contact/body_tool.h"
 
-#include <cmath>
-#include <numbers>
-
 #include "common/message/vec3.h"
 
 namespace palpate::physics {
@@ -26,7 +23,8 @@ void BodyTool::reset() noexcept {
   from_ = to_ = {moving_.body().tip, Eigen::Quaterniond::Identity()};
   handle_.reset();
   seen_ = engaged_ = false;
-  raw_ = once_ = twice_ = Wrench{};
+  raw_ = {};
+  felt_ = {};
   tangent_.reset();
   contacts_ = 0;
 }
@@ -57,11 +55,7 @@ void BodyTool::end_frame(Collisions* collisions, double frame_seconds) noexcept 
   raw_.force = taken.linear / frame_seconds;
   raw_.moment = taken.about(set_point_) / frame_seconds;
   contacts_ = taken.masses;
-  const double part = 1 - std::exp(-2 * std::numbers::pi * low_pass_Hz_ * frame_seconds);
-  once_.force += part * (raw_.force - once_.force);
-  once_.moment += part * (raw_.moment - once_.moment);
-  twice_.force += part * (once_.force - twice_.force);
-  twice_.moment += part * (once_.moment - twice_.moment);
+  felt_.pass(raw_, low_pass_part(low_pass_Hz_, frame_seconds));
   tangent_.frame(taken.sum_about(to_.p), motion(from_, to_), frame_seconds);
 }
 

@@ -26,7 +26,7 @@ class BodyTool final : public LedTool {
 
   std::size_t body() const { return body_; }
   Vec3 tip() const noexcept override { return to_.p; }
-  Wrench wrench() const noexcept override { return twice_; }
+  Wrench wrench() const noexcept override { return felt_.value(); }
   Wrench raw_wrench() const noexcept override { return raw_; }
   std::uint32_t contacts() const noexcept override { return contacts_; }
 
@@ -40,7 +40,8 @@ class BodyTool final : public LedTool {
   Pose from_, to_;              // of the frame
   Vec3 clutch_ = Vec3::Zero();  // from the hand's tip to the tool's, when the hand first took it [m]
   Eigen::Quaterniond clutch_q_ = Eigen::Quaterniond::Identity();
-  Wrench raw_, once_, twice_;
+  Wrench raw_;
+  TwiceLowPassedWrench felt_;
   std::uint32_t contacts_ = 0;
 };
 

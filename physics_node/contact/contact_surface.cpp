@@ -70,6 +70,11 @@ Vec3 ContactSurface::rest_centroid(std::uint32_t facet) const {
   return sum / 4;
 }
 
+Vec3 ContactSurface::rest_area(std::uint32_t facet) const {
+  const auto& c = surface_.facets[facet];
+  return 0.5 * (surface_.rest[c[2]] - surface_.rest[c[0]]).cross(surface_.rest[c[3]] - surface_.rest[c[1]]);
+}
+
 ContactSurface::CentroidAndArea ContactSurface::centroid_and_area(std::uint32_t facet,
                                                                   const MovingBody& moving) const {
   const auto& c = surface_.facets[facet];

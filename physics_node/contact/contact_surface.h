@@ -22,6 +22,7 @@ class ContactSurface {
 
   Vec3 centroid(std::uint32_t facet, const MovingBody& moving) const;
   Vec3 rest_centroid(std::uint32_t facet) const;
+  Vec3 rest_area(std::uint32_t facet) const;  // as below [m^2]
   /// The centroid and, half the cross product of the diagonals, the normal times the area [m^2].
   struct CentroidAndArea {
     Vec3 centroid, area;

@@ -5,9 +5,9 @@
 
 namespace palpate::physics {
 
-Eigen::Matrix<double, 6, 1> motion(const Pose& from, const Pose& to) noexcept {
+Vec6 motion(const Pose& from, const Pose& to) noexcept {
   const Eigen::AngleAxisd turn(Eigen::Quaterniond(to.q * from.q.conjugate()).normalized());
-  Eigen::Matrix<double, 6, 1> by;
+  Vec6 by;
   by << to.p - from.p, turn.angle() * turn.axis();
   return by;
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/math/six.h"
 #include "physics_node/step/moving_body.h"
 
 namespace palpate::physics {
@@ -15,7 +16,7 @@ struct Pose {
 };
 
 /// From one pose to another: way [m] and turn as axis times angle [rad].
-Eigen::Matrix<double, 6, 1> motion(const Pose& from, const Pose& to) noexcept;
+Vec6 motion(const Pose& from, const Pose& to) noexcept;
 
 /// Work that the hand did, and the impulse that it gave.
 struct HandleWork {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -15,16 +16,20 @@ constexpr double search_period = 0.020;  // after which tissue may have come nea
 constexpr double on_surface = 1e-6;      // of the stick, so that a mass was carried in the step before [m]
 constexpr double exit_speed =
     1.0;  // most at which a mass inside is brought out, beyond the stick's own motion [m/s]
+constexpr double patch_half = 0.020;  // side of the plane's square about the tip [m]
 
 }  // namespace
 
 StickTool::StickTool(const ToolSpec& tool, std::uint32_t index,
-                     const std::vector<std::unique_ptr<MovingBody>>& bodies)
+                     const std::vector<std::unique_ptr<MovingBody>>& bodies,
+                     const std::vector<TouchableBody>& surfaces)
     : LedTool(index, tool.set_point),
       length_(tool.length),
       radius_(tool.radius),
       attitude_(tool.attitude),
       low_pass_Hz_(tool.low_pass_Hz),
+      spring_(force_model_of(tool) == ForceModel::direct ? std::numeric_limits<double>::infinity()
+                                                         : tool.stiffness),
       tangent_(tool.low_pass_Hz, 0.5 * tool.stiffness) {
   for (const auto& body : bodies) {
     Near near;
@@ -37,6 +42,7 @@ StickTool::StickTool(const ToolSpec& tool, std::uint32_t index,
     for (auto* array : {&near.rest, &near.x, &near.v, &near.v_move}) array->assign(most, Vec3::Zero());
     near_.push_back(std::move(near));
   }
+  for (const TouchableBody& body : surfaces) surfaces_.emplace_back(*body.surface, *body.moving, radius_);
 }
 
 void StickTool::reset() noexcept {
@@ -44,8 +50,11 @@ void StickTool::reset() noexcept {
   n_near_ = contacts_ = 0;
   searched_when_ = -1e9;
   sum_ = {};
-  raw_ = once_ = twice_ = Wrench{};
+  raw_ = {};
+  felt_ = {};
   tangent_.reset();
+  plane_ = {};
+  K_o_ = {};
 }
 
 Stick StickTool::stick_at(const Pose& pose) const noexcept {
@@ -57,7 +66,7 @@ void StickTool::take(const ToolState* state, double) noexcept {
   done_ = 0;
   if (state == nullptr) return;  // a silent hand holds still
   note(*state);
-  to_ = {vec(state->p_WT),
+  to_ = {vec(std::isinf(spring_) ? state->p_WT : state->proxy),
          Eigen::Quaterniond(state->q_WT[0], state->q_WT[1], state->q_WT[2], state->q_WT[3])};
   if (!seen_) from_ = to_;
   seen_ = true;
@@ -87,6 +96,7 @@ void StickTool::find_contact(double t) noexcept {
   const Stick now = stick_at(to_);
   const double moved =
       std::max((now.A - searched_A_).norm(), (now.A + now.D - searched_A_ - searched_D_).norm());
+  for (StickSurface& surface : surfaces_) surface.look(now, t);
   if (moved <= 0.5 * margin && t - searched_when_ < search_period && t >= searched_when_) return;
   n_near_ = 0;
   for (Near& near : near_) {
@@ -146,17 +156,53 @@ LeadWork StickTool::lead(double done, double dt) noexcept {
 void StickTool::end_frame(Collisions*, double frame_seconds) noexcept {
   raw_.force = sum_.impulse.head<3>() / frame_seconds;
   raw_.moment = sum_.impulse.tail<3>() / frame_seconds + (to_.p - set_point_).cross(raw_.force);
-  const double part = 1 - std::exp(-2 * std::numbers::pi * low_pass_Hz_ * frame_seconds);
-  once_.force += part * (raw_.force - once_.force);
-  once_.moment += part * (raw_.moment - once_.moment);
-  twice_.force += part * (once_.force - twice_.force);
-  twice_.moment += part * (once_.moment - twice_.moment);
-  tangent_.frame(sum_, motion(from_, to_), frame_seconds);
+  felt_.pass(raw_, low_pass_part(low_pass_Hz_, frame_seconds));
+  const bool pressed = plane_.found && plane_.gap < 0;
+  tangent_.frame(sum_, motion(from_, to_), frame_seconds, pressed ? K_o_.value() : 0.0);
   sum_ = {};
+  find_plane(frame_seconds);
+}
+
+void StickTool::find_plane(double dt) noexcept {
+  plane_ = {};
+  if (!seen_ || std::isinf(spring_)) return;
+  const Stick stick = stick_at(to_);
+  for (std::size_t b = 0; b < surfaces_.size(); ++b) {
+    const StickPlane plane = surfaces_[b].plane(stick, remembers_rest(surfaces_[b].body()));
+    if (!plane.found || (plane_.found && plane_.gap <= plane.gap)) continue;
+    plane_ = plane;
+    touched_ = b;
+  }
+  if (!plane_.found) return;
+  const Body& body = surfaces_[touched_].body();
+  const double F = std::max(0.0, felt_.value().force.dot(plane_.normal));
+  const bool at_rest = remembers_rest(body);
+  const double indentation = at_rest ? -plane_.gap : plane_.sunk;
+  if (!K_o_.begun() || indentation <= 0) {
+    K_o_.begin(half_space_stiffness(body, std::sqrt(plane_.area / std::numbers::pi)));
+  } else {
+    K_o_.follow(F, indentation, dt);
+  }
+  if (!at_rest) plane_.gap -= F / K_o_.value();
 }
 
 void StickTool::write_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) noexcept {
   begin_patch(patch, frame, now_ns);
+  if (!plane_.found) return;
+  const Vec3 n = plane_.normal, u = n.unitOrthogonal(), v = n.cross(u);
+  const Vec3 foot = to_.p - plane_.gap * n;
+  const auto corner = [&](double a, double b) { return array(foot + patch_half * (a * u + b * v)); };
+  patch.n_facets = 2;
+  patch.contact_set = touched_ + 1;
+  patch.facets[0].corners = {corner(-1, -1), corner(1, -1), corner(1, 1)};
+  patch.facets[1].corners = {corner(-1, -1), corner(1, 1), corner(-1, 1)};
+  for (std::size_t f = 0; f < 2; ++f) {
+    PatchFacet& facet = patch.facets[f];
+    facet.point = array(foot);
+    facet.normal = array(n);
+    facet.stiffness = std::min(K_o_.value(), rigid_stiffness);
+    facet.body = static_cast<std::uint32_t>(touched_);
+  }
 }
 
 }  // namespace palpate::physics

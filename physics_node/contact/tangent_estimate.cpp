@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace palpate::physics {
 namespace {
@@ -29,27 +28,26 @@ void TangentEstimate::Affine::approach(const Affine& other, double part) noexcep
 
 /// k from dF = -k dx along the force.
 void TangentEstimate::learn(const Vec3& force, const Vec3& way, double part, double seconds) noexcept {
-  const Vec3 force_before = force_twice_, way_before = way_twice_;
-  force_once_ += part * (force - force_once_);
-  force_twice_ += part * (force_once_ - force_twice_);
-  way_once_ += part * (way - way_once_);
-  way_twice_ += part * (way_once_ - way_twice_);
+  const Vec3 force_before = force_.value(), way_before = way_passed_.value();
+  force_.pass(force, part);
+  way_passed_.pass(way, part);
   const double keep = std::exp(-seconds / memory);
   way_way_ *= keep;
   way_force_ *= keep;
-  const double F = force_twice_.norm();
+  const double F = force_.value().norm();
   if (F > negligible) {
-    const Vec3 n = force_twice_ / F;
-    const double dx = n.dot(way_twice_ - way_before);
+    const Vec3 n = force_.value() / F;
+    const double dx = n.dot(way_passed_.value() - way_before);
     way_way_ += dx * dx;
-    way_force_ -= dx * n.dot(force_twice_ - force_before);
+    way_force_ -= dx * n.dot(force_.value() - force_before);
   }
   const double guess = std::pow(trusted_speed * seconds, 2) * memory / seconds;
   k_ = std::clamp((way_force_ + guess * first_) / (way_way_ + guess), first_ / range, first_ * range);
 }
 
-void TangentEstimate::frame(const ContactSum& sum, const Vec6& motion, double seconds) noexcept {
-  const double part = 1 - std::exp(-2 * std::numbers::pi * low_pass_Hz_ * seconds);
+void TangentEstimate::frame(const ContactSum& sum, const Vec6& motion, double seconds,
+                            double known) noexcept {
+  const double part = low_pass_part(low_pass_Hz_, seconds);
   const Mat6 to_new_tip = lever(-motion.head<3>());
   once_.move(motion, to_new_tip);
   twice_.move(motion, to_new_tip);
@@ -63,11 +61,12 @@ void TangentEstimate::frame(const ContactSum& sum, const Vec6& motion, double se
   // Way without contact makes no force: counted, it would look like soft tissue.
   if (present) way_ += motion.head<3>();
   learn(now.W.head<3>(), way_, part, seconds);
+  if (known > 0) k_ = std::clamp(known, first_ / range, first_ * range);
 
-  const double F = force_twice_.norm();
+  const double F = force_.value().norm();
   const double all = spread_.topLeftCorner<3, 3>().trace();
   if (present && all > 0 && F > negligible) {
-    const Vec3 n = force_twice_ / F;
+    const Vec3 n = force_.value() / F;
     const double along = n.dot(spread_.topLeftCorner<3, 3>() * n);
     now.K = k_ / std::max(along, least_along * all) * spread_;
   }

@@ -15,6 +15,7 @@
 // is Cavusoglu & Tendick 2000.
 
 #include "physics_node/collision/contact_sum.h"
+#include "physics_node/contact/low_pass.h"
 
 namespace palpate::physics {
 
@@ -29,7 +30,8 @@ class TangentEstimate {
   /// Once a frame.
   /// @param sum     on the tool in this frame, about its tip
   /// @param motion  of the hand in the frame: way of the tip and turn [m], [rad]
-  void frame(const ContactSum& sum, const Vec6& motion, double seconds) noexcept;
+  /// @param known   k where it is known otherwise; 0: it is learnt [N/m]
+  void frame(const ContactSum& sum, const Vec6& motion, double seconds, double known = 0) noexcept;
 
   const Vec6& wrench() const noexcept { return twice_.W; }  // about the tip [N], [N m]
   const Mat6& stiffness() const noexcept { return K_; }
@@ -47,11 +49,11 @@ class TangentEstimate {
   double low_pass_Hz_, first_, k_;
   Affine once_, twice_;
   Mat6 spread_ = Mat6::Zero();
-  Mat6 K_ = Mat6::Zero();                                        // K_t of the last frame
-  double since_contact_ = 1e9;                                   // [s]
-  Vec3 force_once_ = Vec3::Zero(), force_twice_ = Vec3::Zero();  // as measured [N]
-  Vec3 way_ = Vec3::Zero();                                      // of the tip since the start [m]
-  Vec3 way_once_ = Vec3::Zero(), way_twice_ = Vec3::Zero();      // through the same filters
+  Mat6 K_ = Mat6::Zero();            // K_t of the last frame
+  double since_contact_ = 1e9;       // [s]
+  TwiceLowPassed<Vec3> force_;       // as measured [N]
+  Vec3 way_ = Vec3::Zero();          // of the tip since the start [m]
+  TwiceLowPassed<Vec3> way_passed_;  // through the same filters
   double way_way_ = 0, way_force_ = 0;
 };
 

@@ -1,8 +1,21 @@
 #include "physics_node/contact/tool.h"
 
+#include <Eigen/Cholesky>
+#include <cmath>
+
 #include "common/message/vec3.h"
 
 namespace palpate::physics {
+namespace {
+
+/// Stiffness of what a hand feels through a spring K that only ways stretch: K_t - K_t E (K + E^T K_t E)^-1 E^T K_t.
+Mat6 through_spring(const Mat6& K_t, double K) noexcept {
+  const Eigen::Matrix3d both = K_t.topLeftCorner<3, 3>() + K * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix<double, 6, 3> ways = K_t.leftCols<3>();
+  return K_t - ways * both.ldlt().solve(ways.transpose());
+}
+
+}  // namespace
 
 void Tool::note(const ToolState& state) noexcept {
   tick_ = state.tick;
@@ -35,7 +48,10 @@ void Tool::write_wrench(ToolWrench& out, std::uint64_t frame, std::int64_t now_n
   if (const TangentEstimate* felt = tangent()) {
     now.force = felt->wrench().head<3>();
     now.moment = felt->wrench().tail<3>() + (tip() - set_point_).cross(now.force);
-    Eigen::Map<Mat6>(out.stiffness.data()) = felt->stiffness();  // symmetric
+    const double K = spring_to_hand();
+    if (std::isfinite(K)) out.p_WT = array(tip() - now.force / K);
+    Eigen::Map<Mat6>(out.stiffness.data()) =  // symmetric
+        std::isfinite(K) ? through_spring(felt->stiffness(), K) : felt->stiffness();
   }
   out.force = array(now.force);
   out.moment = array(now.moment);

@@ -1,9 +1,11 @@
 #pragma once
 // What the frame, the wire and the record ask of a tool, whatever it is.
 
+#include <limits>
 #include <span>
 
 #include "common/message/messages.h"
+#include "physics_node/contact/low_pass.h"
 #include "physics_node/contact/tangent_estimate.h"
 #include "physics_node/step/moving_body.h"
 
@@ -13,6 +15,18 @@ namespace palpate::physics {
 struct Wrench {
   Vec3 force = Vec3::Zero();   // [N]
   Vec3 moment = Vec3::Zero();  // [N m]
+};
+
+class TwiceLowPassedWrench {
+ public:
+  void pass(const Wrench& now, double part) noexcept {
+    force_.pass(now.force, part);
+    moment_.pass(now.moment, part);
+  }
+  Wrench value() const noexcept { return {force_.value(), moment_.value()}; }
+
+ private:
+  TwiceLowPassed<Vec3> force_, moment_;
 };
 
 class Tool {
@@ -34,6 +48,9 @@ class Tool {
   /// How the wrench changes with the pose of the hand; null: the hand feels planes instead.
   virtual const TangentEstimate* tangent() const noexcept { return nullptr; }
 
+  /// Of the spring between hand and tool [N/m]; infinite: the tool is where the hand has it.
+  virtual double spring_to_hand() const noexcept { return std::numeric_limits<double>::infinity(); }
+
   virtual Vec3 tip() const noexcept = 0;                // where the hand holds it [m]
   virtual Wrench wrench() const noexcept = 0;           // low-passed
   virtual Wrench raw_wrench() const noexcept = 0;       // of the last frame alone
@@ -53,7 +70,7 @@ class Tool {
  private:
   std::uint64_t tick_ = 0;
   std::int64_t stamp_ns_ = 0;
-  Array3 p_WT_{};              // of the hand then [m]
+  Array3 p_WT_{};  // of the hand then [m]
   Array4 q_WT_{1, 0, 0, 0};
 };
 

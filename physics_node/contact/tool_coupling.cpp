@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "common/message/vec3.h"
 
@@ -12,9 +11,6 @@ namespace {
 
 constexpr double force_cutoff_Hz = 5.0;    // of the hand's force on its way into the tissue
 constexpr double negligible_force = 1e-6;  // [N]; below this the tissue is let go
-constexpr double stiffness_slack = 2e-4;   // [m] of indentation, before which the first guess weighs more
-constexpr double stiffness_time = 0.150;   // [s]
-constexpr double stiffness_range = 50;     // times the first guess, either way
 
 }  // namespace
 
@@ -50,7 +46,7 @@ void ToolCoupling::take(const ToolState* state, double dt) noexcept {
     return;
   }
   // First-order low pass: F := F + (1 - e^(-2 pi f dt)) (target - F).
-  force_ += (1 - std::exp(-2 * std::numbers::pi * force_cutoff_Hz * dt)) * (target - force_);
+  force_ += low_pass_part(force_cutoff_Hz, dt) * (target - force_);
   if (target.isZero() && force_.norm() < negligible_force) force_.setZero();
 }
 
@@ -99,39 +95,27 @@ void ToolCoupling::find_contact(double t) noexcept {
   follow_stiffness(frame_dt_);
 }
 
-double ToolCoupling::first_stiffness(std::size_t body) const noexcept {
-  constexpr double nu = 1.0 / 3.0;
-  const double a = 0.5 * contacts_[body].reach();
-  return 2 * moving_[body]->body().law.modulus * a / (1 - nu * nu);
-}
-
-bool ToolCoupling::remembers_rest() const noexcept {
-  const Body& body = moving_[touched_]->body();
-  return body.n_held > 0 && !any_yields(body);
-}
-
 void ToolCoupling::follow_stiffness(double dt) noexcept {
-  const double K_0 = first_stiffness(touched_);
   const double F_n = force_.norm();
-  if (K_o_ <= 0 || F_n <= negligible_force) {
-    K_o_ = K_0;
+  if (!K_o_.begun() || F_n <= negligible_force) {
+    K_o_.begin(half_space_stiffness(moving_[touched_]->body(), 0.5 * contacts_[touched_].reach()));
     return;
   }
-  const double d = std::max(0.0, -indentation_.dot(force_) / F_n);
-  const double measured = (F_n + K_0 * stiffness_slack) / (d + stiffness_slack);
-  const double K_o = std::clamp(measured, K_0 / stiffness_range, K_0 * stiffness_range);
-  K_o_ += (1 - std::exp(-dt / stiffness_time)) * (K_o - K_o_);
+  if (moving_share_ > 0)
+    K_o_.follow(moving_share_ * F_n, -indentation_.dot(force_) / F_n / moving_share_, dt);
 }
 
 void ToolCoupling::write_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) noexcept {
   begin_patch(patch, frame, now_ns);
   if (!seen_ || contacts_.empty()) return;
   ToolContact& contact = contacts_[touched_];
+  const bool at_rest = remembers_rest(moving_[touched_]->body());
   patch.n_facets = contact.write_facets(proxy_, static_cast<std::uint32_t>(touched_), patch.facets.data(),
-                                        max_patch_facets, remembers_rest() && model_ == ForceModel::norton);
+                                        max_patch_facets, at_rest && model_ == ForceModel::norton);
   patch.contact_set = contact.contact_set();
-  // The share that lies on scenery does not give.
-  const double K_o = moving_share_ > 0 ? std::min(K_o_ / moving_share_, rigid_stiffness) : rigid_stiffness;
+  // What lies on scenery does not give: masses with a share s of the force F move by s F / K_o, the point by s times that.
+  const double s = moving_share_;
+  const double K_o = s > 0 ? std::min(K_o_.value() / (s * s), rigid_stiffness) : rigid_stiffness;
   for (std::uint32_t f = 0; f < patch.n_facets; ++f) {
     PatchFacet& facet = patch.facets[f];
     if (model_ != ForceModel::norton) {
@@ -139,7 +123,7 @@ void ToolCoupling::write_patch(ContactPatch& patch, std::uint64_t frame, std::in
       continue;
     }
     const Vec3 n = vec(facet.normal);
-    if (!remembers_rest()) facet.point = array(vec(facet.point) + std::max(0.0, force_.dot(n)) / K_o * n);
+    if (!at_rest) facet.point = array(vec(facet.point) + std::max(0.0, force_.dot(n)) / K_o * n);
     facet.stiffness = K_o;
     facet.velocity = array(plane_velocity_);
   }

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "common/message/messages.h"
+#include "physics_node/contact/secant_stiffness.h"
 #include "physics_node/contact/tool.h"
 #include "physics_node/contact/tool_contact.h"
 
@@ -51,16 +52,11 @@ class ToolCoupling final : public Tool {
   std::uint32_t contacts() const noexcept override { return static_cast<std::uint32_t>(forces_.size()); }
 
  private:
-  /// Stiffness of the tissue under the tip: the force over the indentation d that it made, both along the force,
-  ///   K_o := (F + K_0 e) / (d + e),   e = 0.2 mm, followed with a time constant of 150 ms.
-  /// K_0, for the first touch, is that of an elastic half space under a round patch of the tip's radius:
-  /// 2 E a / (1 - nu^2), nu = 1/3.
+  /// By the force on the masses under the tip and the displacement that it does work on: their mean along the force, by the
+  /// shares that they take of it. For the first touch a half space under a round patch of the tip's radius.
   void follow_stiffness(double dt) noexcept;
   /// ForceModel::direct: F = K d n under the tip.
   void compute_force(double t) noexcept;
-  /// Does the touched body always come back to its rest shape? Then the plane at zero force is known exactly.
-  bool remembers_rest() const noexcept;
-  double first_stiffness(std::size_t body) const noexcept;
 
   ForceModel model_;
   double stiffness_;                   // of the hand's spring, K [N/m]
@@ -70,12 +66,12 @@ class ToolCoupling final : public Tool {
   bool engaged_ = false;
   Vec3 tip_ = Vec3::Zero();
   Vec3 proxy_ = Vec3::Zero();
-  Vec3 force_ = Vec3::Zero();  // on the tool, low-passed [N]
+  Vec3 force_ = Vec3::Zero();      // on the tool, low-passed [N]
   Vec3 raw_force_ = Vec3::Zero();  // the same before that [N]
   std::size_t touched_ = 0;
   double moving_share_ = 0;
   Vec3 indentation_ = Vec3::Zero();  // mean displacement of the masses under the tip [m]
-  double K_o_ = 0;                   // of the tissue under the tip [N/m]; 0: not touched yet
+  SecantStiffness K_o_;              // of the tissue under the tip, if it moved throughout
   double frame_dt_ = 0;
   Vec3 plane_velocity_ = Vec3::Zero();
   std::vector<NodalForce> forces_;

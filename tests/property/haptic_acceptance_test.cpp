@@ -30,22 +30,22 @@ TEST_P(InAMatrix, KeepsItsLimitsAndItsForceSteps) {
 
 INSTANTIATE_TEST_SUITE_P(
     HapticLoop, InAMatrix,
-    ::testing::Values(std::pair{"NegativeControls", &direct_and_raw_are_unstable},
-                      std::pair{"StaticWall", &wall_is_stable}, std::pair{"StiffestWall", &stiffest_wall},
-                      std::pair{"TissueThatYields", &matrix_is_stable},
-                      std::pair{"NoHand", &push_without_a_hand_gains_nothing},
-                      std::pair{"StiffHandSpring", &stiff_matrix_is_stable},
-                      std::pair{"UnrulyLinks", &unruly_links_are_borne},
-                      std::pair{"RawPlanesOnRealTissue", &world_raw_is_unstable},
-                      std::pair{"RealTissue", &world_is_stable},
-                      std::pair{"TrueForceOfRealTissue", &world_force_is_true},
-                      std::pair{"Stick", &stick_gains_nothing}, std::pair{"TrueForce", &force_is_true},
-                      std::pair{"Pulse", &pulse_is_felt}, std::pair{"Saturation", &saturation_is_quiet}),
+    ::testing::Values(
+        std::pair{"NegativeControls", &direct_and_raw_are_unstable}, std::pair{"StaticWall", &wall_is_stable},
+        std::pair{"StiffestWall", &stiffest_wall}, std::pair{"TissueThatYields", &matrix_is_stable},
+        std::pair{"NoHand", &push_without_a_hand_gains_nothing},
+        std::pair{"StiffHandSpring", &stiff_matrix_is_stable},
+        std::pair{"UnrulyLinks", &unruly_links_are_borne}, std::pair{"Gaps", &gaps_are_borne},
+        std::pair{"RawPlanesOnRealTissue", &world_raw_is_unstable}, std::pair{"RealTissue", &world_is_stable},
+        std::pair{"TrueForceOfRealTissue", &world_force_is_true}, std::pair{"Stick", &stick_is_steady},
+        std::pair{"StickWithTorques", &stick_gains_nothing}, std::pair{"TrueForce", &force_is_true},
+        std::pair{"Pulse", &pulse_is_felt}, std::pair{"Saturation", &saturation_is_quiet}),
     [](const auto& which) { return std::string(which.param.first); });
 
 TEST(HapticLoop, PushesGentlyWhenPlanesTeleport) { expect(teleports_push_gently()); }
 TEST(HapticLoop, FeelsEdgesAndCornersAsTheyAre) { expect(edges_and_corners()); }
 TEST(HapticLoop, FeelsASphereAsRound) { expect(sphere_is_round()); }
+TEST(HapticLoop, MindsNoOtherClock) { expect(clocks_may_differ(quick())); }
 TEST(HapticLoop, IsFreeInFreeSpace) { expect(free_space_is_free()); }
 TEST(HapticLoop, FadesWhenPhysicsDies) { expect(silence_fades()); }
 TEST(HapticLoop, BoundsTorques) { expect(torque_is_bounded(quick())); }

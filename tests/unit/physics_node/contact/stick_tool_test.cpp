@@ -28,7 +28,7 @@ Scene stick_on_slab(const std::string& physics = "") {
 std::optional<ToolState> hand_at(const Vec3& p, std::uint64_t tick) {
   ToolState state;
   state.tick = tick;
-  state.p_WT = array(p);
+  state.p_WT = state.proxy = array(p);
   state.engaged = 1;
   return state;
 }
@@ -129,11 +129,49 @@ TEST(StickTool, TellsATangentThatPredictsTheForce) {
   tick = lead(world, {-0.04, 0, z - 0.0015}, {-0.04, 0, z - 0.0015}, 500, tick);
   ToolWrench wrench;
   world.tool(0).write_wrench(wrench, 1, 1, world.t());
-  const double predicted = wrench.force[2] + wrench.stiffness[14] * 0.001;
+  const double K_t = world.tool(0).tangent()->stiffness()(2, 2);
+  const double predicted = wrench.force[2] + K_t * 0.001;
   tick = lead(world, {-0.04, 0, z - 0.0015}, {-0.04, 0, z - 0.0025}, 400, tick);
   lead(world, {-0.04, 0, z - 0.0025}, {-0.04, 0, z - 0.0025}, 500, tick);
   EXPECT_NEAR(world.tool(0).force().z(), predicted, 0.15 * predicted);
-  EXPECT_EQ(wrench.tip, wrench.p_WT);
+  // The hand is told what it feels through its spring, and where it is then.
+  const double K = world.scene().tools[0].stiffness;
+  EXPECT_NEAR(wrench.p_WT[2], wrench.tip[2] - wrench.force[2] / K, 1e-12);
+  EXPECT_NEAR(wrench.stiffness[14], K * K_t / (K + K_t), 0.01 * K_t);
+}
+
+double gap_of(World& world, ContactPatch& patch) {
+  world.tool(0).write_patch(patch, 1, 1);
+  if (patch.n_facets == 0) return 1;
+  const PatchFacet& facet = patch.facets[0];
+  return vec(facet.normal).dot(world.tool(0).tip() - vec(facet.point));
+}
+
+TEST(StickTool, OffersThePlaneUnderItBeforeItTouches) {
+  World world(stick_on_slab());
+  ContactPatch patch;
+  const double z = slab_top + r;
+  std::uint64_t tick = lead(world, {-0.04, 0, z + 0.05}, {-0.04, 0, z + 0.05}, 2, 0);
+  EXPECT_EQ(gap_of(world, patch), 1) << "nothing is near";
+  // The same height above rows of masses and between them.
+  for (const double y : {0.0, 0.001, 0.002, 0.003}) {
+    tick = lead(world, {-0.04, y, z + 0.002}, {-0.04, y, z + 0.001}, 30, tick);
+    EXPECT_NEAR(gap_of(world, patch), 0.001, 1e-9) << y;
+    ASSERT_EQ(patch.n_facets, 2u);
+    EXPECT_LT((vec(patch.facets[1].normal) - Vec3::UnitZ()).norm(), 1e-9) << y;
+  }
+}
+
+TEST(StickTool, OffersThePlaneWhereItWouldBeWithoutTheForce) {
+  World world(stick_on_slab());
+  ContactPatch patch;
+  const double z = slab_top + r, d = 0.002;
+  std::uint64_t tick = lead(world, {-0.04, 0, z + 0.002}, {-0.04, 0, z - d}, 300, 0);
+  lead(world, {-0.04, 0, z - d}, {-0.04, 0, z - d}, 2000, tick);
+  EXPECT_NEAR(gap_of(world, patch), -d, 1e-9) << "at rest the surface is where it was";
+  const double F = world.tool(0).force().z();
+  ASSERT_GT(F, 0.2);
+  EXPECT_NEAR(patch.facets[0].stiffness, F / d, 0.01 * F / d);
 }
 
 TEST(StickTool, IsRefusedWhereItCouldNotWork) {

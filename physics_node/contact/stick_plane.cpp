@@ -1,0 +1,102 @@
+#include "physics_node/contact/stick_plane.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace palpate::physics {
+namespace {
+
+constexpr double margin = 0.010;         // around the stick: what a hand at 0.2 m/s covers in 50 ms [m]
+constexpr double search_period = 0.020;  // after which tissue may have come near by itself [s]
+constexpr double facing_limit = 0.2;     // cosine below which a facet belongs to another side
+constexpr std::size_t room = 16384;      // facets that it may touch at the most
+
+}  // namespace
+
+StickSurface::StickSurface(const ContactSurface& surface, const MovingBody& moving, double radius)
+    : surface_(surface), moving_(moving) {
+  const double spacing = moving.body().lattice.spacing();
+  reach_ = std::max(2 * radius, 2 * spacing);
+  depth_ = 0.25 * spacing;
+  near_.reserve(surface.surface().facets.size());
+  facets_.reserve(std::min(room, surface.surface().facets.size()));
+}
+
+void StickSurface::look(const Stick& stick, double t) noexcept {
+  const double moved =
+      std::max((stick.A - searched_A_).norm(), (stick.A + stick.D - searched_A_ - searched_D_).norm());
+  if (moved <= 0.5 * margin && t - searched_when_ < search_period && t >= searched_when_) return;
+  searched_A_ = stick.A;
+  searched_D_ = stick.D;
+  searched_when_ = t;
+  near_.clear();
+  const double around = reach_ + stick.radius + 2 * margin;
+  surface_.facets_near(stick.axis_point(0.5), 0.5 * stick.D.norm() + around, moving_, near_);
+  const Surface& surface = surface_.surface();
+  near_.erase(std::remove_if(near_.begin(), near_.end(),
+                             [&](std::uint32_t id) {
+                               const auto& corners = surface.facets[id];
+                               // A stick meets masses, not scenery.
+                               if (std::all_of(corners.begin(), corners.end(),
+                                               [&](auto corner) { return corner >= surface.n_moving(); }))
+                                 return true;
+                               const Vec3 c = surface_.centroid(id, moving_);
+                               return (c - stick.axis_point(stick.nearest(c))).squaredNorm() >
+                                      around * around;
+                             }),
+              near_.end());
+}
+
+/// Facets beside which the stick is less than R, on the side of the one that it is nearest to.
+void StickSurface::collect(const Stick& stick, bool at_rest) noexcept {
+  facets_.clear();
+  double least = std::numeric_limits<double>::infinity();
+  Vec3 side = Vec3::Zero();
+  for (const std::uint32_t id : near_) {
+    if (facets_.size() == facets_.capacity()) break;
+    const auto now = surface_.centroid_and_area(id, moving_);
+    Facet facet;
+    facet.rest = surface_.rest_centroid(id);
+    facet.centre = at_rest ? facet.rest : now.centroid;
+    const Vec3 area = at_rest ? surface_.rest_area(id) : now.area;
+    facet.area = area.norm();
+    if (!(facet.area > 0)) continue;
+    facet.normal = area / facet.area;
+    const Vec3 apart = stick.axis_point(stick.nearest(facet.centre)) - facet.centre;
+    const double height = facet.normal.dot(apart);
+    if (height < -stick.radius) continue;  // beyond the other side
+    facet.gap = height - stick.radius;
+    facet.lateral = std::max(0.0, apart.squaredNorm() - height * height) / (reach_ * reach_);
+    if (facet.lateral >= 1) continue;
+    if (apart.squaredNorm() < least) least = apart.squaredNorm(), side = facet.normal;
+    facets_.push_back(facet);
+  }
+  facets_.erase(std::remove_if(facets_.begin(), facets_.end(),
+                               [&](const Facet& facet) { return facet.normal.dot(side) < facing_limit; }),
+                facets_.end());
+}
+
+StickPlane StickSurface::plane(const Stick& stick, bool at_rest) noexcept {
+  StickPlane plane;
+  collect(stick, at_rest);
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Facet& facet : facets_) lowest = std::min(lowest, facet.gap);
+  Vec3 normal = Vec3::Zero(), sunk = Vec3::Zero();
+  for (const Facet& facet : facets_) {
+    const double l = 1 - facet.lateral, g = 1 - (facet.gap - lowest) / depth_;
+    if (g <= 0) continue;
+    const double w = facet.area * l * l * g * g;
+    plane.area += w;
+    plane.gap += w * facet.gap;
+    normal += w * facet.normal;
+    if (!at_rest) sunk += w * (facet.rest - facet.centre);
+  }
+  if (!(plane.area > 0) || normal.norm() < 0.1 * plane.area) return {};
+  plane.found = true;
+  plane.normal = normal.normalized();
+  plane.gap /= plane.area;
+  plane.sunk = sunk.dot(plane.normal) / plane.area;
+  return plane;
+}
+
+}  // namespace palpate::physics

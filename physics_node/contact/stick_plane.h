@@ -1,0 +1,57 @@
+#pragma once
+// What the surface of a body looks like to a stick that lies on it or is about to: one plane, smooth although facets are
+// steps and masses are rows.
+//
+// Facet f has its centre at c_f, its normal n_f and its area A_f; a_f is the point of the stick's axis nearest to c_f, r its
+// radius. Above f the stick is g_f high, beside it by l_f:
+//
+//   g_f = n_f . (a_f - c_f) - r,    w_f = A_f (1 - l_f^2 / R^2)^2 (1 - (g_f - g_min) / D)^2,    g = sum w g / sum w,
+//   normal = sum w n / |sum w n|
+//
+// R is twice the stick's radius and two cells at least, D a quarter of a cell: the lowest part of a stick that leans counts.
+// Source: Adamson & Alexa 2003 (surfaces from weighted averages), as for a point (tool_contact.h).
+
+#include <vector>
+
+#include "physics_node/contact/contact_surface.h"
+#include "physics_node/contact/stick.h"
+
+namespace palpate::physics {
+
+struct StickPlane {
+  bool found = false;
+  Vec3 normal = Vec3::UnitZ();  // out of the tissue, unit
+  double gap = 0;               // of the stick above the plane, g; below 0: in it [m]
+  double sunk = 0;              // of the facets since they were at rest, along -normal [m]
+  double area = 0;              // sum of w [m^2]
+};
+
+class StickSurface {
+ public:
+  /// @param surface, moving  outlive it. @param radius  of the stick [m]
+  StickSurface(const ContactSurface& surface, const MovingBody& moving, double radius);
+
+  /// Looks for facets around the stick; keeps what it found until stick or tissue may have left it.
+  void look(const Stick& stick, double t) noexcept;
+  /// Under the stick, by the surface at rest or as it is now.
+  StickPlane plane(const Stick& stick, bool at_rest) noexcept;
+
+  const Body& body() const noexcept { return moving_.body(); }
+
+ private:
+  struct Facet {
+    Vec3 centre, normal, rest;
+    double area = 0, gap = 0, lateral = 0;  // l_f^2 / R^2
+  };
+  void collect(const Stick& stick, bool at_rest) noexcept;
+
+  const ContactSurface& surface_;
+  const MovingBody& moving_;
+  double reach_, depth_;             // R, D [m]
+  std::vector<std::uint32_t> near_;  // facets around the stick
+  std::vector<Facet> facets_;        // those that it may touch
+  Vec3 searched_A_ = Vec3::Constant(1e9), searched_D_ = Vec3::Zero();
+  double searched_when_ = -1e9;
+};
+
+}  // namespace palpate::physics
