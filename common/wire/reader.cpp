@@ -12,6 +12,7 @@ struct Reader<M>::Inner {
   dds_entity_t waitset = 0;
   typename Topic<M>::Wire wire{};  // what is being taken
   ReaderCounts counts;
+  std::uint64_t sender = 0;
 
   /// Takes samples until a good one has been written to `message`. @return false if none was left
   bool next(M& message, dds_time_t& sent) noexcept;
@@ -29,6 +30,7 @@ bool Reader<M>::Inner::next(M& message, dds_time_t& sent) noexcept {
     }
     ++counts.received;
     sent = info.source_timestamp;
+    sender = info.publication_handle;
     return true;
   }
   return false;
@@ -62,6 +64,11 @@ bool Reader<M>::take(M& message) noexcept {
 }
 
 template <class M>
+std::uint64_t Reader<M>::sender() const noexcept {
+  return inner_->sender;
+}
+
+template <class M>
 bool Reader<M>::take_newest(M& message) noexcept {
   dds_time_t newest = 0;
   if (!inner_->next(message, newest)) return false;
@@ -76,7 +83,9 @@ bool Reader<M>::take_newest(M& message) noexcept {
       continue;
     }
     ++inner_->counts.received;
-    if (newer) newest = info.source_timestamp;
+    if (!newer) continue;
+    newest = info.source_timestamp;
+    inner_->sender = info.publication_handle;
   }
   return true;
 }
