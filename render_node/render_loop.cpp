@@ -18,6 +18,7 @@
 #include "common/report/log.h"
 #include "common/time/clock.h"
 #include "render_node/frame_schedule.h"
+#include "render_node/image/frame_folder.h"
 #include "render_node/picture.h"
 #include "render_node/ui/window.h"
 #include "render_node/wire.h"
@@ -44,6 +45,13 @@ class Fare {
     status_.t = t;
     last_ns_ = now_ns();
   }
+  void note_losses(const FrameFolder& frames) {
+    status_.warnings = frames.lost() > 0 ? 1 : 0;
+    lost_ = frames.lost();
+    const std::string note = lost_ > 0 ? fmt::format("{} pictures lost: {}", lost_, frames.why()) : "";
+    status_.note.fill('\0');
+    std::copy_n(note.begin(), std::min(note.size(), status_.note.size() - 1), status_.note.begin());
+  }
   void tell(Wire& wire, NodePhase phase, std::uint64_t skipped, bool at_once) {
     const double since = seconds_from_ns(now_ns() - told_ns_);
     if (!at_once && since < status_period_s) return;
@@ -54,21 +62,29 @@ class Fare {
     told_ns_ = now_ns();
     wire.tell(status_);
   }
-  void write_report(const std::string& out, const ViewModel& model) const {
+  /// @return exit code: nothing that was to be kept may be missing
+  int write_report(const std::string& out, const ViewModel& model) const {
     const double seconds = seconds_from_ns(last_ns_ - first_ns_);
     const auto folder = std::filesystem::path(out) / "parts";
-    std::filesystem::create_directories(folder);
+    std::error_code already;  // write_json says what is wrong with the folder
+    std::filesystem::create_directories(folder, already);
     nlohmann::json report = {{"frames", frames_},
                              {"facets_visible", model.facets_visible()},
                              {"facets_total", model.facets_total()}};
     if (frames_ > 1 && seconds > 0) report["fps"] = static_cast<double>(frames_ - 1) / seconds;
-    write_json((folder / "render.json").string(), {{"render", report}});
+    if (lost_ > 0) report["frames_lost"] = lost_;
+    try {
+      write_json((folder / "render.json").string(), {{"render", report}});
+    } catch (const std::runtime_error& error) {
+      log_error("{}", error.what());
+      return exit_failed;
+    }
+    return lost_ > 0 ? exit_failed : exit_ok;
   }
-  std::uint64_t frames() const noexcept { return frames_; }
 
  private:
   NodeStatus status_;
-  std::uint64_t frames_ = 0;
+  std::uint64_t frames_ = 0, lost_ = 0;
   std::int64_t told_ns_ = now_ns(), first_ns_ = 0, last_ns_ = 0;
 };
 
@@ -78,17 +94,6 @@ NodePhase phase_of(const ViewModel& model) {
 
 bool time_is_over(const NodeOptions& options, const ViewModel& model) {
   return options.seconds > 0 && model.t() >= options.seconds;
-}
-
-std::string make_frames_folder(const NodeOptions& options) {
-  if (options.out.empty())
-    throw InputError("nowhere to put frames; give --out DIR, or a display for a window");
-  const auto folder = std::filesystem::path(options.out) / "frames";
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error)
-    throw InputError(folder.string() + ": cannot be made (" + error.message() + "); choose another --out");
-  return folder.string();
 }
 
 /// Tools whose device is the mouse in our window.
@@ -102,34 +107,8 @@ std::vector<std::uint32_t> pointed_tools(const NodeOptions& options, const Scene
   return tools;
 }
 
-/// The pictures on disk. One that cannot be written is a mistake if it is the first; after that the eye goes on without.
-class Album {
- public:
-  explicit Album(std::string folder) : folder_(std::move(folder)) {}
-
-  /// @throws InputError if the first picture cannot be written
-  void keep(const Picture& picture, std::uint64_t number) {
-    if (lost_) return;
-    const std::string path = fmt::format("{}/frame_{:05}.png", folder_, number);
-    try {
-      picture.save_png(path);
-    } catch (const InputError& error) {
-      std::error_code ignored;
-      std::filesystem::remove(path, ignored);  // half a picture is none
-      if (number == 1) throw;
-      lost_ = true;
-      log_error("{}; the session goes on without pictures", error.what());
-    }
-  }
-  bool lost() const noexcept { return lost_; }
-
- private:
-  std::string folder_;
-  bool lost_ = false;
-};
-
 int run_headless(const NodeOptions& options, const Scene& scene) {
-  Album album(make_frames_folder(options));
+  FrameFolder frames(options.out);
   const bool few_cores = std::thread::hardware_concurrency() <= 2;
   if (few_cores) setenv("LP_NUM_THREADS", "1", 0);  // Mesa's software renderer takes every core otherwise
   Wire wire(membership(options, scene, "render"));
@@ -150,7 +129,8 @@ int run_headless(const NodeOptions& options, const Scene& scene) {
     if (picture.model().anything_to_see() && schedule.due(t)) {
       picture.draw(t);
       fare.drew(t);
-      album.keep(picture, fare.frames());
+      frames.keep(picture.image());
+      fare.note_losses(frames);
     } else {
       std::this_thread::sleep_for(nap);
     }
@@ -158,9 +138,8 @@ int run_headless(const NodeOptions& options, const Scene& scene) {
     fare.tell(wire, phase_of(picture.model()), schedule.skipped(), false);
   }
   fare.tell(wire, NodePhase::stopping, schedule.skipped(), true);
-  if (!album.lost()) fare.write_report(options.out, picture.model());
-  if (wire.unwelcome()) return exit_mistake;
-  return album.lost() ? exit_failed : exit_ok;
+  const int kept = fare.write_report(options.out, picture.model());
+  return wire.unwelcome() ? exit_mistake : kept;
 }
 
 void pass_on(const PanelWishes& wishes, ThresholdControl& threshold, Wire& wire) {
@@ -205,8 +184,8 @@ int run_window(const NodeOptions& options, const Scene& scene) {
     if (rest_s > 0) std::this_thread::sleep_for(std::chrono::duration<double>(std::min(rest_s, 0.1)));
   }
   fare.tell(wire, NodePhase::stopping, 0, true);
-  if (!options.out.empty()) fare.write_report(options.out, model);
-  return wire.unwelcome() ? exit_mistake : exit_ok;
+  const int kept = options.out.empty() ? exit_ok : fare.write_report(options.out, model);
+  return wire.unwelcome() ? exit_mistake : kept;
 }
 
 }  // namespace

@@ -14,9 +14,21 @@ bool Wire::drain(Reader<M>& reader, M& buffer, ViewModel& model) {
   return any;
 }
 
+/// Surfaces of a physics that was started again begin at revision 1, whatever was shown before.
+bool Wire::drain_surfaces(ViewModel& model) {
+  bool any = false;
+  while (surfaces_.take(buffers_->surface)) {
+    if (physics_ != 0 && surfaces_.sender() != physics_) model.begin_anew();
+    physics_ = surfaces_.sender();
+    model.take(buffers_->surface);
+    any = true;
+  }
+  return any;
+}
+
 Wire::News Wire::take_into(ViewModel& model) {
   News news;
-  news.anything |= drain(surfaces_, buffers_->surface, model);
+  news.anything |= drain_surfaces(model);
   news.anything |= drain(blocks_, buffers_->block, model);
   news.anything |= drain(wrenches_, buffers_->wrench, model);
   news.anything |= drain(traces_, buffers_->trace, model);

@@ -36,6 +36,7 @@ class Wire {
  private:
   template <class M>
   bool drain(Reader<M>& reader, M& buffer, ViewModel& model);
+  bool drain_surfaces(ViewModel& model);
   template <class M>
   void count(Reader<M>& reader, NodeStatus& status);
 
@@ -50,6 +51,7 @@ class Wire {
   Writer<NodeStatus> status_{participant_};
   Writer<Command> command_{participant_};
   Writer<Pointer> pointer_{participant_};
+  std::uint64_t physics_ = 0;  // who sent the last surface
   std::uint64_t last_command_ = 0;
   bool paused_ = false;
   bool unwelcome_ = false;

@@ -26,6 +26,7 @@ struct Reader<M>::Inner {
   std::unique_ptr<BlockInbox> inbox;  // of many keys over shared memory
   typename Topic<M>::Wire wire{};     // what is being taken
   ReaderCounts counts;
+  std::uint64_t sender = 0;
 
   void open(Participant& participant);
   /// Takes a sample into `wire`. @return false if none was left
@@ -67,6 +68,7 @@ bool Reader<M>::Inner::fetch(dds_time_t& sent) noexcept {
   while (dds_take(reader, samples, &info, 1, 1) == 1) {
     if (!info.valid_data) continue;  // a writer has gone
     sent = info.source_timestamp;
+    sender = info.publication_handle;
     return true;
   }
   return false;
@@ -105,9 +107,15 @@ bool Reader<M>::take(M& message) noexcept {
 }
 
 template <class M>
+std::uint64_t Reader<M>::sender() const noexcept {
+  return inner_->sender;
+}
+
+template <class M>
 bool Reader<M>::take_newest(M& message) noexcept {
   dds_time_t newest = 0;
   if (!inner_->next(message, newest)) return false;
+  std::uint64_t sender = inner_->sender;
   for (dds_time_t sent = 0; inner_->fetch(sent);) {
     const bool newer = sent >= newest;
     const Verdict verdict = newer ? from_wire(inner_->wire, message) : judge(inner_->wire);
@@ -116,8 +124,11 @@ bool Reader<M>::take_newest(M& message) noexcept {
       continue;
     }
     ++inner_->counts.received;
-    if (newer) newest = sent;
+    if (!newer) continue;
+    newest = sent;
+    sender = inner_->sender;
   }
+  inner_->sender = sender;
   return true;
 }
 

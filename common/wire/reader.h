@@ -33,6 +33,9 @@ class Reader {
   /// @return false if there is none; `message` is then as it was
   bool take(M& message) noexcept;
 
+  /// Which writer the message taken last came from: a number that changes when another one takes over. 0: none yet.
+  std::uint64_t sender() const noexcept;
+
   /// Takes all there is and gives the one sent last, whatever its key. For topics of which one key is expected.
   bool take_newest(M& message) noexcept;
 

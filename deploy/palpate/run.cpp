@@ -13,6 +13,7 @@
 #include "common/error/error.h"
 #include "common/process/stop_flag.h"
 #include "common/scene/load_scene.h"
+#include "deploy/palpate/disk_reserve.h"
 #include "deploy/palpate/install_paths.h"
 #include "deploy/palpate/nodes.h"
 #include "deploy/palpate/out_folder.h"
@@ -120,6 +121,7 @@ int run(const RunOptions& options) {
   const Reach reach = {.interface = options.interface, .peers = comma_list(options.peers)};
   Share share = parse_share(options.deployment, options.side, options.nodes, !reach.local());
   if (scene.tools.empty()) share = without_hand(std::move(share));
+  std::optional<DiskReserve> room;
   const SessionPlan plan = {
       .nodes = share.here,
       .elsewhere = share.elsewhere,
@@ -128,13 +130,15 @@ int run(const RunOptions& options) {
       .membership = {.domain = options.domain,
                      .reach = reach,
                      .identity = own_identity("supervisor", scene.path, scene.checksum)},
-      .seconds = session_seconds(scene, options)};
+      .seconds = session_seconds(scene, options),
+      .ending = [&room] { room.reset(); }};
   require_programs(plan);
   require_drivers(scene, options, plan);
   resolve(reach);  // says what is wrong with it
   const bool alone = reach.local() && plan.elsewhere.empty();
   if (alone) require_free_ports(options.domain);
   prepare_out(out);
+  room.emplace(out);
 
   // 2. the session
   install_stop_handlers();

@@ -56,6 +56,7 @@ class Session {
     if (running_since_) result_.wall_s = seconds_since(*running_since_);
     line_.finish();
     result_.interrupted = stop_requested();
+    if (plan_.ending) plan_.ending();
     stop_nodes(nodes_, result_.interrupted ? hurried : calm);
     for (RunningNode& node : nodes_) conclude(node);
     return result_;

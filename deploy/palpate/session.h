@@ -3,6 +3,7 @@
 // the hand is zero before anything else goes.
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ struct SessionPlan {
   std::vector<std::string> arguments;  // of every node
   Membership membership;               // of the supervisor; its identity is what all others are compared with
   double seconds = 0;                  // from the moment all nodes run
+  std::function<void()> ending;        // called before nodes are told to end; empty: nothing
 };
 
 struct NodeOutcome {

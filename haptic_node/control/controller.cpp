@@ -189,6 +189,15 @@ void Controller::step_state(std::int64_t now_ns, const DeviceSample& sample, boo
   }
 }
 
+/// Way of the tip since the last tick, and of the end of a lever by which turning changes forces [m].
+double Controller::hand_moved() noexcept {
+  const HandMotion hand = motion_.hand();
+  const Vec6 moved = motion_between(x_before_, q_before_, hand.x, hand.q);
+  x_before_ = hand.x;
+  q_before_ = hand.q;
+  return moved.head<3>().norm() + torque_lever * moved.tail<3>().norm();
+}
+
 /// What the springs may push with. A force that ends at the limit stores S (2 r - r^2), r = limit / F.
 double Controller::share_of_felt() noexcept {
   if (!model_.is_passive()) return 1;
@@ -241,7 +250,7 @@ ControllerOutput Controller::tick(std::int64_t now_ns, const DeviceSample& sampl
   const bool fading = state_ != HapticState::run || stopping_;
   ControllerOutput out;
   const double share = share_of_felt();
-  out.force = guard_.pass(share * felt_.force, gain_ * stop_gain_, fading);
+  out.force = guard_.pass(share * felt_.force, gain_ * stop_gain_, fading, hand_moved());
   const double wanted = felt_.force.norm();
   reached_ = wanted > 0 ? std::min(1.0, out.force.norm() / wanted) : 1.0;
   if (settings_.torque_limit > 0)

@@ -106,6 +106,7 @@ class Controller {
   void step_stale(std::int64_t now_ns, bool new_patch) noexcept;
   void step_safe(std::int64_t now_ns, const DeviceSample& sample) noexcept;
   double share_of_felt() noexcept;
+  double hand_moved() noexcept;
   bool take_answer(std::int64_t now_ns, const ContactPatch* patch, const ToolWrench* wrench) noexcept;
   /// What the silence of physics leaves of the force.
   double freshness(std::int64_t now_ns) const noexcept {
@@ -133,6 +134,8 @@ class Controller {
   double gain_ = 1;             // of the state: fade or ramp
   bool stopping_ = false;
   double stop_gain_ = 1;
+  Vec3 x_before_ = Vec3::Zero();  // of the hand, a tick ago [m]
+  Eigen::Quaterniond q_before_ = Eigen::Quaterniond::Identity();
   std::int64_t last_ns_ = 0;
   bool ticked_ = false;
   std::uint64_t contact_set_ = 0;

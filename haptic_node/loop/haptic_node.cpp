@@ -217,12 +217,19 @@ int HapticNode::leave() {
   keep_flights();
   wire_->finish();
   publish_status(NodePhase::stopping);
-  if (!options_.out.empty()) write_haptic_summary(options_.out, *loop_->stats(), reports_, *wire_);
+  bool kept = true;
+  try {
+    if (!options_.out.empty())
+      write_haptic_summary(options_.out, *loop_->stats(), reports_, *wire_);
+  } catch (const std::runtime_error& error) {  // a disk that has filled up is nobody's mistake
+    log_error("{}", error.what());
+    kept = false;
+  }
   if (unwelcome_) return exit_mistake;
   const bool faulty = std::any_of(reports_.begin(), reports_.end(), [](const SessionReport& report) {
     return report.state == HapticState::fault;
   });
-  return faulty ? exit_failed : exit_ok;
+  return faulty || !kept ? exit_failed : exit_ok;
 }
 
 }  // namespace palpate::haptic

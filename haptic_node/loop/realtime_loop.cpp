@@ -43,8 +43,10 @@ void RealtimeLoop::tick_tool(ToolChannel& channel, HapticSession& session, std::
   if (stopping_) session.begin_stop();
   bool is_new = false;
   const ContactPatch* patch = channel.patches.newest(&is_new);
-  if (is_new && patch->answers_ns > 0)
-    stats_.loop_age.add(1e3 * seconds_from_ns(woke_ns - patch->answers_ns));
+  // Not what was said to a hand before this one: that may have been by another machine's clock.
+  const bool to_us = is_new && patch->answers > 0 && patch->answers <= session.counts().ticks &&
+                     patch->answers_ns >= stats_.start_ns && patch->answers_ns <= woke_ns;
+  if (to_us) stats_.loop_age.add(1e3 * seconds_from_ns(woke_ns - patch->answers_ns));
   const HapticState before = session.state();
   session.tick(patch, channel.wrenches.newest());
   channel.states.write(session.tool_state());

@@ -63,7 +63,9 @@ bool PhysicsLoop::take_tools() {
   while (wire_.tool_states.take(state)) {
     if (state.tool >= hands_.size()) continue;
     Hand& hand = hands_[state.tool];
-    if (hand.newest && state.tick <= hand.newest->tick && state.stamp_ns <= hand.newest->stamp_ns) continue;
+    // By ticks alone: another hand may take over with another clock. Who comes after a silence has begun anew.
+    if (hand.newest && state.tick <= hand.newest->tick && now_ns() - hand.came_ns <= hand_silence_ns)
+      continue;
     if (hand.newest && state.tick > hand.newest->tick + 1)
       status_.samples_lost += state.tick - hand.newest->tick - 1;
     hand.newest = state;

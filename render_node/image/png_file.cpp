@@ -22,9 +22,13 @@ struct CloseFile {
   throw InputError(path + ": cannot write the picture (" + why + "); choose a folder that can be written to");
 }
 
+// Said by write_png(), not by the library.
+void give_up(png_structp png, png_const_charp) { png_longjmp(png, 1); }
+void ignore(png_structp, png_const_charp) {}
+
 // libpng reports through longjmp, so nothing with a destructor lives in here. @return false: failed
 bool encode(std::FILE* file, const Image& image) {
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, &give_up, &ignore);
   if (png == nullptr) return false;
   png_infop info = png_create_info_struct(png);
   if (info == nullptr || setjmp(png_jmpbuf(png)) != 0) {
@@ -49,17 +53,20 @@ void write_png(const Image& image, const std::string& path) {
   PALPATE_CHECK(image.width > 0 && image.height > 0, "an empty picture cannot be written");
   const std::string beside = path + ".part";
   bool written = false;
+  int why = 0;
   {
     const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(beside.c_str(), "wb"));
     if (!file) complain(path, std::strerror(errno));
+    errno = 0;
     written = encode(file.get(), image) && std::fflush(file.get()) == 0;
+    why = errno;
   }
   std::error_code error;
   if (written) std::filesystem::rename(beside, path, error);
   if (written && !error) return;
   std::error_code ignored;
   std::filesystem::remove(beside, ignored);
-  complain(path, error ? error.message().c_str() : "disk full?");
+  complain(path, error ? error.message().c_str() : std::strerror(why));
 }
 
 }  // namespace palpate::render

@@ -60,8 +60,15 @@ ChunkFate BodyPicture::take(const BodySurface& chunk) {
   return fate;
 }
 
+void BodyPicture::begin_anew() noexcept {
+  assembly_.begin_anew();
+  held_.clear();
+  held_revision_ = revision_ = 0;
+}
+
 void BodyPicture::show(Surface surface) {
   surface_ = std::move(surface);
+  revision_ = surface_.revision;
   const auto n = surface_.position.size();
   flags_.assign(n, 0);
   is_moved_.assign(n, 0);
@@ -85,8 +92,8 @@ void BodyPicture::show(Surface surface) {
 }
 
 bool BodyPicture::take(const VertexBlock& block) {
-  if (block.revision < surface_.revision) return false;
-  if (block.revision > surface_.revision) {
+  if (block.revision < revision_) return false;
+  if (block.revision > revision_) {
     if (block.revision < held_revision_) return false;
     if (block.revision > held_revision_) held_.clear();
     held_revision_ = block.revision;

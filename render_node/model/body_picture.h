@@ -34,6 +34,9 @@ class BodyPicture {
   /// @return false: of another revision or not finite, ignored
   bool take(const VertexBlock& block);
 
+  /// Another physics sends from now on and numbers revisions anew. What is shown stays until its surface is whole.
+  void begin_anew() noexcept;
+
   /// Brings normals and packed vertices up to date; call before reading them.
   void refresh();
 
@@ -67,6 +70,7 @@ class BodyPicture {
   SurfaceAssembly assembly_;
   std::map<std::uint32_t, VertexBlock> held_;  // newest of each block of held_revision_
   std::uint32_t held_revision_ = 0;
+  std::uint32_t revision_ = 0;  // of the surface shown, as blocks number it; 0: its sender has gone
 
   Surface surface_;
   SurfaceNormals normals_;

@@ -24,6 +24,12 @@ class SurfaceAssembly {
   /// Moves the completed surface out; call after ChunkFate::completed.
   Surface finished();
 
+  /// Somebody else sends surfaces from now on and numbers them anew: any revision is a newer one.
+  void begin_anew() noexcept {
+    shown_revision_ = 0;
+    pending_.reset();
+  }
+
   /// Revision being assembled; 0: none.
   std::uint32_t pending_revision() const noexcept { return pending_ ? pending_->surface.revision : 0; }
 

@@ -7,6 +7,10 @@
 namespace palpate::render {
 ViewModel::ViewModel(const Scene& scene) : bodies_(scene.bodies.size()), tools_(scene.tools.size()) {}
 
+void ViewModel::begin_anew() noexcept {
+  for (auto& body : bodies_) body.begin_anew();
+}
+
 void ViewModel::take(const BodySurface& chunk) {
   if (chunk.body >= bodies_.size()) {
     ++ignored_;

@@ -37,6 +37,9 @@ class ViewModel {
   void take(const HapticTrace& trace);
   void take(const NodeStatus& status);
 
+  /// Another physics sends from now on: its surfaces and blocks are numbered anew.
+  void begin_anew() noexcept;
+
   /// Brings normals up to date with the positions; call before drawing.
   void refresh();
 

@@ -83,6 +83,26 @@ TEST(WireService, GivesTheNewestOfALatestValueTopicPerTool) {
   EXPECT_FALSE(reader.take_newest(state));
 }
 
+TEST(WireService, TellsWhenAnotherWriterTakesOver) {
+  Participant participant(test::own_domain());
+  Reader<ToolState> reader(participant);
+  EXPECT_EQ(reader.sender(), 0U);
+  std::array<std::uint64_t, 2> senders{};
+  for (auto& sender : senders) {
+    Writer<ToolState> writer(participant);
+    ASSERT_TRUE(eventually([&] { return writer.matched() == 1; }));
+    for (int i = 0; i < 2; ++i) {
+      ToolState state;
+      ASSERT_TRUE(writer.write(state));
+      ASSERT_TRUE(eventually([&] { return reader.take(state); }));
+      EXPECT_TRUE(i == 0 || reader.sender() == sender) << "the same one";
+      sender = reader.sender();
+    }
+  }
+  EXPECT_NE(senders[0], 0U);
+  EXPECT_NE(senders[0], senders[1]);
+}
+
 TEST(WireService, KeepsAllBatchesAndCommandsInOrder) {
   Participant participant(test::own_domain());
   Writer<HapticTrace> traces(participant);

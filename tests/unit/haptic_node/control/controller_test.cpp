@@ -213,6 +213,20 @@ TEST(ForceGuard, KeepsDirectionLimitAndStep) {
   EXPECT_NEAR(last.x(), last.y(), 1e-12);
 }
 
+TEST(ForceGuard, LetsAForceComeAsTheHandMovesAndATenthOfANewtonMore) {
+  for (const double moved : {0.0, 5e-5, 4e-4}) {
+    ForceGuard guard(3.0, 400, 1e-3);
+    double last = 0;
+    for (int i = 0; i < 40; ++i) {
+      const double force = guard.pass({0, 0, 2.0}, 1.0, false, moved).norm();
+      ASSERT_LE(force - last, 400 * moved + 0.1 + 1e-12) << moved;
+      last = force;
+    }
+    EXPECT_NEAR(last, 2.0, 1e-12) << "it comes all the same";
+    EXPECT_EQ(guard.pass(Vec3::Zero(), 1.0, false, 0.0).norm(), 0.0) << "and goes at once";
+  }
+}
+
 TEST(ForceGuard, TurnsWhatIsNoForceIntoNone) {
   const double bad[] = {std::nan(""), std::numeric_limits<double>::infinity()};
   for (const double value : bad) {

@@ -53,6 +53,24 @@ TEST(BodyPicture, MovesVerticesOfTheRevisionShownOnly) {
   EXPECT_NE(picture.surface().position[v], block.position[5]);
 }
 
+TEST(BodyPicture, TakesTheFirstRevisionOfAPhysicsThatWasStartedAgain) {
+  BodyPicture picture = picture_of(5);
+  const auto smaller = cube_surface(20, 0.05, 0xff0000ffU);
+  const auto chunks = chunks_of(smaller, 0, 1);
+  ASSERT_EQ(chunks.size(), 2U);
+  EXPECT_EQ(picture.take(chunks[0]), ChunkFate::stale) << "as long as nobody says that it is another one";
+  picture.begin_anew();
+  EXPECT_EQ(picture.take(chunks[1]), ChunkFate::kept);
+  EXPECT_EQ(picture.surface().position, cube.position) << "the old picture stays until the new one is whole";
+  auto block = block_of(smaller, 0, 1, 0);
+  block.position[5][2] += 0.01F;
+  EXPECT_TRUE(picture.take(block)) << "held";
+  EXPECT_EQ(picture.take(chunks[0]), ChunkFate::completed);
+  EXPECT_EQ(picture.facets_visible(), smaller.corners.size());
+  EXPECT_EQ(picture.surface().position[5], block.position[5]);
+  EXPECT_EQ(picture.take(chunks_of(cube, 0, 1)[0]), ChunkFate::stale) << "and then as ever";
+}
+
 TEST(BodyPicture, KeepsABlockThatOvertakesItsSurface) {
   BodyPicture picture = picture_of(1);
   const auto chunks = chunks_of(cube, 0, 2);
