@@ -26,11 +26,15 @@ FrameFolder::FrameFolder(const std::string& out) {
 }
 
 void FrameFolder::keep(const Image& image) {
+  if (lost_ > 0) {  // what room there is again is for what tells of it
+    ++lost_;
+    return;
+  }
   try {
     write_png(image, folder_ / fmt::format("frame_{:05}.png", last_ + 1));
     ++last_;
   } catch (const InputError& error) {
-    if (++lost_ > 1) return;
+    ++lost_;
     why_ = error.what();
     log_error("{}; the session goes on without pictures", why_);
   }

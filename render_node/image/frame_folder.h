@@ -15,7 +15,7 @@ class FrameFolder {
   /// @throws InputError if it cannot be made
   explicit FrameFolder(const std::string& out);
 
-  /// Writes the next picture. What could not be written is counted; the first time is logged.
+  /// Writes the next picture. The first that cannot be written is logged, and from then on all are only counted.
   void keep(const Image& image);
 
   std::uint64_t lost() const noexcept { return lost_; }
