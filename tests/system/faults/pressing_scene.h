@@ -1,5 +1,5 @@
 #pragma once
-// A small block of tissue and a rigid hand that presses it by 4 mm once a second, for as long as a test may take.
+// A small block of tissue and a rigid hand that presses it by 4 mm twice in three seconds, for as long as a test may take.
 
 #include <string>
 
@@ -36,10 +36,14 @@ rate_Hz = 10
 driver = "simulated"
 hand = "rigid"
 waypoints = [[0, 0, 0, 24])";
-  for (int second = 0; second < 1200; ++second) {
-    const std::string s = std::to_string(second);
-    text += ", [" + s + ".30, 0, 0, 24], [" + s + ".45, 0, 0, 16], [" + s + ".90, 0, 0, 16], [" + s +
+  // In 3 s: pressed for half a second, and for one and a half.
+  for (int begin = 0; begin < 1200; begin += 3) {
+    const std::string at = std::to_string(begin), then = std::to_string(begin + 1),
+                      last = std::to_string(begin + 2);
+    text += ", [" + at + ".30, 0, 0, 24], [" + at + ".45, 0, 0, 16], [" + at + ".90, 0, 0, 16], [" + at +
             ".99, 0, 0, 24]";
+    text += ", [" + then + ".30, 0, 0, 24], [" + then + ".45, 0, 0, 16], [" + last + ".90, 0, 0, 16], [" +
+            last + ".99, 0, 0, 24]";
   }
   return text + "]\n";
 }
