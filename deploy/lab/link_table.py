@@ -12,7 +12,7 @@ HEAD = ("split", "delay each way [ms]", "loss [%]", "period p50 / p99.9 [us]", "
 def merged(folder):
     """Summaries of both sides: each part was left by the side that ran its node."""
     both = {}
-    for side in ("pc1", "pc2"):
+    for side in sorted(side.name for side in folder.glob("pc[12]") if side.is_dir()):
         summary = json.loads((folder / side / "summary.json").read_text())
         both.setdefault("nodes", {}).update(summary.pop("nodes", {}))
         both.update({key: summary[key] for key in ("haptic", "render", "stages", "real_time_factor", "wall_s", "commit") if key in summary})
@@ -20,7 +20,9 @@ def merged(folder):
 
 
 def row(folder):
-    split, delay, loss = re.fullmatch(r"(p[23])_(.*)ms_(.*)percent", folder.name).groups()
+    split, delay, loss = re.fullmatch(r"(all|p[23])_(.*)ms_(.*)percent", folder.name).groups()
+    if split == "all":
+        split, delay, loss = "one PC", "no network", ""
     summary = merged(folder)
     haptic, physics = summary["haptic"], summary["nodes"]["physics"]
     period, age = haptic["period_us"], haptic.get("loop_age_ms", {"p50": float("nan"), "p99": float("nan")})

@@ -37,7 +37,7 @@ TEST_P(HandTakeover, IsAnsweredWhateverItsClockShows) {
   EXPECT_TRUE(is_answered(1, ahead_ns)) << "a hand that has begun anew\n" << log();
 }
 
-INSTANTIATE_TEST_SUITE_P(SecondsAhead, HandTakeover, testing::Values(-5, 5));
+INSTANTIATE_TEST_SUITE_P(SecondsAhead, HandTakeover, testing::Values(-3600, -5, 5));
 
 }  // namespace
 }  // namespace palpate::test
