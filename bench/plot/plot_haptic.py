@@ -24,7 +24,8 @@ def draw_press(axes, rows, results):
 
 def draw_map(axes, rows, mode):
     """Share of the cases of a rate and delay that swing by more than 200 um; numbers: how many of how many."""
-    chosen = [r for r in rows if r["mode"] == mode and r["device"] == "Touch" and r["stiffness_N_per_m"] == STIFFNESS]
+    chosen = [r for r in rows if r["mode"] == mode and r["device"] == "Touch" and r["stiffness_N_per_m"] == STIFFNESS
+              and "slab" not in r["object"]]
     rates = sorted({r["rate_Hz"] for r in chosen})
     delays = sorted({r["delay_ms"] for r in chosen})
     for y, rate in enumerate(rates):

@@ -103,7 +103,7 @@ TEST(HapticSession, GoesOnWithoutAJumpWhenPatchesReturnDuringTheFade) {
   VirtualWorld world(scene_with(HandModel::rigid, press(0.004)));
   world.run(1, 150);
   const double before = world.fz();
-  world.run(0.16, 0);
+  world.run(0.25, 0);
   const double faded = world.fz();
   ASSERT_LT(faded, 0.7 * before);
   ASSERT_GT(faded, 0.1 * before);

@@ -172,7 +172,7 @@ TEST(Controller, StopsWithinTwentyMillisecondsWithoutRising) {
   EXPECT_TRUE(bench.controller.stopped());
 }
 
-TEST(PatchWatch, WaitsThreePeriodsWithinThirtyAndTwoHundredMilliseconds) {
+TEST(PatchWatch, WaitsThreePeriodsWithin120And200Milliseconds) {
   const std::pair<double, double> cases[] = {{1000, 0.12}, {60, 0.12}, {20, 0.15}, {11, 0.2}};
   for (const auto& [rate, patience] : cases) {
     PatchWatch watch(0);
