@@ -59,6 +59,17 @@ TEST_F(TwoPcs, RefuseANodeThatIsThereAlready) {
   EXPECT_THAT(text("said"), HasSubstr("haptic is in this session already"));
 }
 
+// Without --peers the PCs behind one interface find each other.
+TEST_F(TwoPcs, FindEachOtherByMulticast) {
+  const std::string first =
+      palpate("box_press", "--nodes physics --interface eth0 --seconds 2 --out " + (folder / "a").string());
+  const std::string second = palpate(
+      "box_press", "--nodes haptic,render --interface eth0 --seconds 2 --out " + (folder / "b").string());
+  ASSERT_EQ(lab(fmt::format("try '{}' '{}'", first, second)), 0) << text("said");
+  EXPECT_THAT(text("said"), HasSubstr("physics is there, on "));
+  EXPECT_GT(read_json((folder / "b" / "summary.json").string())["haptic"]["patches"].get<int>(), 100);
+}
+
 // PC 1 has named a third machine as its peer; PC 2 knocks all the same.
 TEST_F(TwoPcs, ASecondMachineIsNotHeardUnlessNamed) {
   const std::string first =
