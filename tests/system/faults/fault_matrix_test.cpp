@@ -172,7 +172,10 @@ FaultResult FaultMatrix::fault() {
     let_pass(random(0, 0.3));
   } else {
     EXPECT_TRUE(until([&] { return is_back(result.node, source_ns, pictures); }))
-        << name_of(result.node) << ", " << name_of(result.kind) << ": has not come back";
+        << name_of(result.node) << " (" << crew.pid(result.node) << "), " << name_of(result.kind)
+        << ": has not come back; newest picture: " << ear->eye().ticks << " of process " << ear->eye().pid
+        << ", phase " << static_cast<int>(ear->eye().phase) << ", " << ear->eye().samples_received
+        << " messages heard";
     result.to_rejoin = seconds_from_ns(now_ns() - source_ns);
     if (*result.to_rejoin > 1)
       std::printf("%s, %s: back after %.2f s\n%s", name_of(result.node), name_of(result.kind),
