@@ -15,6 +15,8 @@ std::string_view loopback_config() noexcept {
     <Discovery>
       <ParticipantIndex>auto</ParticipantIndex>
       <MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>
+      <SPDPInterval>1s</SPDPInterval>
+      <LeaseDuration>5s</LeaseDuration>
       <Peers>
         <Peer Address="127.0.0.1"/>
       </Peers>

@@ -95,8 +95,10 @@ class FaultMatrix : public testing::Test {
   FaultResult fault();
 
   int domain = own_domain();
-  fs::path folder = fs::temp_directory_path() / ("palpate_faults_" + std::to_string(getpid()));
-  WatchedFile device{"/dev/shm/palpate_faults_" + std::to_string(getpid()), WatchedFile::Role::test};
+  std::string name = "palpate_faults_" + std::to_string(getpid());
+  fs::path folder =
+      fs::path("/dev/shm") / (name + "_files");  // in memory: a disk that others keep busy is another fault
+  WatchedFile device{"/dev/shm/" + name, WatchedFile::Role::test};
   NodeCrew crew{PROGRAMS, folder, domain};
   HandLog hand{*device, pressing_stiffness, pressing_force_limit};
   std::unique_ptr<SessionEar> ear = std::make_unique<SessionEar>(domain);
@@ -172,7 +174,10 @@ FaultResult FaultMatrix::fault() {
     let_pass(random(0, 0.3));
   } else {
     EXPECT_TRUE(until([&] { return is_back(result.node, source_ns, pictures); }))
-        << name_of(result.node) << ", " << name_of(result.kind) << ": has not come back";
+        << name_of(result.node) << " (" << crew.pid(result.node) << "), " << name_of(result.kind)
+        << ": has not come back; newest picture: " << ear->eye().ticks << " of process " << ear->eye().pid
+        << ", phase " << static_cast<int>(ear->eye().phase) << ", " << ear->eye().samples_received
+        << " messages heard";
     result.to_rejoin = seconds_from_ns(now_ns() - source_ns);
     if (*result.to_rejoin > 1)
       std::printf("%s, %s: back after %.2f s\n%s", name_of(result.node), name_of(result.kind),
@@ -237,7 +242,7 @@ TEST_F(FaultMatrix, NoKickNoCrashNoLeakAndAllFindEachOtherAgain) {
   std::set<std::string> shared = growth.shared();
   const std::set<std::string> own = footprint(getpid()).shared;  // where our own output goes
   std::erase_if(shared, [&](const std::string& path) {
-    return own.contains(path) || path.find(folder.filename()) != std::string::npos;
+    return own.contains(path) || path.find(name) != std::string::npos;
   });
   const auto left = left_behind(shared, crew.ever(), domain);
   EXPECT_TRUE(left.empty()) << left.front();

@@ -23,6 +23,7 @@ class SessionEar {
   std::uint64_t pictures(pid_t render) const;
   /// Of the hand's newest status: patches that it has taken, what it says of itself.
   const NodeStatus& hand() const { return hand_; }
+  const NodeStatus& eye() const { return eye_; }
   std::uint64_t hand_statuses() const { return hand_statuses_; }  // heard so far
 
   /// Samples of the hand's traces that did not come though the process that makes them lived.
