@@ -1,6 +1,7 @@
 #include "tests/system/faults/node_crew.h"
 
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -30,6 +31,7 @@ void NodeCrew::start(NodeKind node) {
   const std::string number = std::to_string(domain_), log = (folder_ / "log").string();
   const pid_t pid = fork();
   if (pid == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // a test that is killed leaves nobody behind
     if (std::freopen(log.c_str(), "a", stderr) == nullptr) _exit(126);
     execl(program.c_str(), program.c_str(), scene.c_str(), "--out", out.c_str(), "--domain", number.c_str(),
           "--headless", nullptr);
