@@ -40,7 +40,8 @@ class EnergyLimit {
     const Vec3 way = moved.head<3>();
     given_ += forces_[1].dot(moved) - (plane_work - plane_work_);
     if (stored > 0 && way.norm() < 1.5 * resolution_)
-      given_ -= 0.5 * stiffness_ * resolution_ * way.norm() * step_bias(hand.v.norm() * period / resolution_);
+      given_ -= 0.5 * stiffness_ * resolution_ * way.norm() * step_bias(speed_ * period / resolution_);
+    speed_ = hand.v.norm();
     began_ = true;
     x_ = hand.x;
     q_ = hand.q;
@@ -92,6 +93,7 @@ class EnergyLimit {
   Vec3 x_ = Vec3::Zero();
   Eigen::Quaterniond q_ = Eigen::Quaterniond::Identity();
   double plane_work_ = 0;
+  double speed_ = 0;  // a tick ago: now a step has just been seen, and every hand looks fast [m/s]
   double given_ = 0;  // E_port - E_plane, kept above -(credit + S) [J]
   double left_ = 0;
   std::array<Vec6, 2> forces_{Vec6::Zero(), Vec6::Zero()};  // newest first
