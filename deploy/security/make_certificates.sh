@@ -11,6 +11,8 @@ fail() { echo "make_certificates: $*" >&2; exit 2; }
 
 [ $# -eq 1 ] || fail "where to? Give a folder"
 command -v openssl >/dev/null || fail "openssl is not installed (package openssl)"
+base=$(cd "$(dirname "$0")/../cyclonedds" && pwd)/loopback.xml  # what sessions on one PC use
+[ -e "$base" ] || fail "$base is missing"
 mkdir -p "$1"
 dir=$(cd "$1" && pwd)
 [ ! -e "$dir/identity_key.pem" ] || fail "$dir: holds an identity already; give another folder"
@@ -71,23 +73,8 @@ plugins=$(dirname "$(find /usr/lib -name libdds_security_auth.so 2>/dev/null | h
 plugin() {  # LIBRARY NAME
   echo "<Library path=\"$plugins/$1\" initFunction=\"init_$2\" finalizeFunction=\"finalize_$2\"/>"
 }
-cat >loopback.xml <<XML
-<CycloneDDS>
-  <Domain Id="any">
-    <General>
-      <Interfaces>
-        <NetworkInterface name="lo" multicast="false"/>
-      </Interfaces>
-      <AllowMulticast>false</AllowMulticast>
-      <MaxMessageSize>65500B</MaxMessageSize>
-    </General>
-    <Discovery>
-      <ParticipantIndex>auto</ParticipantIndex>
-      <MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>
-      <Peers>
-        <Peer Address="127.0.0.1"/>
-      </Peers>
-    </Discovery>
+sed '/<\/Domain>/,$d' "$base" >loopback.xml
+cat >>loopback.xml <<XML
     <Security>
       <Authentication>
         $(plugin libdds_security_auth.so authentication)
