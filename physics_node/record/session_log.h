@@ -19,6 +19,7 @@
 namespace palpate::physics {
 
 inline constexpr std::int64_t frames_between_hashes = 20;
+inline constexpr std::uint64_t index_width = 7, state_width = 25;  // columns of /session/inputs/NAME/index and state
 
 class SessionLog {
  public:
@@ -57,7 +58,6 @@ class SessionLog {
     std::array<std::uint8_t, 64> name{};
   };
   static constexpr std::size_t n_entries = 16384;
-  static constexpr std::size_t index_width = 7, state_width = 25;
 
   /// Rows of one dataset that wait to be appended together.
   template <class T>

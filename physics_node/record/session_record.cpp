@@ -10,13 +10,13 @@
 #include "common/error/error.h"
 #include "common/record/check_file.h"
 #include "common/scene/load_scene.h"
+#include "physics_node/record/session_log.h"
 
 namespace palpate::physics {
 namespace {
 
 namespace fs = std::filesystem;
 constexpr std::uint64_t block_rows = 4096;
-constexpr std::uint64_t index_width = 7, state_width = 25;  // of SessionLog
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
