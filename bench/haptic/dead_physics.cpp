@@ -1,5 +1,7 @@
 #include "bench/haptic/dead_physics.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace palpate::bench {
@@ -66,6 +68,18 @@ Return return_in(const std::vector<Case>& cases, const std::vector<double>& away
       all.excess = std::max(all.excess, trial.energy().plane_excess());
     }
   return all;
+}
+
+bool fades(const Silence& silence, double limit_step) noexcept {
+  return silence.latest <= 0.4 && silence.monotone && silence.went_stale && silence.step <= limit_step &&
+         silence.surplus <= EnergyBook::G_allowed && silence.found <= 0.1;
+}
+
+std::string text_of(const Silence& silence) {
+  return fmt::format(
+      "0 N after {:.0f} ms at most, {}; beyond K v T {:.3f} N; G {:.3f} mJ; ready after {:.0f} ms",
+      1e3 * silence.latest, silence.monotone ? "never rising" : "rising", silence.step, 1e3 * silence.surplus,
+      1e3 * silence.found);
 }
 
 }  // namespace palpate::bench

@@ -1,6 +1,7 @@
 #pragma once
 // Physics that dies, or falls silent for a while, while the hand presses: what the hand feels of it, over many cases.
 
+#include <string>
 #include <vector>
 
 #include "bench/haptic/trial.h"
@@ -17,6 +18,11 @@ struct Silence {
 };
 /// In each case physics dies after 2 s of contact and is missed for 0.7 s. Then it is back, with the tool still inside.
 Silence silence_in(const std::vector<Case>& cases);
+
+/// F1: 0 N within 400 ms, steadily; ready within 0.1 s of the return; energy bound kept.
+/// @param limit_step  of Silence::step [N]
+bool fades(const Silence& silence, double limit_step) noexcept;
+std::string text_of(const Silence& silence);
 
 struct Return {
   double inside = 0;          // largest force between a long silence and leaving the tissue [N]

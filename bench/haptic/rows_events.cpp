@@ -139,12 +139,7 @@ Row silence_fades() {
           "stale; falls steadily to 0 N within 400 ms of the last patch; steps <= K v T + 0.1 N; G <= 0.1 "
           "mJ; ready within 0.1 s of "
           "its return",
-          fmt::format("0 N after {:.0f} ms at most, {}; beyond K v T {:.3f} N; G {:.3f} mJ; ready "
-                      "after {:.0f} ms",
-                      1e3 * s.latest, s.monotone ? "never rising" : "rising", s.step, 1e3 * s.surplus,
-                      1e3 * s.found),
-          s.latest <= 0.4 && s.monotone && s.went_stale && s.step <= limit_step &&
-              s.surplus <= EnergyBook::G_allowed && s.found <= 0.1};
+          text_of(s), fades(s, limit_step)};
 }
 
 Row return_is_no_kick() {
