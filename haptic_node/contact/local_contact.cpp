@@ -63,30 +63,31 @@ void LocalContact::approach(const Vec3& x, double fraction, double force_step) n
   if (start.gap < 0) start.gap = 0;
   planes_[0].place(start, x);
   n_ = 1;
-  if (target.gap < 0) planes_[0].follow(target, x, 0.0, fraction, force_step, tank_);
+  if (target.gap < 0) planes_[0].follow(target, x, 0.0, fraction, force_step, 1.0, tank_);
 }
 
 /// @return true if the proxy left the neighbourhood that the patch covers
 bool LocalContact::follow_first(const Vec3& x, const Vec3& proxy, double pressed, double fraction,
-                                double force_step) noexcept {
+                                double force_step, double share) noexcept {
   PlaneTarget target{planes_[0].normal(), 1e-3,
                      planes_[0].stiffness()};  // away, if nothing is below any more
   facet_ = facet_under_proxy(patch_, proxy, facet_, planes_[0].normal());
   const bool outran = facet_ == no_facet || locate(proxy, patch_.facets[facet_]).lateral > outran_lateral;
   if (!outran) target = target_of(patch_.facets[facet_], x);
-  planes_[0].follow(target, x, pressed, fraction, force_step, tank_);
+  planes_[0].follow(target, x, pressed, fraction, force_step, share, tank_);
   return outran;
 }
 
 void LocalContact::follow_others(const Vec3& x, const Vec3& proxy, const Projection& before, double fraction,
-                                 double force_step) noexcept {
+                                 double force_step, double share) noexcept {
   std::size_t kept = 1;
   for (std::size_t i = 1; i < n_; ++i) {
     const std::uint32_t facet = facet_alike(patch_, proxy, planes_[i].normal(), start_lateral);
     if (facet == no_facet || planes_[i].gap(x) > forget_gap ||
         same_side(planes_[i].normal(), planes_[0].normal()))
       continue;
-    planes_[i].follow(target_of(patch_.facets[facet], x), x, pressed(before, i), fraction, force_step, tank_);
+    planes_[i].follow(target_of(patch_.facets[facet], x), x, pressed(before, i), fraction, force_step, share,
+                      tank_);
     planes_[kept++] = planes_[i];
   }
   n_ = kept;
@@ -136,7 +137,7 @@ void LocalContact::rub(const Vec3& x, ContactResult& result) noexcept {
   result.proxy = x + result.force / stiffness_;
 }
 
-ContactResult LocalContact::tick(const Vec3& x, const Vec3& v, double dt) noexcept {
+ContactResult LocalContact::tick(const Vec3& x, const Vec3& v, double dt, double share) noexcept {
   const double fraction = remaining_ <= dt ? 1.0 : dt / remaining_;
   remaining_ = std::max(0.0, remaining_ - dt);
   const double force_step = force_rate * dt;
@@ -152,8 +153,8 @@ ContactResult LocalContact::tick(const Vec3& x, const Vec3& v, double dt) noexce
     if (patch_.n_facets > 0) approach(x, fraction, force_step);
   } else {
     const Vec3 proxy = x + spring / stiffness_;
-    outran = follow_first(x, proxy, pressed(before, 0), fraction, force_step);
-    follow_others(x, proxy, before, fraction, force_step);
+    outran = follow_first(x, proxy, pressed(before, 0), fraction, force_step, share);
+    follow_others(x, proxy, before, fraction, force_step, share);
     if (!outran) add_crossed(x, proxy);
   }
   last_x_ = x;

@@ -44,8 +44,9 @@ class LocalContact {
   bool penetrated(const Vec3& x) const noexcept;
 
   /// Contract: real time.
-  /// @param x, v  tip [m], its smoothed velocity [m/s]
-  ContactResult tick(const Vec3& x, const Vec3& v, double dt) noexcept;
+  /// @param x, v   tip [m], its smoothed velocity [m/s]
+  /// @param share  of this force that reached the hand in the last tick, 0..1: planes do that much of their work
+  ContactResult tick(const Vec3& x, const Vec3& v, double dt, double share = 1) noexcept;
 
   /// Planes move away until the spring force is `keep` (0..1) of what it was at x.
   void weaken(const Vec3& x, double keep) noexcept;
@@ -72,10 +73,10 @@ class LocalContact {
   }
   PlaneTarget target_of(const PatchFacet& facet, const Vec3& x) const noexcept;
   void approach(const Vec3& x, double fraction, double force_step) noexcept;
-  bool follow_first(const Vec3& x, const Vec3& proxy, double pressed, double fraction,
-                    double force_step) noexcept;
+  bool follow_first(const Vec3& x, const Vec3& proxy, double pressed, double fraction, double force_step,
+                    double share) noexcept;
   void follow_others(const Vec3& x, const Vec3& proxy, const Projection& before, double fraction,
-                     double force_step) noexcept;
+                     double force_step, double share) noexcept;
   void add_crossed(const Vec3& x, const Vec3& proxy) noexcept;
   ContactResult felt(const Vec3& x, const Vec3& v) const noexcept;
   void rub(const Vec3& x, ContactResult& result) noexcept;

@@ -21,7 +21,7 @@ bool LocalModel::penetrated(const HandMotion& hand) const noexcept {
 ContactResult LocalModel::tick(const HandMotion& hand, double dt, double share) noexcept {
   switch (model_) {
     case ForceModel::norton:
-      return planes_.tick(hand.x, hand.v, dt);
+      return planes_.tick(hand.x, hand.v, dt, share);
     case ForceModel::tangent:
       return tangent_.tick(hand, dt, share);
     case ForceModel::raw_planes:

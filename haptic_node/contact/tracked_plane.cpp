@@ -29,12 +29,12 @@ double TrackedPlane::turn(const Vec3& normal, double fraction, double most) noex
 
 /// A compressed spring that stiffens gains k'/2 d^2: the tank pays for it. @return how much the force has changed [N]
 double TrackedPlane::stiffen(double stiffness, double pressed, double fraction, double force_step,
-                             WorkTank& tank) noexcept {
+                             double share, WorkTank& tank) noexcept {
   double by = (stiffness - stiffness_) * fraction;
   if (pressed > 0) {
     by = std::clamp(by, -force_step / pressed, force_step / pressed);
-    const double half_square = 0.5 * pressed * pressed;
-    by = std::min(by, tank.level() / half_square);
+    const double half_square = 0.5 * share * pressed * pressed;
+    if (half_square > 0) by = std::min(by, tank.level() / half_square);
     tank.book(by * half_square);
   }
   stiffness_ += by;
@@ -43,32 +43,32 @@ double TrackedPlane::stiffen(double stiffness, double pressed, double fraction, 
 
 /// How far the plane moves along its normal [m].
 double TrackedPlane::step(double gap, double target_gap, double pressed, double fraction, double force_step,
-                          WorkTank& tank) const noexcept {
+                          double share, WorkTank& tank) const noexcept {
   const double by = (gap - target_gap) * fraction;
   const double k = stiffness_;
   if (by > 0) {
     const double free = pressed > 0 ? 0.0 : std::max(gap, 0.0);  // up to the hand it moves for nothing
-    const double push = std::min({by - free, force_step / k, tank.affordable(k, pressed)});
+    const double push = std::min({by - free, force_step / k, tank.affordable(share * k, pressed)});
     if (push <= 0) return std::min(by, free);
-    tank.book(k * push * (pressed + 0.5 * push));
+    tank.book(share * k * push * (pressed + 0.5 * push));
     return free + push;
   }
   if (pressed <= 0) return by;
   const double give = std::min(-by, force_step / k);
   const double held = std::min(give, pressed);
-  tank.book(-k * held * (pressed - 0.5 * held));
+  tank.book(-share * k * held * (pressed - 0.5 * held));
   return -give;
 }
 
 void TrackedPlane::follow(const PlaneTarget& target, const Vec3& x, double pressed, double fraction,
-                          double force_step, WorkTank& tank) noexcept {
+                          double force_step, double share, WorkTank& tank) noexcept {
   const double now = gap(x);
   const double force = stiffness_ * pressed;
   const double most_turn = force > 0 ? force_step / force : std::numeric_limits<double>::infinity();
   force_step -= force * turn(target.normal, fraction, most_turn);
   force_step = std::max(force_step, 0.0);
-  force_step -= stiffen(target.stiffness, pressed, fraction, force_step, tank);
-  const double moved = step(now, target.gap, pressed, fraction, std::max(force_step, 0.0), tank);
+  force_step -= stiffen(target.stiffness, pressed, fraction, force_step, share, tank);
+  const double moved = step(now, target.gap, pressed, fraction, std::max(force_step, 0.0), share, tank);
   half_space_.point = x - (now - moved) * half_space_.normal;
 }
 

@@ -25,8 +25,9 @@ class TrackedPlane {
   /// @param pressed     depth to which this plane's spring is compressed now [m]; 0: not touched
   /// @param fraction    of the way that is left, (0, 1]
   /// @param force_step  largest change of force that the plane may cause in this tick [N]
+  /// @param share       of the plane's force that reaches the hand, 0..1: the plane does that much of its work
   void follow(const PlaneTarget& target, const Vec3& x, double pressed, double fraction, double force_step,
-              WorkTank& tank) noexcept;
+              double share, WorkTank& tank) noexcept;
 
   /// Moves the plane away from the hand by `retreat` [m].
   void retreat(double retreat) noexcept { half_space_.point -= retreat * half_space_.normal; }
@@ -38,9 +39,9 @@ class TrackedPlane {
 
  private:
   double turn(const Vec3& normal, double fraction, double most) noexcept;
-  double stiffen(double stiffness, double pressed, double fraction, double force_step,
+  double stiffen(double stiffness, double pressed, double fraction, double force_step, double share,
                  WorkTank& tank) noexcept;
-  double step(double gap, double target_gap, double pressed, double fraction, double force_step,
+  double step(double gap, double target_gap, double pressed, double fraction, double force_step, double share,
               WorkTank& tank) const noexcept;
 
   HalfSpace half_space_;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace palpate::haptic {
 
@@ -21,8 +22,11 @@ class WorkTank {
   }
 
   /// The farthest that a spring of stiffness k [N/m], compressed by d [m], may be compressed further [m]:
-  /// k/2 ((d + s)^2 - d^2) <= level.
-  double affordable(double k, double d) const noexcept { return std::sqrt(d * d + 2.0 * level_ / k) - d; }
+  /// k/2 ((d + s)^2 - d^2) <= level. Without bounds for k = 0.
+  double affordable(double k, double d) const noexcept {
+    if (k <= 0) return std::numeric_limits<double>::infinity();
+    return std::sqrt(d * d + 2.0 * level_ / k) - d;
+  }
 
   /// Work done by a plane on the hand [J]; below 0: by the hand on the plane.
   void book(double work) noexcept {
