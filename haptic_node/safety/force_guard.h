@@ -14,7 +14,7 @@ class ForceGuard {
   /// lag behind a stiff contact and feed it energy.
   static constexpr double fastest_hand = 0.5;
   /// What the force may rise by in a tick although the hand stands: planes that move, dampers that begin [N].
-  static constexpr double kick = 0.1;
+  static constexpr double kick = 0.09;
 
   /// @param limit      most force [N]
   /// @param stiffness  of the hand spring, K [N/m]
