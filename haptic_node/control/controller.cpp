@@ -64,7 +64,7 @@ Controller::Controller(const ControllerSettings& settings) noexcept
              settings.torque_limit, settings.friction),
       guard_(settings.force_limit, settings.stiffness, settings.period),
       torque_guard_(settings.torque_limit, settings.stiffness * torque_lever * torque_lever, settings.period),
-      energy_(settings.resolution, settings.stiffness) {}
+      energy_(settings.resolution) {}
 
 /// Motors off at once; nothing is written to the device any more.
 ControllerOutput Controller::faulted(bool first) noexcept {
@@ -205,7 +205,8 @@ double Controller::share_of_felt() noexcept {
   const double r = force > limit ? limit / force : 1.0;
   full_ = felt_.stored * (2 * r - r * r);
   const double applied = full_ * gain_ * stop_gain_;
-  const double share = energy_.share(motion_.hand(), settings_.period, applied, model_.work());
+  const double share = energy_.share(motion_.hand(), settings_.period, applied, model_.work(),
+                                     gain_ * stop_gain_ * r * felt_.force);
   stored_ = energy_.left();
   return share;
 }
