@@ -6,10 +6,8 @@
 namespace palpate::physics {
 namespace {
 
-constexpr double margin = 0.010;         // around the stick: what a hand at 0.2 m/s covers in 50 ms [m]
-constexpr double search_period = 0.020;  // after which tissue may have come near by itself [s]
-constexpr double facing_limit = 0.2;     // cosine below which a facet belongs to another side
-constexpr std::size_t room = 16384;      // facets that it may touch at the most
+constexpr double facing_limit = 0.2;  // cosine below which a facet belongs to another side
+constexpr std::size_t room = 16384;   // facets that it may touch at the most
 
 }  // namespace
 
@@ -23,28 +21,20 @@ StickSurface::StickSurface(const ContactSurface& surface, const MovingBody& movi
 }
 
 void StickSurface::look(const Stick& stick, double t) noexcept {
-  const double moved =
-      std::max((stick.A - searched_A_).norm(), (stick.A + stick.D - searched_A_ - searched_D_).norm());
-  if (moved <= 0.5 * margin && t - searched_when_ < search_period && t >= searched_when_) return;
-  searched_A_ = stick.A;
-  searched_D_ = stick.D;
-  searched_when_ = t;
+  if (!search_.due(stick, t)) return;
   near_.clear();
-  const double around = reach_ + stick.radius + 2 * margin;
+  const double around = reach_ + stick.radius + 2 * StickSearch::margin;
   surface_.facets_near(stick.axis_point(0.5), 0.5 * stick.D.norm() + around, moving_, near_);
   const Surface& surface = surface_.surface();
-  near_.erase(std::remove_if(near_.begin(), near_.end(),
-                             [&](std::uint32_t id) {
-                               const auto& corners = surface.facets[id];
-                               // A stick meets masses, not scenery.
-                               if (std::all_of(corners.begin(), corners.end(),
-                                               [&](auto corner) { return corner >= surface.n_moving(); }))
-                                 return true;
-                               const Vec3 c = surface_.centroid(id, moving_);
-                               return (c - stick.axis_point(stick.nearest(c))).squaredNorm() >
-                                      around * around;
-                             }),
-              near_.end());
+  std::erase_if(near_, [&](std::uint32_t id) {
+    const auto& corners = surface.facets[id];
+    // A stick meets masses, not scenery.
+    if (std::all_of(corners.begin(), corners.end(),
+                    [&](auto corner) { return corner >= surface.n_moving(); }))
+      return true;
+    const Vec3 c = surface_.centroid(id, moving_);
+    return (c - stick.axis_point(stick.nearest(c))).squaredNorm() > around * around;
+  });
 }
 
 /// Facets beside which the stick is less than R, on the side of the one that it is nearest to.
@@ -71,9 +61,7 @@ void StickSurface::collect(const Stick& stick, bool at_rest) noexcept {
     if (apart.squaredNorm() < least) least = apart.squaredNorm(), side = facet.normal;
     facets_.push_back(facet);
   }
-  facets_.erase(std::remove_if(facets_.begin(), facets_.end(),
-                               [&](const Facet& facet) { return facet.normal.dot(side) < facing_limit; }),
-                facets_.end());
+  std::erase_if(facets_, [&](const Facet& facet) { return facet.normal.dot(side) < facing_limit; });
 }
 
 StickPlane StickSurface::plane(const Stick& stick, bool at_rest) noexcept {

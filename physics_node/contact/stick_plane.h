@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "physics_node/contact/contact_surface.h"
-#include "physics_node/contact/stick.h"
+#include "physics_node/contact/stick_search.h"
 
 namespace palpate::physics {
 
@@ -50,8 +50,7 @@ class StickSurface {
   double reach_, depth_;             // R, D [m]
   std::vector<std::uint32_t> near_;  // facets around the stick
   std::vector<Facet> facets_;        // those that it may touch
-  Vec3 searched_A_ = Vec3::Constant(1e9), searched_D_ = Vec3::Zero();
-  double searched_when_ = -1e9;
+  StickSearch search_;
 };
 
 }  // namespace palpate::physics

@@ -11,9 +11,7 @@
 namespace palpate::physics {
 namespace {
 
-constexpr double margin = 0.010;         // around the stick, within which masses are listed [m]
-constexpr double search_period = 0.020;  // after which tissue may have come near by itself [s]
-constexpr double on_surface = 1e-6;      // of the stick, so that a mass was carried in the step before [m]
+constexpr double on_surface = 1e-6;  // of the stick, so that a mass was carried in the step before [m]
 constexpr double exit_speed =
     1.0;  // most at which a mass inside is brought out, beyond the stick's own motion [m/s]
 constexpr double patch_half = 0.020;  // side of the plane's square about the tip [m]
@@ -48,7 +46,7 @@ StickTool::StickTool(const ToolSpec& tool, std::uint32_t index,
 void StickTool::reset() noexcept {
   seen_ = false;
   n_near_ = contacts_ = 0;
-  searched_when_ = -1e9;
+  search_.reset();
   sum_ = {};
   raw_ = {};
   felt_ = {};
@@ -74,7 +72,7 @@ void StickTool::take(const ToolState* state, double) noexcept {
 
 void StickTool::list(Near& near) noexcept {
   const Stick stick = stick_at(to_);
-  const double reach = radius_ + 2 * margin;
+  const double reach = radius_ + 2 * StickSearch::margin;
   const Lattice& lattice = near.moving->body().lattice;
   near.n = 0;
   for (const RowSegment& row : lattice.rows) {
@@ -94,18 +92,13 @@ void StickTool::list(Near& near) noexcept {
 void StickTool::find_contact(double t) noexcept {
   if (!seen_) return;
   const Stick now = stick_at(to_);
-  const double moved =
-      std::max((now.A - searched_A_).norm(), (now.A + now.D - searched_A_ - searched_D_).norm());
   for (StickSurface& surface : surfaces_) surface.look(now, t);
-  if (moved <= 0.5 * margin && t - searched_when_ < search_period && t >= searched_when_) return;
+  if (!search_.due(now, t)) return;
   n_near_ = 0;
   for (Near& near : near_) {
     list(near);
     n_near_ += near.n;
   }
-  searched_A_ = now.A;
-  searched_D_ = now.D;
-  searched_when_ = t;
 }
 
 LeadWork StickTool::lead_body(Near& near, const Stick& before, const Stick& now, double dt) noexcept {

@@ -75,8 +75,7 @@ class StickTool final : public LedTool {
   double done_ = 0;  // of the frame, so far
   std::vector<Near> near_;
   std::size_t n_near_ = 0;
-  Vec3 searched_A_ = Vec3::Constant(1e9), searched_D_ = Vec3::Zero();
-  double searched_when_ = -1e9;
+  StickSearch search_;
   std::vector<StickSurface> surfaces_;
   StickPlane plane_;         // gap as without the stick's force
   std::size_t touched_ = 0;  // body of the plane
