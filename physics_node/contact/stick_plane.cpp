@@ -1,6 +1,7 @@
 #include "physics_node/contact/stick_plane.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace palpate::physics {
@@ -37,7 +38,18 @@ void StickSurface::look(const Stick& stick, double t) noexcept {
   });
 }
 
-/// Facets beside which the stick is less than R, on the side of the one that it is nearest to.
+/// Does a mass at its corners move?
+bool StickSurface::gives(std::uint32_t facet) const noexcept {
+  const Surface& surface = surface_.surface();
+  const auto& corners = surface.facets[facet];
+  return std::any_of(corners.begin(), corners.end(), [&](auto corner) {
+    return corner < surface.n_moving() &&
+           moving_.body().inverse_mass[static_cast<std::size_t>(surface.cell[corner])] > 0;
+  });
+}
+
+/// Facets beside which the stick is less than R, on the side of the one that it is nearest to. Whether it is on a facet's outer
+/// side is seen where the facet is now: at rest it may lie far above a stick that is pressed in.
 void StickSurface::collect(const Stick& stick, bool at_rest) noexcept {
   facets_.clear();
   double least = std::numeric_limits<double>::infinity();
@@ -52,13 +64,16 @@ void StickSurface::collect(const Stick& stick, bool at_rest) noexcept {
     facet.area = area.norm();
     if (!(facet.area > 0)) continue;
     facet.normal = area / facet.area;
-    const Vec3 apart = stick.axis_point(stick.nearest(facet.centre)) - facet.centre;
+    const Vec3 apart_now = stick.axis_point(stick.nearest(now.centroid)) - now.centroid;
+    if (now.area.dot(apart_now) < -stick.radius * now.area.norm()) continue;  // beyond the other side
+    facet.along = stick.nearest(facet.centre);
+    const Vec3 apart = stick.axis_point(facet.along) - facet.centre;
     const double height = facet.normal.dot(apart);
-    if (height < -stick.radius) continue;  // beyond the other side
     facet.gap = height - stick.radius;
     facet.lateral = std::max(0.0, apart.squaredNorm() - height * height) / (reach_ * reach_);
     if (facet.lateral >= 1) continue;
-    if (apart.squaredNorm() < least) least = apart.squaredNorm(), side = facet.normal;
+    facet.held = !gives(id);
+    if (apart_now.squaredNorm() < least) least = apart_now.squaredNorm(), side = facet.normal;
     facets_.push_back(facet);
   }
   std::erase_if(facets_, [&](const Facet& facet) { return facet.normal.dot(side) < facing_limit; });
@@ -70,12 +85,16 @@ StickPlane StickSurface::plane(const Stick& stick, bool at_rest) noexcept {
   double lowest = std::numeric_limits<double>::infinity();
   for (const Facet& facet : facets_) lowest = std::min(lowest, facet.gap);
   Vec3 normal = Vec3::Zero(), sunk = Vec3::Zero();
+  double square = 0;
   for (const Facet& facet : facets_) {
     const double l = 1 - facet.lateral, g = 1 - (facet.gap - lowest) / depth_;
     if (g <= 0) continue;
     const double w = facet.area * l * l * g * g;
     plane.area += w;
     plane.gap += w * facet.gap;
+    plane.along += w * facet.along;
+    square += w * facet.along * facet.along;
+    if (facet.held) plane.held += w;
     normal += w * facet.normal;
     if (!at_rest) sunk += w * (facet.rest - facet.centre);
   }
@@ -83,6 +102,9 @@ StickPlane StickSurface::plane(const Stick& stick, bool at_rest) noexcept {
   plane.found = true;
   plane.normal = normal.normalized();
   plane.gap /= plane.area;
+  plane.along /= plane.area;
+  plane.spread = std::sqrt(std::max(0.0, square / plane.area - plane.along * plane.along));
+  plane.held /= plane.area;
   plane.sunk = sunk.dot(plane.normal) / plane.area;
   return plane;
 }
