@@ -26,7 +26,7 @@ StickTool::StickTool(const ToolSpec& tool, std::uint32_t index,
       attitude_(tool.attitude),
       low_pass_Hz_(tool.low_pass_Hz),
       hand_spring_(force_model_of(tool) == ForceModel::direct ? std::numeric_limits<double>::infinity()
-                                                         : tool.stiffness),
+                                                              : tool.stiffness),
       surface_(surfaces, radius_),
       tangent_(tool.low_pass_Hz, 0.5 * tool.stiffness) {
   for (const auto& body : bodies) {
