@@ -54,13 +54,13 @@ Row edges_and_corners();  // S8
 Row sphere_is_round();    // S8
 
 // rows_world.cpp: with the real physics library as the object
-Row world_is_stable(Runs& runs);        // S2, S6
-Row world_force_is_true(Runs& runs);    // S4
-Row world_silence_fades();              // F1
-Row world_return_is_no_kick();          // F2
-Row world_raw_is_unstable(Runs& runs);  // S0
-Row stick_is_steady(Runs& runs);        // S12
-Row stick_gains_nothing(Runs& runs);    // S12
+Row world_is_stable(Runs& runs);               // S2, S6
+Row world_force_is_true(Runs& runs);           // S4
+Row world_silence_fades();                     // F1
+Row world_return_is_no_kick();                 // F2
+Row world_raw_is_unstable(Runs& runs);         // S0
+Row stick_is_steady(Runs& runs);               // S12
+Row stick_with_torques_is_steady(Runs& runs);  // S12
 
 // rows_six.cpp
 Row torque_is_bounded(const Runs& runs);  // S12

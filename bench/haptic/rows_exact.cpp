@@ -96,7 +96,7 @@ std::vector<Row> all_rows(Runs& runs) {
           world_return_is_no_kick(),
           torque_is_bounded(runs),
           stick_is_steady(runs),
-          stick_gains_nothing(runs)};
+          stick_with_torques_is_steady(runs)};
 }
 
 }  // namespace palpate::bench

@@ -47,6 +47,20 @@ ToolWrench random_answer(std::mt19937_64& random, std::uint64_t tick, const Vec3
   return wrench;
 }
 
+/// The surface under a tool, up to 4 mm away or as deep, in place of what it presses with.
+void tell_surface(std::mt19937_64& random, ToolWrench& wrench) {
+  std::normal_distribution<double> g;
+  const Vec3 n = Vec3(0.5 * g(random), 0.5 * g(random), 1).normalized();
+  const Vec3 arm = 0.04 * Vec3(g(random), g(random), g(random)), spread = 0.3 * arm;
+  Vec6 push, turn;
+  push << n, arm.cross(n);
+  turn << Vec3::Zero(), spread.cross(n);
+  const double k = 100 + static_cast<double>(random() % 900);
+  Eigen::Map<Mat6>(wrench.stiffness.data()) = k * (push * push.transpose() + turn * turn.transpose());
+  wrench.normal = array(n);
+  wrench.stretch = std::clamp(0.002 * g(random), -0.004, 0.004);
+}
+
 void move_for_ten_seconds(std::uint64_t seed, SixTally& tally) {
   std::mt19937_64 random(seed);
   haptic::ControllerSettings settings;
@@ -78,6 +92,7 @@ void move_for_ten_seconds(std::uint64_t seed, SixTally& tally) {
     if (n <= 500 || random() % 25 == 0) {
       const bool touches = n > 500 && random() % 5 != 0;
       wrench = touches ? random_answer(random, patch.tick, sample.x, sample.q) : ToolWrench{};
+      if (touches && seed % 2 == 0) tell_surface(random, wrench);
       wrench.tick = patch.tick;
     }
     const haptic::ControllerOutput out = controller.tick(now, sample, &patch, &wrench);
@@ -112,7 +127,8 @@ Row torque_is_bounded(const Runs& runs) {
   for (int n = 1; n <= cases; ++n) move_for_ten_seconds(static_cast<std::uint64_t>(n), tally);
   return {
       "S12",
-      "wrenches that jump, of 1 to 3 contacts, under a hand that moves 4 mm and turns 5 deg; attitudes "
+      "wrenches of 1 to 3 contacts or surfaces, which jump, under a hand that moves 4 mm and turns 5 deg; "
+      "attitudes "
       "that are none",
       "torque and force limited by norm, direction kept within 0.1 deg; G <= 0.1 mJ; bound on the work of "
       "springs kept; bad attitudes rejected, 3 a fault",

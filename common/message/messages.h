@@ -14,7 +14,7 @@ using Array3 = std::array<double, 3>;
 using Array4 = std::array<double, 4>;
 using Array3f = std::array<float, 3>;
 
-inline constexpr std::uint32_t wire_version = 3;  // a reader rejects every other version
+inline constexpr std::uint32_t wire_version = 4;  // a reader rejects every other version
 
 inline constexpr std::uint32_t max_tools = 8;
 inline constexpr std::uint32_t max_bodies = 64;
@@ -72,6 +72,9 @@ struct ContactPatch {
 
 /// physics -> haptic, render. What the tissue does to a tool, and how that changes with the pose of the hand: with M_T the
 /// moment about tip,   (F, M_T)(p, q) = (F, M_T) - stiffness (p - p_WT, rotation vector from q_WT to q)
+/// Where physics knows the surface beside the tool, touched or not, the hand feels that instead, as a spring that pushes only:
+///   stiffness ((stretch normal, 0) - (p - p_WT, rotation vector from q_WT to q))
+/// which does not follow the tissue's swinging as force and moment do.
 struct ToolWrench {
   std::uint32_t tool = 0;
   std::uint64_t tick = 0;
@@ -86,6 +89,8 @@ struct ToolWrench {
   Array3 set_point{};                    // [m]
   Array3 tip{};                          // of the tool, which M_T is about [m]; elsewhere than p_WT if the hand took it there
   std::array<double, 36> stiffness{};    // local 6x6, symmetric, row major [N/m, N, N m/rad]; zero: not computed
+  Array3 normal{};                       // out of the tissue, unit; zero: no surface is known
+  double stretch = 0;                    // of the spring at p_WT, q_WT; below 0: the way that is left to contact [m]
   std::uint32_t n_contacts = 0;          // colliding masses
 };
 

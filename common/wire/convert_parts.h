@@ -29,6 +29,12 @@ bool unit(const double (&values)[N]) noexcept {
   return std::abs(std::sqrt(squared) - 1.0) <= unit_tolerance;
 }
 
+/// Nothing but zeros.
+template <std::size_t N>
+bool zero(const double (&values)[N]) noexcept {
+  return std::all_of(values, values + N, [](double value) { return value == 0; });
+}
+
 /// A zero stands somewhere in the array.
 template <std::size_t N>
 bool ends(const std::uint8_t (&text)[N]) noexcept {

@@ -59,11 +59,11 @@ Verdict judge(const palpate_wire_ToolWrench& wire) noexcept {
   if (wire.version != wire_version) return RejectReason::version;
   if (wire.tool >= max_tools) return RejectReason::unknown_id;
   if (!finite(wire.t) || !finite(wire.force) || !finite(wire.moment) || !finite(wire.set_point) ||
-      !finite(wire.stiffness) || !finite(wire.p_WT) || !finite(wire.q_WT) ||
-      !finite(wire.tip)) {
+      !finite(wire.stiffness) || !finite(wire.p_WT) || !finite(wire.q_WT) || !finite(wire.tip) ||
+      !finite(wire.normal) || !finite(wire.stretch)) {
     return RejectReason::not_finite;
   }
-  if (!unit(wire.q_WT)) return RejectReason::not_unit;
+  if (!unit(wire.q_WT) || !(zero(wire.normal) || unit(wire.normal))) return RejectReason::not_unit;
   return {};
 }
 
@@ -82,6 +82,8 @@ Verdict from_wire(const palpate_wire_ToolWrench& wire, ToolWrench& message) noex
   copy(wire.set_point, message.set_point);
   copy(wire.tip, message.tip);
   copy(wire.stiffness, message.stiffness);
+  copy(wire.normal, message.normal);
+  message.stretch = wire.stretch;
   message.n_contacts = wire.n_contacts;
   return {};
 }
@@ -101,6 +103,8 @@ void to_wire(const ToolWrench& message, palpate_wire_ToolWrench& wire) noexcept 
   copy(message.set_point, wire.set_point);
   copy(message.tip, wire.tip);
   copy(message.stiffness, wire.stiffness);
+  copy(message.normal, wire.normal);
+  wire.stretch = message.stretch;
   wire.n_contacts = message.n_contacts;
 }
 

@@ -87,15 +87,51 @@ void TangentWrench::take(const ToolWrench& wrench, double period) noexcept {
     K.bottomRows<3>().setZero();
     W.tail<3>().setZero();
   }
-  const Parts now = positive_parts(K, stiffness_);
-  K_0_ = now.K;
-  W_0_ = in_newtons(W);
-  d_0_ = now.inverse * W_0_;
-  W_0_ = K_0_ * d_0_;  // what no spring holds is not felt
+  knows_surface_ = wrench.normal != Array3{};
+  if (knows_surface_)
+    take_surface(K, vec(wrench.normal), wrench.stretch);
+  else
+    take_contact(K, in_newtons(W));
   has_ = true;
   remaining_ = period;
   // The stretch in directions that no spring holds is only the way that the hand went there.
   d_ = range_of(K_) * d_;
+}
+
+/// Only wrench and stiffness are known: the stretch is what makes the one of the other.
+void TangentWrench::take_contact(const Mat6& K, const Vec6& W) noexcept {
+  const Parts now = positive_parts(K, stiffness_);
+  K_0_ = now.K;
+  d_0_ = axis_0_ = now.inverse * W;
+  W_0_ = K_0_ * d_0_;  // what no spring holds is not felt
+}
+
+/// The way a along the normal is held by a spring of rank one, K_1 = (K a) (K a)^T / (a . K a); the rest K - K_1 lets it free and is
+/// limited first, so that a bed that hardly turns does not make the way soft. Where still too much is left, the whole
+/// becomes softer and its compression longer: K d_0 stays, and so does the gap.
+void TangentWrench::take_surface(const Mat6& K, const Vec3& normal, double stretch) noexcept {
+  axis_0_ << normal, Vec3::Zero();
+  K_0_.setZero();
+  d_0_.setZero();
+  W_0_.setZero();
+  const Vec6 W_a = K * axis_0_;
+  const double k = axis_0_.dot(W_a);
+  if (!(k > 0)) return;  // no surface that could push
+  const Mat6 along = W_a * W_a.transpose() / k;
+  K_0_ = along + positive_parts(K - along, stiffness_).K;
+  const double largest = Eigen::SelfAdjointEigenSolver<Mat6>(K_0_, Eigen::EigenvaluesOnly).eigenvalues()(5);
+  const double softer = std::min(1.0, stiffness_ / largest);
+  K_0_ *= softer;
+  d_0_ = (stretch > 0 ? stretch / softer : stretch) * axis_0_;
+  if (stretch <= 0) return;
+  W_0_ = K_0_ * d_0_;
+  const double torque = lever * W_0_.tail<3>().norm();
+  if (torque <= torque_limit_) return;
+  // K := T K T, T = 1 for ways and a shorter lever for turns: what the device cannot turn with costs no force.
+  const double shorter = torque_limit_ / torque;
+  K_0_.rightCols<3>() *= shorter;
+  K_0_.bottomRows<3>() *= shorter;
+  W_0_ = K_0_ * d_0_;
 }
 
 /// The stretch that a contact can have, by projection on a cone about that of the answer: with y = K^1/2 d, a along y_0 and b
@@ -130,17 +166,31 @@ double TangentWrench::energy(const Vec6& d, const Mat6& K, const Vec6& axis) con
   return 0.5 * d_c.dot(W) * (2 * r - r * r);
 }
 
+/// A new contact begins with the answer's stiffness and no force: by what the surface has beyond the hand the spring is not
+/// stretched yet.
+void TangentWrench::begin(const Vec6& d_goal, bool far) noexcept {
+  K_ = K_0_;
+  axis_ = axis_0_;
+  d_.setZero();
+  if (!knows_surface_) return;
+  if (far)
+    K_.setZero();  // where it is now nobody knows
+  else
+    d_ = d_goal - pushing(d_goal, K_0_, axis_0_);
+}
+
 /// Toward the answer's spring, as far as force and tank allow.
 void TangentWrench::follow(const Vec6& d_goal, double dt, double share) noexcept {
   double part = remaining_ <= dt ? 1.0 : dt / remaining_;
   remaining_ = std::max(0.0, remaining_ - dt);
-  const Vec6 W = K_ * pushing(d_, K_, axis_);
+  const Vec6 W = K_ * pushing(d_, K_, axis_), felt = within_limits(W) * W;
   const double before = energy(d_, K_, axis_);
   for (int n = 0; n <= most_halvings; ++n) {
     const Vec6 d = d_ + part * (d_goal - d_);
     const Mat6 K = K_ + part * (K_0_ - K_);
-    const Vec6 axis = axis_ + part * (d_0_ - axis_);
-    const double change = (K * pushing(d, K, axis) - W).norm();
+    const Vec6 axis = axis_ + part * (axis_0_ - axis_);
+    const Vec6 W_next = K * pushing(d, K, axis);
+    const double change = std::max((W_next - W).norm(), (within_limits(W_next) * W_next - felt).norm());
     const double work = share * (energy(d, K, axis) - before);
     if (change <= force_rate * dt && work <= tank_.level()) {
       d_ = d;
@@ -162,11 +212,13 @@ ContactResult TangentWrench::tick(const HandMotion& hand, double dt, double shar
   last_q_ = hand.q;
   if (has_) {
     const Vec6 since = in_metres(motion_between(x_0_, q_0_, hand.x, hand.q));
-    result.outran = W_0_.squaredNorm() > 0 && since.norm() > outran_way;
-    const Vec6 d_goal = d_0_ - since;
-    // A new contact begins with the answer's stiffness and no stretch.
-    if (energy(d_, K_, axis_) <= 0) K_ = K_0_, axis_ = d_0_, d_.setZero();
-    follow(result.outran ? Vec6(Vec6::Zero()) : pushing(d_goal, K_0_, d_0_), dt, share);
+    const bool touches = energy(d_, K_, axis_) > 0, far = since.norm() > outran_way;
+    result.outran = far && (touches || W_0_.squaredNorm() > 0);
+    Vec6 d_goal = d_0_ - since;
+    if (!knows_surface_) d_goal = pushing(d_goal, K_0_, axis_0_);
+    if (far) d_goal.setZero();
+    if (!touches) begin(d_goal, far);
+    if (touches || !far) follow(d_goal, dt, share);
   }
   Vec6 W = K_ * pushing(d_, K_, axis_);
   W *= within_limits(W);
@@ -181,7 +233,7 @@ ContactResult TangentWrench::tick(const HandMotion& hand, double dt, double shar
     result.n_planes = 1;
     result.depth = size / stiffness_;
     result.proxy = hand.x + result.force / stiffness_;
-  } else {
+  } else if (!knows_surface_) {
     d_.setZero();  // has left the tissue
   }
   tank_.pass(dt, result.n_planes > 0);

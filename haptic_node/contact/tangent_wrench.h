@@ -4,8 +4,12 @@
 // Physics says which wrench W_0 it found at which pose of the hand and how it changes there, K = -dW/dX (6 x 6). That is
 // a spring of six dimensions, stretched by d, which the hand compresses as it moves by xi:
 //
-//   W = K d,     d := d - xi each tick,     d -> K^+ W_0 - (motion since W_0's pose) at each answer
+//   W = K d,     d := d - xi each tick,     d -> d_0 - (motion since W_0's pose) at each answer,    d_0 = K^+ W_0
 //
+// Where physics knows the surface beside the tool it tells instead how far that spring is stretched along the normal,
+// d_0 = (s n, 0). Before contact s is below 0, the gap that is left: the spring stands ready, and what compresses
+// it is the hand's own motion, for which no tank has to pay. A moment beyond what the device can turn with is felt as if
+// the tissue pressed nearer to the hand, so that the force stays.
 // It only pushes: the stretch stays within a cone about the answer's, of 27 degrees by energy. An answer moves
 // stretch and stiffness over about a period, no faster than 80 N/s, and work that this does on the hand is paid from the
 // tank: tissue that answers late cannot feed the hand.
@@ -23,7 +27,8 @@ namespace palpate::haptic {
 
 class TangentWrench {
  public:
-  /// @param stiffness  most that the spring may have in any direction [N/m]; W_0 at its pose stays what it is
+  /// @param stiffness  most that the spring may have in any direction [N/m], turns by what they do 5 cm off; the wrench at the
+  ///                   answer's pose stays what it is
   /// @param damping    along the force [N s/m]
   /// @param limit, torque_limit  beyond which the spring does not push or turn harder: both are shortened together [N],
   ///                   [N m]. Torque limit 0: the device gives none, and turns neither make nor store anything.
@@ -31,7 +36,7 @@ class TangentWrench {
                 double torque_limit = std::numeric_limits<double>::infinity()) noexcept
       : stiffness_(stiffness), damping_(damping), limit_(limit), torque_limit_(torque_limit) {}
 
-  /// A new answer, reached after about `period` seconds. It must have passed WrenchWatch. Costs two 6 x 6 eigenproblems.
+  /// A new answer, reached after about `period` seconds. It must have passed WrenchWatch. Costs three 6 x 6 eigenproblems at most.
   void take(const ToolWrench& wrench, double period) noexcept;
 
   /// True if the newest answer says that the tissue pushes.
@@ -55,6 +60,9 @@ class TangentWrench {
  private:
   static constexpr double touch_N = 0.01;
 
+  void take_contact(const Mat6& K, const Vec6& W) noexcept;
+  void take_surface(const Mat6& K, const Vec3& normal, double stretch) noexcept;
+  void begin(const Vec6& d_goal, bool far) noexcept;
   void follow(const Vec6& d_goal, double dt, double share) noexcept;
   static Vec6 pushing(const Vec6& d, const Mat6& K, const Vec6& axis) noexcept;
   double energy(const Vec6& d, const Mat6& K, const Vec6& axis) const noexcept;
@@ -64,14 +72,16 @@ class TangentWrench {
   double stiffness_, damping_, limit_, torque_limit_;
   // the newest answer
   bool has_ = false;
+  bool knows_surface_ = false;
   Vec3 x_0_ = Vec3::Zero();
   Eigen::Quaterniond q_0_ = Eigen::Quaterniond::Identity();
   Vec6 W_0_ = Vec6::Zero(), d_0_ = Vec6::Zero();
+  Vec6 axis_0_ = Vec6::Zero();
   Mat6 K_0_ = Mat6::Zero();
   double remaining_ = 0;  // until it is reached [s]
   // the spring that is felt
   Vec6 d_ = Vec6::Zero();
-  Vec6 axis_ = Vec6::Zero();  // of the cone: the answer's stretch, followed
+  Vec6 axis_ = Vec6::Zero();  // of the cone: the answer's, followed
   Mat6 K_ = Mat6::Zero();
   bool moved_once_ = false;
   Vec3 last_x_ = Vec3::Zero();

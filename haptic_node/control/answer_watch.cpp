@@ -16,13 +16,18 @@ bool within(const Array3& a, double limit) noexcept {
   return std::all_of(a.begin(), a.end(), [limit](double value) { return std::abs(value) <= limit; });
 }
 
+template <class Array>
+bool is_unit(const Array& a) noexcept {
+  double squared = 0;
+  for (const double value : a) squared += value * value;
+  return std::abs(std::sqrt(squared) - 1.0) <= unit_tolerance;
+}
+
 bool facet_is_sound(const PatchFacet& facet) noexcept {
   for (const Array3& corner : facet.corners)
     if (!within(corner, farthest)) return false;
   if (!within(facet.point, farthest) || !within(facet.velocity, farthest)) return false;
-  const Array3& n = facet.normal;
-  const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-  if (!(std::abs(length - 1.0) <= unit_tolerance)) return false;
+  if (!is_unit(facet.normal)) return false;
   return facet.stiffness > 0 && facet.stiffness <= rigid_stiffness && facet.damping >= 0 &&
          std::isfinite(facet.damping);
 }
@@ -40,9 +45,8 @@ bool is_sound(const ToolWrench& wrench, std::uint32_t tool) noexcept {
   if (!within(wrench.force, strongest) || !within(wrench.moment, strongest)) return false;
   for (const double k : wrench.stiffness)
     if (!(std::abs(k) <= rigid_stiffness)) return false;
-  double squared = 0;
-  for (const double q : wrench.q_WT) squared += q * q;
-  return std::abs(std::sqrt(squared) - 1.0) <= unit_tolerance;
+  if (!within(wrench.tip, farthest) || !(std::abs(wrench.stretch) <= farthest)) return false;
+  return is_unit(wrench.q_WT) && (wrench.normal == Array3{} || is_unit(wrench.normal));
 }
 
 template <class Answer>

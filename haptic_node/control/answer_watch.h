@@ -11,7 +11,7 @@ namespace palpate::haptic {
 /// 1e-3, stiffness in (0, rigid_stiffness], damping not below zero, nothing farther than 1 km. Otherwise it is
 /// rejected whole.
 bool is_sound(const ContactPatch& patch, std::uint32_t tool) noexcept;
-/// A wrench likewise: attitude unit within 1e-3, nothing above 1e6 N or 1e9 N/m.
+/// A wrench likewise: attitude unit within 1e-3, normal unit or zero, nothing above 1e6 N or 1e9 N/m.
 bool is_sound(const ToolWrench& wrench, std::uint32_t tool) noexcept;
 
 /// Of ContactPatch or ToolWrench. Times are the local clock's, never the sender's.

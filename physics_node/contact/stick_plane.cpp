@@ -1,15 +1,14 @@
 #include "physics_node/contact/stick_plane.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace palpate::physics {
 namespace {
 
-constexpr double margin = 0.010;         // around the stick: what a hand at 0.2 m/s covers in 50 ms [m]
-constexpr double search_period = 0.020;  // after which tissue may have come near by itself [s]
-constexpr double facing_limit = 0.2;     // cosine below which a facet belongs to another side
-constexpr std::size_t room = 16384;      // facets that it may touch at the most
+constexpr double facing_limit = 0.2;  // cosine below which a facet belongs to another side
+constexpr std::size_t room = 16384;   // facets that it may touch at the most
 
 }  // namespace
 
@@ -23,31 +22,34 @@ StickSurface::StickSurface(const ContactSurface& surface, const MovingBody& movi
 }
 
 void StickSurface::look(const Stick& stick, double t) noexcept {
-  const double moved =
-      std::max((stick.A - searched_A_).norm(), (stick.A + stick.D - searched_A_ - searched_D_).norm());
-  if (moved <= 0.5 * margin && t - searched_when_ < search_period && t >= searched_when_) return;
-  searched_A_ = stick.A;
-  searched_D_ = stick.D;
-  searched_when_ = t;
+  if (!search_.due(stick, t)) return;
   near_.clear();
-  const double around = reach_ + stick.radius + 2 * margin;
+  const double around = reach_ + stick.radius + 2 * StickSearch::margin;
   surface_.facets_near(stick.axis_point(0.5), 0.5 * stick.D.norm() + around, moving_, near_);
   const Surface& surface = surface_.surface();
-  near_.erase(std::remove_if(near_.begin(), near_.end(),
-                             [&](std::uint32_t id) {
-                               const auto& corners = surface.facets[id];
-                               // A stick meets masses, not scenery.
-                               if (std::all_of(corners.begin(), corners.end(),
-                                               [&](auto corner) { return corner >= surface.n_moving(); }))
-                                 return true;
-                               const Vec3 c = surface_.centroid(id, moving_);
-                               return (c - stick.axis_point(stick.nearest(c))).squaredNorm() >
-                                      around * around;
-                             }),
-              near_.end());
+  std::erase_if(near_, [&](std::uint32_t id) {
+    const auto& corners = surface.facets[id];
+    // A stick meets masses, not scenery.
+    if (std::all_of(corners.begin(), corners.end(),
+                    [&](auto corner) { return corner >= surface.n_moving(); }))
+      return true;
+    const Vec3 c = surface_.centroid(id, moving_);
+    return (c - stick.axis_point(stick.nearest(c))).squaredNorm() > around * around;
+  });
 }
 
-/// Facets beside which the stick is less than R, on the side of the one that it is nearest to.
+/// Does a mass at its corners move?
+bool StickSurface::gives(std::uint32_t facet) const noexcept {
+  const Surface& surface = surface_.surface();
+  const auto& corners = surface.facets[facet];
+  return std::any_of(corners.begin(), corners.end(), [&](auto corner) {
+    return corner < surface.n_moving() &&
+           moving_.body().inverse_mass[static_cast<std::size_t>(surface.cell[corner])] > 0;
+  });
+}
+
+/// Facets beside which the stick is less than R, on the side of the one that it is nearest to. Whether it is on a facet's outer
+/// side is seen where the facet is now: at rest it may lie far above a stick that is pressed in.
 void StickSurface::collect(const Stick& stick, bool at_rest) noexcept {
   facets_.clear();
   double least = std::numeric_limits<double>::infinity();
@@ -62,18 +64,19 @@ void StickSurface::collect(const Stick& stick, bool at_rest) noexcept {
     facet.area = area.norm();
     if (!(facet.area > 0)) continue;
     facet.normal = area / facet.area;
-    const Vec3 apart = stick.axis_point(stick.nearest(facet.centre)) - facet.centre;
+    const Vec3 apart_now = stick.axis_point(stick.nearest(now.centroid)) - now.centroid;
+    if (now.area.dot(apart_now) < -stick.radius * now.area.norm()) continue;  // beyond the other side
+    facet.along = stick.nearest(facet.centre);
+    const Vec3 apart = stick.axis_point(facet.along) - facet.centre;
     const double height = facet.normal.dot(apart);
-    if (height < -stick.radius) continue;  // beyond the other side
     facet.gap = height - stick.radius;
     facet.lateral = std::max(0.0, apart.squaredNorm() - height * height) / (reach_ * reach_);
     if (facet.lateral >= 1) continue;
-    if (apart.squaredNorm() < least) least = apart.squaredNorm(), side = facet.normal;
+    facet.held = !gives(id);
+    if (apart_now.squaredNorm() < least) least = apart_now.squaredNorm(), side = facet.normal;
     facets_.push_back(facet);
   }
-  facets_.erase(std::remove_if(facets_.begin(), facets_.end(),
-                               [&](const Facet& facet) { return facet.normal.dot(side) < facing_limit; }),
-                facets_.end());
+  std::erase_if(facets_, [&](const Facet& facet) { return facet.normal.dot(side) < facing_limit; });
 }
 
 StickPlane StickSurface::plane(const Stick& stick, bool at_rest) noexcept {
@@ -82,12 +85,16 @@ StickPlane StickSurface::plane(const Stick& stick, bool at_rest) noexcept {
   double lowest = std::numeric_limits<double>::infinity();
   for (const Facet& facet : facets_) lowest = std::min(lowest, facet.gap);
   Vec3 normal = Vec3::Zero(), sunk = Vec3::Zero();
+  double square = 0;
   for (const Facet& facet : facets_) {
     const double l = 1 - facet.lateral, g = 1 - (facet.gap - lowest) / depth_;
     if (g <= 0) continue;
     const double w = facet.area * l * l * g * g;
     plane.area += w;
     plane.gap += w * facet.gap;
+    plane.along += w * facet.along;
+    square += w * facet.along * facet.along;
+    if (facet.held) plane.held += w;
     normal += w * facet.normal;
     if (!at_rest) sunk += w * (facet.rest - facet.centre);
   }
@@ -95,6 +102,9 @@ StickPlane StickSurface::plane(const Stick& stick, bool at_rest) noexcept {
   plane.found = true;
   plane.normal = normal.normalized();
   plane.gap /= plane.area;
+  plane.along /= plane.area;
+  plane.spread = std::sqrt(std::max(0.0, square / plane.area - plane.along * plane.along));
+  plane.held /= plane.area;
   plane.sunk = sunk.dot(plane.normal) / plane.area;
   return plane;
 }

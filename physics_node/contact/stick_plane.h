@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "physics_node/contact/contact_surface.h"
-#include "physics_node/contact/stick.h"
+#include "physics_node/contact/stick_search.h"
 
 namespace palpate::physics {
 
@@ -24,6 +24,9 @@ struct StickPlane {
   double gap = 0;               // of the stick above the plane, g; below 0: in it [m]
   double sunk = 0;              // of the facets since they were at rest, along -normal [m]
   double area = 0;              // sum of w [m^2]
+  double along = 0;             // mean place of the facets on the stick's axis by w, 0: its tip, 1: its end
+  double spread = 0;            // standard deviation of the same
+  double held = 0;              // share of facets whose masses are all held, by w, 0..1
 };
 
 class StickSurface {
@@ -42,7 +45,10 @@ class StickSurface {
   struct Facet {
     Vec3 centre, normal, rest;
     double area = 0, gap = 0, lateral = 0;  // l_f^2 / R^2
+    double along = 0;                       // of a_f on the axis, 0..1
+    bool held = false;
   };
+  bool gives(std::uint32_t facet) const noexcept;
   void collect(const Stick& stick, bool at_rest) noexcept;
 
   const ContactSurface& surface_;
@@ -50,8 +56,7 @@ class StickSurface {
   double reach_, depth_;             // R, D [m]
   std::vector<std::uint32_t> near_;  // facets around the stick
   std::vector<Facet> facets_;        // those that it may touch
-  Vec3 searched_A_ = Vec3::Constant(1e9), searched_D_ = Vec3::Zero();
-  double searched_when_ = -1e9;
+  StickSearch search_;
 };
 
 }  // namespace palpate::physics

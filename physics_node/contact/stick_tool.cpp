@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 
 #include "common/message/vec3.h"
@@ -11,9 +10,7 @@
 namespace palpate::physics {
 namespace {
 
-constexpr double margin = 0.010;         // around the stick, within which masses are listed [m]
-constexpr double search_period = 0.020;  // after which tissue may have come near by itself [s]
-constexpr double on_surface = 1e-6;      // of the stick, so that a mass was carried in the step before [m]
+constexpr double on_surface = 1e-6;  // of the stick, so that a mass was carried in the step before [m]
 constexpr double exit_speed =
     1.0;  // most at which a mass inside is brought out, beyond the stick's own motion [m/s]
 constexpr double patch_half = 0.020;  // side of the plane's square about the tip [m]
@@ -28,8 +25,9 @@ StickTool::StickTool(const ToolSpec& tool, std::uint32_t index,
       radius_(tool.radius),
       attitude_(tool.attitude),
       low_pass_Hz_(tool.low_pass_Hz),
-      spring_(force_model_of(tool) == ForceModel::direct ? std::numeric_limits<double>::infinity()
-                                                         : tool.stiffness),
+      hand_spring_(force_model_of(tool) == ForceModel::direct ? std::numeric_limits<double>::infinity()
+                                                              : tool.stiffness),
+      surface_(surfaces, radius_),
       tangent_(tool.low_pass_Hz, 0.5 * tool.stiffness) {
   for (const auto& body : bodies) {
     Near near;
@@ -42,19 +40,17 @@ StickTool::StickTool(const ToolSpec& tool, std::uint32_t index,
     for (auto* array : {&near.rest, &near.x, &near.v, &near.v_move}) array->assign(most, Vec3::Zero());
     near_.push_back(std::move(near));
   }
-  for (const TouchableBody& body : surfaces) surfaces_.emplace_back(*body.surface, *body.moving, radius_);
 }
 
 void StickTool::reset() noexcept {
   seen_ = false;
   n_near_ = contacts_ = 0;
-  searched_when_ = -1e9;
+  search_.reset();
   sum_ = {};
   raw_ = {};
   felt_ = {};
   tangent_.reset();
-  plane_ = {};
-  K_o_ = {};
+  surface_.reset();
 }
 
 Stick StickTool::stick_at(const Pose& pose) const noexcept {
@@ -66,7 +62,7 @@ void StickTool::take(const ToolState* state, double) noexcept {
   done_ = 0;
   if (state == nullptr) return;  // a silent hand holds still
   note(*state);
-  to_ = {vec(std::isinf(spring_) ? state->p_WT : state->proxy),
+  to_ = {vec(std::isinf(hand_spring_) ? state->p_WT : state->proxy),
          Eigen::Quaterniond(state->q_WT[0], state->q_WT[1], state->q_WT[2], state->q_WT[3])};
   if (!seen_) from_ = to_;
   seen_ = true;
@@ -74,7 +70,7 @@ void StickTool::take(const ToolState* state, double) noexcept {
 
 void StickTool::list(Near& near) noexcept {
   const Stick stick = stick_at(to_);
-  const double reach = radius_ + 2 * margin;
+  const double reach = radius_ + 2 * StickSearch::margin;
   const Lattice& lattice = near.moving->body().lattice;
   near.n = 0;
   for (const RowSegment& row : lattice.rows) {
@@ -94,18 +90,13 @@ void StickTool::list(Near& near) noexcept {
 void StickTool::find_contact(double t) noexcept {
   if (!seen_) return;
   const Stick now = stick_at(to_);
-  const double moved =
-      std::max((now.A - searched_A_).norm(), (now.A + now.D - searched_A_ - searched_D_).norm());
-  for (StickSurface& surface : surfaces_) surface.look(now, t);
-  if (moved <= 0.5 * margin && t - searched_when_ < search_period && t >= searched_when_) return;
+  surface_.look(now, t);
+  if (!search_.due(now, t)) return;
   n_near_ = 0;
   for (Near& near : near_) {
     list(near);
     n_near_ += near.n;
   }
-  searched_A_ = now.A;
-  searched_D_ = now.D;
-  searched_when_ = t;
 }
 
 LeadWork StickTool::lead_body(Near& near, const Stick& before, const Stick& now, double dt) noexcept {
@@ -157,51 +148,33 @@ void StickTool::end_frame(Collisions*, double frame_seconds) noexcept {
   raw_.force = sum_.impulse.head<3>() / frame_seconds;
   raw_.moment = sum_.impulse.tail<3>() / frame_seconds + (to_.p - set_point_).cross(raw_.force);
   felt_.pass(raw_, low_pass_part(low_pass_Hz_, frame_seconds));
-  const bool pressed = plane_.found && plane_.gap < 0;
-  tangent_.frame(sum_, motion(from_, to_), frame_seconds, pressed ? K_o_.value() : 0.0);
+  const bool pressed = spring() != nullptr && spring()->gap < 0;
+  tangent_.frame(sum_, motion(from_, to_), frame_seconds, pressed ? surface_.learnt_stiffness() : 0.0);
   sum_ = {};
-  find_plane(frame_seconds);
-}
-
-void StickTool::find_plane(double dt) noexcept {
-  plane_ = {};
-  if (!seen_ || std::isinf(spring_)) return;
-  const Stick stick = stick_at(to_);
-  for (std::size_t b = 0; b < surfaces_.size(); ++b) {
-    const StickPlane plane = surfaces_[b].plane(stick, remembers_rest(surfaces_[b].body()));
-    if (!plane.found || (plane_.found && plane_.gap <= plane.gap)) continue;
-    plane_ = plane;
-    touched_ = b;
-  }
-  if (!plane_.found) return;
-  const Body& body = surfaces_[touched_].body();
-  const double F = std::max(0.0, felt_.value().force.dot(plane_.normal));
-  const bool at_rest = remembers_rest(body);
-  const double indentation = at_rest ? -plane_.gap : plane_.sunk;
-  if (!K_o_.begun() || indentation <= 0) {
-    K_o_.begin(half_space_stiffness(body, std::sqrt(plane_.area / std::numbers::pi)));
-  } else {
-    K_o_.follow(F, indentation, dt);
-  }
-  if (!at_rest) plane_.gap -= F / K_o_.value();
+  if (!seen_ || std::isinf(hand_spring_)) return;
+  Vec6 felt;
+  const Vec3 force = felt_.value().force;
+  felt << force, felt_.value().moment + (set_point_ - to_.p).cross(force);
+  surface_.follow(stick_at(to_), felt, frame_seconds);
 }
 
 void StickTool::write_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) noexcept {
   begin_patch(patch, frame, now_ns);
-  if (!plane_.found) return;
-  const Vec3 n = plane_.normal, u = n.unitOrthogonal(), v = n.cross(u);
-  const Vec3 foot = to_.p - plane_.gap * n;
+  const NortonSpring* plane = spring();
+  if (plane == nullptr) return;
+  const Vec3 n = plane->normal, u = n.unitOrthogonal(), v = n.cross(u);
+  const Vec3 foot = to_.p - plane->gap * n;
   const auto corner = [&](double a, double b) { return array(foot + patch_half * (a * u + b * v)); };
   patch.n_facets = 2;
-  patch.contact_set = touched_ + 1;
+  patch.contact_set = surface_.body() + 1;
   patch.facets[0].corners = {corner(-1, -1), corner(1, -1), corner(1, 1)};
   patch.facets[1].corners = {corner(-1, -1), corner(1, 1), corner(-1, 1)};
   for (std::size_t f = 0; f < 2; ++f) {
     PatchFacet& facet = patch.facets[f];
     facet.point = array(foot);
     facet.normal = array(n);
-    facet.stiffness = std::min(K_o_.value(), rigid_stiffness);
-    facet.body = static_cast<std::uint32_t>(touched_);
+    facet.stiffness = plane->stiffness;
+    facet.body = static_cast<std::uint32_t>(surface_.body());
   }
 }
 

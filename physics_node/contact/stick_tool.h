@@ -8,17 +8,15 @@
 // the test is a swept capsule (C-33) and the side by which a mass leaves is the one it came from (C-35).
 //
 // Between hand and stick is the spring K that is between hand and proxy of every tool: the stick is where the proxy is,
-// p = x + F / K. The hand is offered one plane to rest on, a Norton equivalent (tool_coupling.h), and a wrench with its tangent as the hand
-// feels them through that spring: at x = p - F / K,   K_s = K_t - K_t E (K + E^T K_t E)^-1 E^T K_t,   E the three ways.
+// p = x + F / K. The hand is offered one plane to rest on, a Norton equivalent (tool_coupling.h), and the same with what turns the
+// stick (norton_spring.h) as it feels it through that spring: at x = p - F / K,   K_s = K_t - K_t E (K + E^T K_t E)^-1 E^T K_t,
+// E the three ways. Where no surface is found, the tangent of the contacts stands in (tangent_estimate.h).
 // With force_model = "direct" there is no such spring: the stick is where the hand is.
 
 #include <vector>
 
 #include "physics_node/contact/led_tool.h"
-#include "physics_node/contact/secant_stiffness.h"
-#include "physics_node/contact/stick.h"
-#include "physics_node/contact/stick_plane.h"
-#include "physics_node/contact/tool_coupling.h"
+#include "physics_node/contact/stick_spring.h"
 
 namespace palpate::physics {
 
@@ -37,10 +35,13 @@ class StickTool final : public LedTool {
   void end_frame(Collisions* collisions, double frame_seconds) noexcept override;
   bool is_near() const noexcept override { return n_near_ > 0; }
   const TangentEstimate* tangent() const noexcept override { return &tangent_; }
+  const NortonSpring* spring() const noexcept override {
+    return surface_.spring() ? &*surface_.spring() : nullptr;
+  }
 
-  /// The plane under the stick as two triangles about the tip. A device that gives torques feels the wrench instead.
+  /// The plane under the stick as two triangles about the tip. A device that gives torques feels the spring instead.
   void write_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) noexcept override;
-  double spring_to_hand() const noexcept override { return spring_; }
+  double spring_to_hand() const noexcept override { return hand_spring_; }
 
   Vec3 tip() const noexcept override { return to_.p; }
   Wrench wrench() const noexcept override { return felt_.value(); }
@@ -59,8 +60,6 @@ class StickTool final : public LedTool {
     std::size_t n = 0;
   };
   void list(Near& near) noexcept;
-  /// Of all bodies the plane that the stick is lowest above, and how stiffly that body answers.
-  void find_plane(double dt) noexcept;
   LeadWork lead_body(Near& near, const Stick& before, const Stick& now, double dt) noexcept;
   Pose pose_at(double done) const noexcept {
     return {from_.p + done * (to_.p - from_.p), from_.q.slerp(done, to_.q)};
@@ -69,19 +68,15 @@ class StickTool final : public LedTool {
   double length_, radius_;
   Eigen::Quaterniond attitude_;
   double low_pass_Hz_;
-  double spring_;  // to the hand, K [N/m]; infinite: none
+  double hand_spring_;  // to the hand, K [N/m]; infinite: none
   bool seen_ = false;
   Pose from_, to_;   // of the frame
   double done_ = 0;  // of the frame, so far
   std::vector<Near> near_;
   std::size_t n_near_ = 0;
-  Vec3 searched_A_ = Vec3::Constant(1e9), searched_D_ = Vec3::Zero();
-  double searched_when_ = -1e9;
-  std::vector<StickSurface> surfaces_;
-  StickPlane plane_;         // gap as without the stick's force
-  std::size_t touched_ = 0;  // body of the plane
-  SecantStiffness K_o_;      // of that body under the stick
-  ContactSum sum_;           // of the frame, about the tip at its end
+  StickSearch search_;
+  StickSpring surface_;
+  ContactSum sum_;  // of the frame, about the tip at its end
   Wrench raw_;
   TwiceLowPassedWrench felt_;
   TangentEstimate tangent_;

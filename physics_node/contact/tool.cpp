@@ -45,13 +45,21 @@ void Tool::write_wrench(ToolWrench& out, std::uint64_t frame, std::int64_t now_n
   out.p_WT = p_WT_;
   out.q_WT = q_WT_;
   out.tip = array(tip());
+  out.stiffness = {};
+  out.normal = {};
+  out.stretch = 0;
   if (const TangentEstimate* felt = tangent()) {
     now.force = felt->wrench().head<3>();
     now.moment = felt->wrench().tail<3>() + (tip() - set_point_).cross(now.force);
     const double K = spring_to_hand();
     if (std::isfinite(K)) out.p_WT = array(tip() - now.force / K);
-    Eigen::Map<Mat6>(out.stiffness.data()) =  // symmetric
-        std::isfinite(K) ? through_spring(felt->stiffness(), K) : felt->stiffness();
+    const NortonSpring* surface = spring();
+    const Mat6 K_t = surface != nullptr ? surface->tangent() : felt->stiffness();
+    Eigen::Map<Mat6>(out.stiffness.data()) = std::isfinite(K) ? through_spring(K_t, K) : K_t;  // symmetric
+    if (surface != nullptr) {
+      out.normal = array(surface->normal);
+      out.stretch = surface->normal.dot(tip() - vec(out.p_WT)) - surface->gap;
+    }
   }
   out.force = array(now.force);
   out.moment = array(now.moment);

@@ -6,6 +6,7 @@
 
 #include "common/message/messages.h"
 #include "physics_node/contact/low_pass.h"
+#include "physics_node/contact/norton_spring.h"
 #include "physics_node/contact/tangent_estimate.h"
 #include "physics_node/step/moving_body.h"
 
@@ -47,6 +48,8 @@ class Tool {
   void write_wrench(ToolWrench& wrench, std::uint64_t frame, std::int64_t now_ns, double t) const noexcept;
   /// How the wrench changes with the pose of the hand; null: the hand feels planes instead.
   virtual const TangentEstimate* tangent() const noexcept { return nullptr; }
+  /// The surface beside the tool, touched or not, which then takes the place of the tangent; null: none is known.
+  virtual const NortonSpring* spring() const noexcept { return nullptr; }
 
   /// Of the spring between hand and tool [N/m]; infinite: the tool is where the hand has it.
   virtual double spring_to_hand() const noexcept { return std::numeric_limits<double>::infinity(); }

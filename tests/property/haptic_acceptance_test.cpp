@@ -38,7 +38,7 @@ INSTANTIATE_TEST_SUITE_P(
         std::pair{"UnrulyLinks", &unruly_links_are_borne}, std::pair{"Gaps", &gaps_are_borne},
         std::pair{"RawPlanesOnRealTissue", &world_raw_is_unstable}, std::pair{"RealTissue", &world_is_stable},
         std::pair{"TrueForceOfRealTissue", &world_force_is_true}, std::pair{"Stick", &stick_is_steady},
-        std::pair{"StickWithTorques", &stick_gains_nothing}, std::pair{"TrueForce", &force_is_true},
+        std::pair{"StickWithTorques", &stick_with_torques_is_steady}, std::pair{"TrueForce", &force_is_true},
         std::pair{"Pulse", &pulse_is_felt}, std::pair{"Saturation", &saturation_is_quiet}),
     [](const auto& which) { return std::string(which.param.first); });
 

@@ -121,6 +121,14 @@ TEST(MalformedToolWrench, IsRejectedForItsReason) {
        [](auto& w) {
          for (double& q : w.q_WT) q *= 2;
        }},
+      {"NaN tip", R::not_finite, [](auto& w) { w.tip[1] = nan; }},
+      {"NaN normal", R::not_finite, [](auto& w) { w.normal[0] = nan; }},
+      {"infinite stretch", R::not_finite, [](auto& w) { w.stretch = inf; }},
+      {"normal neither unit nor zero", R::not_unit,
+       [](auto& w) {
+         w.normal[0] = w.normal[1] = 0;
+         w.normal[2] = 0.5;
+       }},
   });
 }
 

@@ -49,8 +49,7 @@ inline void randomise(Dice& dice, ToolState& m) {
   m.tool = dice.below(max_tools);
   dice.fill(m.tick), dice.fill(m.stamp_ns), dice.fill(m.p_WT), dice.fill_unit(m.q_WT), dice.fill(m.v_WT);
   dice.fill(m.w_WT), dice.fill(m.proxy), dice.fill(m.force_on_hand), dice.fill(m.force_now),
-      dice.fill(m.torque_now), dice.fill(m.contact_set),
-      dice.fill(m.buttons);
+      dice.fill(m.torque_now), dice.fill(m.contact_set), dice.fill(m.buttons);
   m.engaged = dice.below(2);
 }
 inline void randomise(Dice& dice, ContactPatch& m) {
@@ -71,7 +70,8 @@ inline void randomise(Dice& dice, ToolWrench& m) {
   dice.fill(m.tick), dice.fill(m.stamp_ns), dice.fill(m.t), dice.fill(m.force), dice.fill(m.moment);
   dice.fill(m.set_point), dice.fill(m.stiffness), dice.fill(m.n_contacts);
   dice.fill(m.answers), dice.fill(m.answers_ns), dice.fill(m.p_WT), dice.fill_unit(m.q_WT);
-  dice.fill(m.tip);
+  dice.fill(m.tip), dice.fill(m.stretch);
+  if (dice.below(4) > 0) dice.fill_unit(m.normal);
 }
 inline void randomise(Dice& dice, BodySurface& m) {
   m.body = dice.below(max_bodies);
@@ -112,7 +112,8 @@ inline void randomise(Dice& dice, HapticTrace& m) {
   for (std::uint32_t i = 0; i < m.n_samples; ++i) {
     TraceSample& s = m.samples[i];
     s.tick = first + i;
-    dice.fill(s.t), dice.fill(s.p), dice.fill(s.proxy), dice.fill(s.force), dice.fill(s.torque), dice.fill(s.energy);
+    dice.fill(s.t), dice.fill(s.p), dice.fill(s.proxy), dice.fill(s.force), dice.fill(s.torque),
+        dice.fill(s.energy);
   }
 }
 inline void randomise(Dice& dice, Pointer& m) {
@@ -153,7 +154,7 @@ inline auto fields(const PatchFacet& m) {
 }
 inline auto fields(const ToolWrench& m) {
   return std::tie(m.tool, m.tick, m.stamp_ns, m.answers, m.answers_ns, m.t, m.p_WT, m.q_WT, m.force, m.moment,
-                  m.set_point, m.tip, m.stiffness, m.n_contacts);
+                  m.set_point, m.tip, m.stiffness, m.normal, m.stretch, m.n_contacts);
 }
 inline auto fields(const BodySurface& m) {
   return std::tie(m.body, m.revision, m.chunk, m.n_chunks, m.total_vertices, m.total_facets, m.facets_hidden,

@@ -187,5 +187,134 @@ TEST(TangentWrench, ForgetsThePlaceWhereNothingHolds) {
   EXPECT_LT(spring.work() - before, 2 * (0.1 * 0.1 / 200));
 }
 
+/// A surface of 200 N/m that presses `arm` beside the tip and is spread there by 10 mm; the hand is at the origin.
+ToolWrench sample_surface(double stretch, double arm = 0.02) {
+  ToolWrench wrench;
+  wrench.tick = 1;
+  wrench.normal = {0, 0, 1};
+  wrench.stretch = stretch;
+  const Vec6 g(Vec6(0, 0, 1, 0, -arm, 0)), h(Vec6(0, 0, 0, 0, -0.01, 0));
+  Eigen::Map<Mat6>(wrench.stiffness.data()) = 200 * (g * g.transpose() + h * h.transpose());
+  return wrench;
+}
+
+TEST(TangentWrench, StandsReadyBeforeItIsTouched) {
+  TangentWrench spring(K_hand, 0);
+  spring.take(sample_surface(-0.001), 0.05);
+  EXPECT_FALSE(spring.penetrated());
+  for (int i = 0; i <= 10; ++i) {
+    const ContactResult felt = spring.tick(hand_at({0.0002 * i, 0, -1e-4 * i}), dt);
+    EXPECT_EQ(felt.n_planes, 0U) << i;
+    EXPECT_EQ(felt.force, Vec3(Vec3::Zero())) << i;
+  }
+  for (int i = 1; i <= 20; ++i) {
+    const ContactResult felt = spring.tick(hand_at({0.002, 0, -0.001 - 1e-4 * i}), dt);
+    EXPECT_LT((felt.force - Vec3(0, 0, 200 * 1e-4 * i)).norm(), 1e-9) << i;
+    EXPECT_NEAR(felt.torque.y(), -0.02 * felt.force.z(), 1e-9) << i;
+  }
+  EXPECT_NEAR(spring.work(), 0, 1e-12) << "the hand compressed it, nobody else";
+  EXPECT_EQ(spring.tick(hand_at({0.002, 0, 0}), dt).n_planes, 0U);
+}
+
+/// Answers that tell the same surface from ever new poses change nothing, in light contact neither.
+TEST(TangentWrench, KnowsASurfaceFromEveryPose) {
+  TangentWrench spring(K_hand, 0);
+  for (int i = 0; i < 400; ++i) {
+    const double z = 0.0005 * std::cos(0.05 * i), told = 0.0005 * std::cos(0.05 * (i - 7));
+    if (i % 10 == 0) {
+      ToolWrench wrench = sample_surface(-told);
+      wrench.p_WT = wrench.tip = wrench.set_point = {0, 0, told};
+      spring.take(wrench, 0.01);
+    }
+    EXPECT_NEAR(spring.tick(hand_at({0, 0, z}), dt).force.z(), 200 * std::max(0.0, -z), 1e-9) << i;
+  }
+  EXPECT_NEAR(spring.work(), 0, 1e-12);
+}
+
+TEST(TangentWrench, BeginsAtTheHandThatIsInsideTheSurface) {
+  TangentWrench spring(K_hand, 0);
+  spring.take(sample_surface(0.005), dt);
+  EXPECT_TRUE(spring.penetrated());
+  double last = 0;
+  for (int i = 0; i < 100; ++i) {
+    const double now = spring.tick(hand_at(Vec3::Zero()), dt).force.z();
+    EXPECT_LE(now - last, 0.08 + 1e-9);
+    last = now;
+  }
+  EXPECT_LE(spring.work(), WorkTank::capacity + 0.1 * WorkTank::trickle + 1e-12);
+  EXPECT_GT(last, 0.1) << "the tank pays for some";
+}
+
+TEST(TangentWrench, KeepsTheForceWhereTheTorqueEnds) {
+  constexpr double torque_limit = 0.004;
+  TangentWrench spring(K_hand, 0, 3, torque_limit);
+  ContactResult felt;
+  // Answers follow a hand that presses slowly.
+  for (int i = 0; i <= 300; ++i) {
+    const Vec3 x(0, 0, -1e-5 * i);
+    ToolWrench wrench = sample_surface(1e-5 * i);
+    wrench.p_WT = wrench.tip = wrench.set_point = array(x);
+    spring.take(wrench, dt);
+    felt = spring.tick(hand_at(x), dt);
+    EXPECT_LE(felt.torque.norm(), torque_limit + 1e-12);
+    EXPECT_NEAR(felt.force.z(), 200 * 1e-5 * i, 0.001) << i;
+  }
+  EXPECT_NEAR(felt.torque.y(), -torque_limit, 1e-6);
+}
+
+/// 200 N/m at 0.2 m turn as 3400 N/m at 5 cm would.
+TEST(TangentWrench, IsSofterAtALongArmButNotWeaker) {
+  TangentWrench spring(K_hand, 0);
+  spring.take(sample_surface(0.003, 0.2), dt);
+  const double force = rest(spring, hand_at(Vec3::Zero()), 2000).force.z();
+  EXPECT_NEAR(force, 0.6, 1e-6);
+  const double k = (spring.tick(hand_at({0, 0, -1e-4}), dt).force.z() - force) / 1e-4;
+  EXPECT_LT(k * (1 + 16), K_hand * 1.01);
+  EXPECT_GT(k * (1 + 16), K_hand * 0.9);
+  TangentWrench above(K_hand, 0);
+  above.take(sample_surface(-0.003, 0.2), dt);
+  EXPECT_EQ(above.tick(hand_at({0, 0, 0}), dt).n_planes, 0U);
+  EXPECT_EQ(above.tick(hand_at({0, 0, -0.00299}), dt).n_planes, 0U);
+  EXPECT_EQ(above.tick(hand_at({0, 0, -0.00301}), dt).n_planes, 1U) << "it is touched where it is";
+}
+
+TEST(TangentWrench, KnowsNothingFarFromTheAnswer) {
+  TangentWrench spring(K_hand, 0);
+  spring.take(sample_surface(-0.001), dt);
+  spring.tick(hand_at(Vec3::Zero()), dt);
+  for (int i = 1; i <= 50; ++i)
+    EXPECT_EQ(spring.tick(hand_at({0.06, 0, -1e-4 * i}), dt).n_planes, 0U) << "no surface is known there";
+}
+
+TEST(TangentWrench, GivesNoEnergyOnAClosedWayThroughASurface) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> g;
+    TangentWrench spring(K_hand, 0);
+    spring.take(sample_surface(0.001 * g(random), 0.03 * g(random)), 0.01);
+    ContactResult felt = rest(spring, hand_at(Vec3::Zero()), 1000);
+    const double at_rest = felt.stored, work_before = spring.work();
+    const Vec3 a = 0.002 * Vec3(g(random), g(random), g(random)),
+               b = 0.002 * Vec3(g(random), g(random), g(random));
+    const Vec3 axis = Vec3(g(random), g(random), g(random)).normalized();
+    double given = 0;
+    HandMotion last = hand_at(Vec3::Zero());
+    constexpr int n = 12000;
+    for (int i = 1; i <= n; ++i) {
+      const double s = 2 * M_PI * i / n;
+      HandMotion hand;
+      hand.x = std::sin(s) * a + (1 - std::cos(s)) * b;
+      hand.q = Eigen::AngleAxisd(0.02 * std::sin(2 * s), axis);
+      const ContactResult before = felt;
+      felt = spring.tick(hand, dt);
+      const Vec6 motion = motion_between(last.x, last.q, hand.x, hand.q);
+      given += 0.5 * (before.force + felt.force).dot(motion.head<3>()) +
+               0.5 * (before.torque + felt.torque).dot(motion.tail<3>());
+      last = hand;
+    }
+    EXPECT_LE(given - (spring.work() - work_before) + felt.stored - at_rest, 4e-6) << "seed " << seed;
+  }
+}
+
 }  // namespace
 }  // namespace palpate::haptic

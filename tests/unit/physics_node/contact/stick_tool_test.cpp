@@ -14,9 +14,10 @@ using namespace test;
 constexpr double r = 0.003, L = 0.08;
 
 /// A stick that lies along x over the slab; its tip begins at x = -40 mm.
-Scene stick_on_slab(const std::string& physics = "") {
+Scene stick_on_slab(const std::string& physics = "", const std::string& body = "fixed = [\"-z\"]") {
   Recipe recipe = pressed_slab_recipe();
   recipe.physics = physics;
+  recipe.body = body;
   recipe.world =
       "[[tool]]\nname = \"stick\"\nshape = \"stick\"\nlength_mm = 80\nradius_mm = 3\ntheta_deg = [0, -90, "
       "0]\n"
@@ -172,6 +173,81 @@ TEST(StickTool, OffersThePlaneWhereItWouldBeWithoutTheForce) {
   const double F = world.tool(0).force().z();
   ASSERT_GT(F, 0.2);
   EXPECT_NEAR(patch.facets[0].stiffness, F / d, 0.01 * F / d);
+}
+
+ToolWrench wrench_of(const World& world) {
+  ToolWrench wrench;
+  world.tool(0).write_wrench(wrench, 1, 1, world.t());
+  return wrench;
+}
+
+double at(const ToolWrench& wrench, std::size_t row, std::size_t column) {
+  return wrench.stiffness[6 * row + column];
+}
+
+TEST(StickTool, OffersASpringBeforeItTouches) {
+  World world(stick_on_slab());
+  const double z = slab_top + r;
+  std::uint64_t tick = lead(world, {-0.04, 0, z + 0.05}, {-0.04, 0, z + 0.05}, 2, 0);
+  EXPECT_EQ(wrench_of(world).normal, Array3{}) << "nothing is near";
+  lead(world, {-0.04, 0, z + 0.002}, {-0.04, 0, z + 0.001}, 30, tick);
+  const ToolWrench wrench = wrench_of(world);
+  EXPECT_EQ(wrench.force, Array3{});
+  EXPECT_LT((vec(wrench.normal) - Vec3::UnitZ()).norm(), 1e-9);
+  EXPECT_NEAR(wrench.stretch, -0.001, 1e-9);
+  const double k = at(wrench, 2, 2);
+  EXPECT_GT(k, 10);
+  // The slab's middle is 40 mm from the tip; it reaches 24 mm to either side and the weights some millimetres more.
+  EXPECT_NEAR(at(wrench, 2, 4), -0.040 * k, 0.01 * 0.040 * k);
+  const double K = world.scene().tools[0].stiffness, k_tissue = K * k / (K - k);
+  const double turning = at(wrench, 4, 4) - 0.040 * 0.040 * k;  // about the middle
+  EXPECT_NEAR(turning, k_tissue * 0.048 * 0.048 / 12, 0.1 * turning);
+  for (const std::size_t free : {0U, 1U, 3U, 5U})
+    for (std::size_t n = 0; n < 6; ++n) EXPECT_NEAR(at(wrench, free, n), 0, 1e-9 * k) << free << ", " << n;
+}
+
+/// The tissue ends 34 mm from the tip and begins at it: it presses harder where it is open on one side only, and the force
+/// lies elsewhere than in the middle.
+TEST(StickTool, OffersASpringThatPressesAsTheTissueDoes) {
+  World world(stick_on_slab());
+  const double z = slab_top + r, d = 0.002, x = -0.01;
+  std::uint64_t tick = lead(world, {x, 0, z + 0.002}, {x, 0, z - d}, 300, 0);
+  lead(world, {x, 0, z - d}, {x, 0, z - d}, 2000, tick);
+  const ToolWrench wrench = wrench_of(world);
+  const Vec3 force = vec(wrench.force);
+  const Vec3 moment = vec(wrench.moment) + (vec(wrench.set_point) - vec(wrench.tip)).cross(force);
+  ASSERT_GT(force.z(), 0.1);
+  Vec6 stretch;
+  stretch << wrench.stretch * vec(wrench.normal), Vec3::Zero();
+  const Vec6 told =
+      Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(wrench.stiffness.data()) * stretch;
+  EXPECT_NEAR(told[2], force.z(), 0.01 * force.z());
+  EXPECT_NEAR(told[4], moment.y(), 0.01 * std::abs(moment.y()));
+  EXPECT_GT(std::abs(moment.y() / force.z() + 0.017), 2e-4) << "in the middle this would show nothing";
+}
+
+TEST(StickTool, KnowsThePlaneHoweverDeepItIs) {
+  World world(stick_on_slab());
+  ContactPatch patch;
+  const double z = slab_top + r;
+  std::uint64_t tick = lead(world, {-0.04, 0, z + 0.001}, {-0.04, 0, z}, 20, 0);
+  for (double d = 0; d < 0.0085; d += 0.001) {
+    tick = lead(world, {-0.04, 0, z - d}, {-0.04, 0, z - d - 0.001}, 60, tick);
+    EXPECT_NEAR(gap_of(world, patch), -d - 0.001, 1e-9);
+  }
+}
+
+TEST(StickTool, FeelsHeldMassesAsHard) {
+  World soft(stick_on_slab()), hard(stick_on_slab("", "fixed = [\"+z\"]"));
+  ContactPatch patch;
+  for (World* world : {&soft, &hard}) {
+    lead(*world, {-0.04, 0, slab_top + r + 0.002}, {-0.04, 0, slab_top + r + 0.001}, 30, 0);
+    EXPECT_NEAR(gap_of(*world, patch), 0.001, 1e-9);
+    if (world == &soft)
+      EXPECT_LT(patch.facets[0].stiffness, 1e5);
+    else
+      EXPECT_EQ(patch.facets[0].stiffness, rigid_stiffness);
+  }
 }
 
 TEST(StickTool, IsRefusedWhereItCouldNotWork) {
