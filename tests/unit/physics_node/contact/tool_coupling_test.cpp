@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 #include "common/message/vec3.h"
 #include "physics_node/world.h"
@@ -74,6 +75,21 @@ TEST(ToolCoupling, OffersTheNormalThatHeldTissueHasAtRest) {
     EXPECT_LT((vec(patch.facets[f].normal) - Vec3::UnitZ()).norm(), 1e-12) << "facet " << f;
   }
   EXPECT_GT(leans_most, 0.1) << "the tissue must lean, or this shows nothing";
+}
+
+/// Frames of 50 ms of a force that grows: the displacement of a frame's beginning belongs to the force of the last frame.
+TEST(ToolCoupling, LearnsTheSameStiffnessFromAForceThatGrowsAsFromOneThatStands) {
+  Scene scene = pressed_slab();
+  scene.physics.frame_Hz = 20;
+  World world(scene);
+  ContactPatch patch;
+  double most = 0;
+  for (int frame = 1; frame <= 60; ++frame) {
+    run(world, steady_hand({0, 0, std::min(0.4, 0.002 * std::pow(1.5, frame))}), 1);
+    world.tool(0).write_patch(patch, 1, 1);
+    most = std::max(most, patch.facets[0].stiffness);
+  }
+  EXPECT_LT(most, 1.1 * patch.facets[0].stiffness);
 }
 
 TEST(ToolCoupling, TellsForceAndMomentAboutTheSetPoint) {
