@@ -57,6 +57,7 @@ std::vector<CaseResult> run_cases(const std::vector<Case>& cases, int jobs,
 
 struct Tally {
   int cases = 0;
+  // along or sideways, whichever is more
   int above_100_um = 0, above_200_um = 0, above_300_um = 0;
   int energy_broken = 0;
   double swing_most = 0, surplus_most = 0, plane_excess_most = 0, force_step_most = 0, step_beyond_most = 0;

@@ -4,7 +4,7 @@
 //
 // judge() looks at everything a message promises and names the first promise broken; a sample with a broken promise is
 // never turned into a message. Text must end within its array; arrays matter up to their counts only; positions, forces
-// and times must be finite; directions and quaternions of length one within 1e-3.
+// and times must be finite, those of a hand within 1 km and 1 kN; directions and quaternions of length one within 1e-3.
 
 #include <optional>
 

@@ -11,6 +11,10 @@
 namespace palpate::wire_parts {
 
 inline constexpr double unit_tolerance = 1e-3;
+// No hand is beyond these. A changed bit makes finite numbers, too, of which a force of 1e200 N is one.
+inline constexpr double farthest = 1e3;      // [m], [m/s]
+inline constexpr double fastest_turn = 1e6;  // [rad/s]
+inline constexpr double strongest = 1e3;     // [N], [N m]
 
 inline bool finite(double value) noexcept { return std::isfinite(value); }
 inline bool finite(float value) noexcept { return std::isfinite(value); }
@@ -19,6 +23,12 @@ inline bool finite(float value) noexcept { return std::isfinite(value); }
 template <class T, std::size_t N>
 bool finite(const T (&values)[N], std::size_t n = N) noexcept {
   return std::all_of(values, values + std::min(n, N), [](const auto& value) { return finite(value); });
+}
+
+/// No number is larger than `limit`. False if anything is not finite.
+template <std::size_t N>
+bool within(const double (&values)[N], double limit) noexcept {
+  return std::all_of(values, values + N, [limit](double value) { return std::abs(value) <= limit; });
 }
 
 /// Length one within the tolerance. False if anything is not finite.

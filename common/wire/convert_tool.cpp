@@ -14,7 +14,10 @@ Verdict judge(const palpate_wire_ToolState& wire) noexcept {
     return RejectReason::not_finite;
   }
   if (!unit(wire.q_WT)) return RejectReason::not_unit;
-  if (wire.engaged > 1) return RejectReason::out_of_range;
+  if (!within(wire.p_WT, farthest) || !within(wire.proxy, farthest) || !within(wire.v_WT, farthest) ||
+      !within(wire.w_WT, fastest_turn) || !within(wire.force_on_hand, strongest) ||
+      !within(wire.force_now, strongest) || !within(wire.torque_now, strongest) || wire.engaged > 1)
+    return RejectReason::out_of_range;
   return {};
 }
 

@@ -58,7 +58,9 @@ void ToolContact::look(const Vec3& p, double t) noexcept {
     const auto [centroid, area] = surface_.centroid_and_area(id, moving_);
     if ((centroid - p).squaredNorm() > reach_ * reach_) continue;
     const double size = area.norm();
-    if (size > 0) facets_.push_back({id, centroid, surface_.rest_centroid(id), area / size, size});
+    if (size > 0)
+      facets_.push_back(
+          {id, centroid, area / size, surface_.rest_centroid(id), surface_.rest_area(id).normalized(), size});
   }
 }
 
@@ -102,21 +104,24 @@ LocalPlane ToolContact::plane_at(const Vec3& q, const Vec3& facing) const noexce
   LocalPlane plane;
   double sum = 0;
   Vec3 point = Vec3::Zero();
-  Vec3 rest = Vec3::Zero();
   Vec3 normal = Vec3::Zero();
+  Vec3 rest = Vec3::Zero();
+  Vec3 rest_normal = Vec3::Zero();
   for (const Facet& facet : facets_) {
     const double w = weight(facet, q, facing);
     if (w <= 0) continue;
     sum += w;
     point += w * facet.centroid;
-    rest += w * facet.rest;
     normal += w * facet.normal;
+    rest += w * facet.rest;
+    rest_normal += w * facet.rest_normal;
   }
   if (sum <= 0 || normal.norm() < 0.1 * sum) return plane;
   plane.found = true;
   plane.point = point / sum;
-  plane.rest = rest / sum;
   plane.normal = normal.normalized();
+  plane.rest = rest / sum;
+  if (rest_normal.norm() >= 0.1 * sum) plane.rest_normal = rest_normal.normalized();
   return plane;
 }
 
@@ -170,6 +175,7 @@ std::uint32_t ToolContact::write_facets(const Vec3& p, std::uint32_t body, Patch
     const Facet& facet = facets_[f];
     const LocalPlane plane = plane_at(facet.centroid, under.normal);
     if (!plane.found || facet.normal.dot(under.normal) < facing_limit) continue;
+    if (at_rest && plane.rest_normal.isZero()) continue;
     const auto& corners = surface_.surface().facets[facet.id];
     for (std::size_t half = 0; half < 2; ++half) {
       if (half == 1 && corners[2] == corners[3]) continue;  // a triangle
@@ -180,7 +186,7 @@ std::uint32_t ToolContact::write_facets(const Vec3& p, std::uint32_t body, Patch
       for (std::size_t c = 0; c < 3; ++c)
         patch.corners[c] = array(surface_.surface().position(corners[of[c]], moving_));
       patch.point = array(at_rest ? plane.rest : plane.point);
-      patch.normal = array(plane.normal);
+      patch.normal = array(at_rest ? plane.rest_normal : plane.normal);
       patch.body = body;
     }
     contact_set_ = hash_bytes(&facet.id, sizeof(facet.id), contact_set_);

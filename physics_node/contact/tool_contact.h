@@ -11,10 +11,11 @@ namespace palpate::physics {
 /// A plane fitted to the facets near a point, and the share of each mass in it.
 struct LocalPlane {
   bool found = false;
-  Vec3 point = Vec3::Zero();  // on the tissue now [m]
-  Vec3 rest =
-      Vec3::Zero();  // the same weights over the facets at rest: where the point was before any force [m]
+  Vec3 point = Vec3::Zero();    // on the tissue now [m]
   Vec3 normal = Vec3::UnitZ();  // out of the tissue, unit
+  // The same weights over the facets at rest, where they were before any force:
+  Vec3 rest = Vec3::Zero();         // point [m]
+  Vec3 rest_normal = Vec3::Zero();  // unit, or 0 where they face all ways
 };
 
 /// The part of a force on a plane that one mass behind it takes.
@@ -48,7 +49,7 @@ class ToolContact {
   double reach() const { return radius_; }  // R [m]
 
   /// Writes the facets nearest to p, each with its own plane, nearest first.
-  /// @param at_rest  the planes' points at rest instead of now
+  /// @param at_rest  the planes' points and normals at rest instead of now
   /// @return how many triangles
   std::uint32_t write_facets(const Vec3& p, std::uint32_t body, PatchFacet* out, std::uint32_t room,
                              bool at_rest) noexcept;
@@ -59,7 +60,8 @@ class ToolContact {
  private:
   struct Facet {
     std::uint32_t id;
-    Vec3 centroid, rest, normal;
+    Vec3 centroid, normal;
+    Vec3 rest, rest_normal;  // the same before any force
     double area;
   };
   void keep_nearest(const Vec3& p) noexcept;

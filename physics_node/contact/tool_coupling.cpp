@@ -27,6 +27,7 @@ ToolCoupling::ToolCoupling(const ToolSpec& tool, std::uint32_t index,
 
 void ToolCoupling::take(const ToolState* state, double dt) noexcept {
   frame_dt_ = dt;
+  acted_ = force_;
   Vec3 target = Vec3::Zero();
   if (state != nullptr) {
     seen_ = true;
@@ -92,17 +93,17 @@ void ToolCoupling::find_contact(double t) noexcept {
     indentation_ += share.share * moving_[touched_]->displacement(share.cell);
     if (!force_.isZero()) forces_.push_back({share.cell, -share.share * force_});
   }
-  follow_stiffness(frame_dt_);
+  follow_stiffness();
 }
 
-void ToolCoupling::follow_stiffness(double dt) noexcept {
-  const double F_n = force_.norm();
+void ToolCoupling::follow_stiffness() noexcept {
+  const double F_n = acted_.norm();
   if (!K_o_.begun() || F_n <= negligible_force) {
     K_o_.begin(half_space_stiffness(moving_[touched_]->body(), 0.5 * contacts_[touched_].reach()));
     return;
   }
   if (moving_share_ > 0)
-    K_o_.follow(moving_share_ * F_n, -indentation_.dot(force_) / F_n / moving_share_, dt);
+    K_o_.follow(moving_share_ * F_n, -indentation_.dot(acted_) / F_n / moving_share_, frame_dt_);
 }
 
 void ToolCoupling::write_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) noexcept {

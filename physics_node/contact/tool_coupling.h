@@ -52,9 +52,10 @@ class ToolCoupling final : public Tool {
   std::uint32_t contacts() const noexcept override { return static_cast<std::uint32_t>(forces_.size()); }
 
  private:
-  /// By the force on the masses under the tip and the displacement that it does work on: their mean along the force, by the
-  /// shares that they take of it. For the first touch a half space under a round patch of the tip's radius.
-  void follow_stiffness(double dt) noexcept;
+  /// By the force of the last frame on the masses under the tip and the displacement that it has brought about: their mean
+  /// along the force, by the shares that they take of it. For the first touch a half space under a round patch of the tip's
+  /// radius.
+  void follow_stiffness() noexcept;
   /// ForceModel::direct: F = K d n under the tip.
   void compute_force(double t) noexcept;
 
@@ -68,6 +69,7 @@ class ToolCoupling final : public Tool {
   Vec3 proxy_ = Vec3::Zero();
   Vec3 force_ = Vec3::Zero();      // on the tool, low-passed [N]
   Vec3 raw_force_ = Vec3::Zero();  // the same before that [N]
+  Vec3 acted_ = Vec3::Zero();      // force_ of the last frame, which the tissue has answered by now [N]
   std::size_t touched_ = 0;
   double moving_share_ = 0;
   Vec3 indentation_ = Vec3::Zero();  // mean displacement of the masses under the tip [m]

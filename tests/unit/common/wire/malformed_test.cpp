@@ -79,6 +79,13 @@ TEST(MalformedToolState, IsRejectedForItsReason) {
          for (double& q : w.q_WT) q = 0;
        }},
       {"engaged neither 0 nor 1", R::out_of_range, [](auto& w) { w.engaged = 2; }},
+      {"a hand on the moon", R::out_of_range, [](auto& w) { w.p_WT[2] = 4e8; }},
+      {"a proxy 2 km down", R::out_of_range, [](auto& w) { w.proxy[2] = -2e3; }},
+      {"faster than any hand", R::out_of_range, [](auto& w) { w.v_WT[1] = 1e30; }},
+      {"turns faster than any hand", R::out_of_range, [](auto& w) { w.w_WT[0] = -1e30; }},
+      {"force of no device", R::out_of_range, [](auto& w) { w.force_on_hand[0] = 1e200; }},
+      {"force now of no device", R::out_of_range, [](auto& w) { w.force_now[1] = -2e3; }},
+      {"torque of no device", R::out_of_range, [](auto& w) { w.torque_now[2] = 2e3; }},
   });
 }
 

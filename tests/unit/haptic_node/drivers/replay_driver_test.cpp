@@ -276,7 +276,8 @@ TEST(ReplayDriver, FeelsTheAnalyticForceOfAPlane) {
 }
 
 /// P4: a scan across a plane in a .traj, positions and forces in lines of numbers without names, pressed up to 4 mm
-/// deep at 0.5 N/mm. The force that is felt is compared with the forces in the file, tick by tick.
+/// deep at 0.5 N/mm. The force that is felt is compared with the forces in the file, tick by tick. What is off is at the end of
+/// the way out, where the energy limit keeps back what a force that comes a tick late has not taken in.
 TEST(ReplayDriver, FeelsThePlaneOfATrajectoryFile) {
   constexpr double K = 0.5, seconds = 4.0;  // [N/mm], [s]
   const auto z_mm = [](double t) { return 4 * std::cos(M_PI * t); };
@@ -293,18 +294,22 @@ TEST(ReplayDriver, FeelsThePlaneOfATrajectoryFile) {
   scene.devices[0].driver = "replay";
   scene.devices[0].options = {{"file", table.file}};
   VirtualWorld world(scene);
-  double error = 0, size = 0;
+  double error = 0, size = 0, error_pressed = 0;
   world.run(4.0, 1000, [&] {
     if (world.session.first_run_ns() == 0) return;
     const double t = 1e-9 * static_cast<double>(world.now - world.session.first_run_ns());
-    error += std::pow(world.fz() - newton(t), 2);
+    const double squared = std::pow(world.fz() - newton(t), 2);
+    error += squared;
+    if (newton(t) > 0.4) error_pressed += squared;
     size += std::pow(newton(t), 2);
   });
   EXPECT_EQ(world.session.state(), HapticState::run);
   EXPECT_GT(size, 1000.0);
   EXPECT_LE(std::sqrt(error / size), 0.01);
+  EXPECT_LE(std::sqrt(error_pressed / size), 2e-4) << "above 0.4 N";
   RecordProperty("force_rms_error_percent", std::to_string(100 * std::sqrt(error / size)));
-  std::printf("force RMS error %.3f %% of the analytic force\n", 100 * std::sqrt(error / size));
+  std::printf("force RMS error %.3f %% of the analytic force, %.4f %% above 0.4 N\n",
+              100 * std::sqrt(error / size), 100 * std::sqrt(error_pressed / size));
 }
 
 }  // namespace

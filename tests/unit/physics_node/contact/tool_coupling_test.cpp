@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "common/message/vec3.h"
 #include "physics_node/world.h"
 #include "tests/support/physics/pressed_world.h"
 
@@ -53,6 +58,38 @@ TEST(ToolCoupling, OffersThePlaneWhereItWouldBeWithoutTheForce) {
   EXPECT_LT(surface_now, slab_top - 0.0008) << "the tissue must give, or this shows nothing";
   EXPECT_NEAR(facet.point[2], slab_top, 1e-6);
   EXPECT_GT(facet.stiffness, 0);
+}
+
+/// Facets beside the tip lean toward it in its dimple; what they lean by is the tissue's own answer, which must not come back.
+TEST(ToolCoupling, OffersTheNormalThatHeldTissueHasAtRest) {
+  World world(pressed_slab());
+  run(world, steady_hand({0, 0, 1.5}), 1000);
+  ContactPatch patch;
+  world.tool(0).write_patch(patch, 1, 1);
+  ASSERT_GT(patch.n_facets, 4u);
+  double leans_most = 0;
+  for (std::uint32_t f = 0; f < patch.n_facets; ++f) {
+    const auto& c = patch.facets[f].corners;
+    const Vec3 area = (vec(c[1]) - vec(c[0])).cross(vec(c[2]) - vec(c[0]));
+    leans_most = std::max(leans_most, area.head<2>().norm() / area.norm());
+    EXPECT_LT((vec(patch.facets[f].normal) - Vec3::UnitZ()).norm(), 1e-12) << "facet " << f;
+  }
+  EXPECT_GT(leans_most, 0.1) << "the tissue must lean, or this shows nothing";
+}
+
+/// Frames of 50 ms of a force that grows: the displacement of a frame's beginning belongs to the force of the last frame.
+TEST(ToolCoupling, LearnsTheSameStiffnessFromAForceThatGrowsAsFromOneThatStands) {
+  Scene scene = pressed_slab();
+  scene.physics.frame_Hz = 20;
+  World world(scene);
+  ContactPatch patch;
+  double most = 0;
+  for (int frame = 1; frame <= 60; ++frame) {
+    run(world, steady_hand({0, 0, std::min(0.4, 0.002 * std::pow(1.5, frame))}), 1);
+    world.tool(0).write_patch(patch, 1, 1);
+    most = std::max(most, patch.facets[0].stiffness);
+  }
+  EXPECT_LT(most, 1.1 * patch.facets[0].stiffness);
 }
 
 TEST(ToolCoupling, TellsForceAndMomentAboutTheSetPoint) {
