@@ -124,10 +124,10 @@ void PhysicsLoop::publish_hand() {
 void PhysicsLoop::publish_eye() {
   const bool new_surfaces = appearance_->poll();
   if (new_surfaces) appearance_->write_surfaces([this](const BodySurface& chunk) { wire_.eye.post(chunk); });
-  const int watchers = wire_.eye.watchers();
-  if (watchers > watchers_) appearance_->resend();
-  watchers_ = watchers;
-  if (watchers == 0) {
+  const std::uint64_t ever = wire_.eye.watchers_ever();  // one that came as another left counts as well
+  if (ever > watchers_ever_) appearance_->resend();
+  watchers_ever_ = ever;
+  if (wire_.eye.watchers() == 0) {
     ++world_->report()[Stage::publish].skipped;
     return;
   }
