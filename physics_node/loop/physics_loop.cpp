@@ -13,6 +13,7 @@
 #include "common/time/histogram.h"
 #include "common/time/ticker.h"
 #include "common/wire/wire_report.h"
+#include "physics_node/record/earlier_record.h"
 #include "physics_node/report/physics_summary.h"
 
 namespace palpate::physics {
@@ -45,6 +46,8 @@ PhysicsLoop::PhysicsLoop(const NodeOptions& options, const Scene& scene)
   appearance_ = std::make_unique<Appearance>(*world_, scene_.render.threshold, Remake::beside);
   if (!options_.out.empty()) {
     std::filesystem::create_directories(options_.out + "/parts");
+    if (const auto aside = set_earlier_record_aside(options_.out))
+      log_warn("the record of an earlier session is now {}", aside->string());
     recorder_ = std::make_unique<Recorder>(*world_, source_of(scene_, options_.settings), options_.out,
                                            Recorder::WhenBehind::drop);
   }
