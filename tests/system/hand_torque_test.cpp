@@ -121,7 +121,7 @@ waypoints = [[0, -50, 0, 18], [0.8, -50, 0, 14], [1.6, -50, 0, 4], [3.6, -50, 0,
     for (int attempt = 1;; ++attempt) {
       auto flight = press();
       const auto summary = haptic_summary();
-      if (attempt == 3 || summary["stale_events"].get<int>() + summary["safe_events"].get<int>() == 0)
+      if (attempt == 5 || summary["stale_events"].get<int>() + summary["safe_events"].get<int>() == 0)
         return flight;
     }
   }
