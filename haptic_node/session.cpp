@@ -224,6 +224,10 @@ void HapticSession::tick(const ContactPatch* newest, const ToolWrench* wrench) n
   counts_.outran = before_.outran + controller_.outran();
   counts_.surplus = controller_.surplus();
   counts_.surplus_max = std::max(counts_.surplus_max, counts_.surplus);
+  if (out.write) {
+    counts_.force_max = std::max(counts_.force_max, out.force.norm());
+    counts_.torque_max = std::max(counts_.torque_max, out.torque.norm());
+  }
   fill_messages(now, out);
 }
 

@@ -28,6 +28,8 @@ struct SessionCounts {
   double energy_max = 0;               // largest of that [J]
   double surplus = 0;                  // of that, made out of nothing, now [J]
   double surplus_max = 0;              // largest of that [J]
+  double force_max = 0;                // largest sent to the device, in the world [N]
+  double torque_max = 0;               // likewise [N m]
 };
 
 class HapticSession {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
+#include "bench/problems/dice.h"
 #include "bench/shots/inside.h"
 #include "physics_node/world.h"
 
@@ -14,17 +14,8 @@ constexpr double slowest = 0.1;      // [m/s]
 constexpr double target_size = 0.1;  // [m]
 constexpr double radius_of_target = 0.04;
 
-class Dice {
- public:
-  explicit Dice(std::uint64_t seed) : engine_(seed) {}
-  double between(double lo, double hi) {
-    return lo + (hi - lo) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-  }
-  double power_between(double lo, double hi) { return lo * std::pow(hi / lo, between(0, 1)); }
-
- private:
-  std::mt19937_64 engine_;
-};
+/// Log-uniform; not Dice::decades, whose last digits differ: a shot that was told by its seed stays that shot.
+double decades(Dice& dice, double lo, double hi) { return lo * std::pow(hi / lo, dice.between(0, 1)); }
 
 MaterialSpec material(const char* name, double mass, double k1) {
   MaterialSpec m;
@@ -65,7 +56,7 @@ Shot random_shot(std::uint64_t seed, double fastest, ContactDistance distance) {
   Dice dice(seed);
   Shot shot;
   shot.seed = seed;
-  shot.speed = dice.power_between(slowest, fastest);
+  shot.speed = decades(dice, slowest, fastest);
   Scene& scene = shot.scene;
   scene.title = "shot";
   scene.gravity = Vec3::Zero();
@@ -85,8 +76,8 @@ Shot random_shot(std::uint64_t seed, double fastest, ContactDistance distance) {
   bullet.at = -start * way + Vec3(dice.between(-0.01, 0.01), dice.between(-0.01, 0.01), 0);
   bullet.velocity = shot.speed * way.normalized();
   scene.bodies = {target, bullet};
-  scene.materials = {material("soft", 1e-3, dice.power_between(30, 1e4)),
-                     material("hard", dice.power_between(1e-4, 1e-2), dice.power_between(100, 1e4))};
+  scene.materials = {material("soft", 1e-3, decades(dice, 30, 1e4)),
+                     material("hard", decades(dice, 1e-4, 1e-2), decades(dice, 100, 1e4))};
   return shot;
 }
 

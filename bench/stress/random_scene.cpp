@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bench/problems/dice.h"
 #include "bench/problems/settings.h"
 #include "common/message/vec3.h"
 
@@ -70,8 +71,6 @@ Scene bodies_and_materials(Dice& dice) {
 }
 
 }  // namespace
-
-double Dice::decades(double lo, double hi) { return std::exp(between(std::log(lo), std::log(hi))); }
 
 StressScene random_scene(std::uint64_t seed) {
   Dice dice(seed * 2654435761U + 1);

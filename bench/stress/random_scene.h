@@ -11,31 +11,11 @@
 //   precision, threads, all integrators
 
 #include <cstdint>
-#include <random>
 #include <string>
 
 #include "physics_node/world.h"
 
 namespace palpate::bench {
-
-/// Numbers that are the same on every machine.
-class Dice {
- public:
-  explicit Dice(std::uint64_t seed) : engine_(seed) {}
-  double between(double lo, double hi) {
-    return lo + (hi - lo) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-  }
-  double decades(double lo, double hi);  // log-uniform
-  bool chance(double p) { return between(0, 1) < p; }
-  int pick(int n) { return static_cast<int>(between(0, n)); }
-  Vec3 within(double radius) {
-    const double x = between(-radius, radius), y = between(-radius, radius);
-    return {x, y, between(-radius, radius)};
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 enum class Start { rest, shaken, scattered, zero_length, inverted };
 inline constexpr const char* start_names[] = {"rest", "shaken", "scattered", "zero_length", "inverted"};

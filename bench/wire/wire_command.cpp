@@ -114,6 +114,11 @@ void scenes(const Options& options, const Costs& costs, nlohmann::json& json) {
 }
 
 int run_wire(const Options& options) {
+  if (options.samples == 0 && !options.scenes.empty())
+    throw InputError(
+        "--samples 0: without the cost of a sample no share of a core is known for --scenes; give --samples "
+        "1 or more, or "
+        "--scenes \"\"");
   const ResultFolder folder(options.out, "wire");
   Table table{{"what", "bytes", "way", "answered", "p50_us", "p99_us", "max_us", "write_p50_us", "cpu_us"},
               {}};
@@ -142,8 +147,11 @@ void add_wire(CLI::App& app, int& exit_code) {
   command->add_option("--nodes", options->nodes, "nodes of these sessions")->capture_default_str();
   command->add_option("--seconds", options->seconds, "of each session")->capture_default_str();
   command->add_option("--rounds", options->rounds, "there and back, of each size; 0: left out")
-      ->capture_default_str();
-  command->add_option("--samples", options->samples, "of each topic; 0: left out")->capture_default_str();
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1'000'000));
+  command->add_option("--samples", options->samples, "of each topic; 0: left out, which needs --scenes \"\"")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1'000'000));
   command->callback([options, &exit_code] { exit_code = run_wire(*options); });
 }
 

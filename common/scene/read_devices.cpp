@@ -1,10 +1,14 @@
 // [device.NAME]: a haptic device, or the simulated hand.
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <string_view>
 
+#include "common/math/angles.h"
 #include "common/math/units.h"
 #include "common/scene/read_parts.h"
 
@@ -40,32 +44,72 @@ void read_rotation(TableReader& reader, DeviceSpec& spec) {
     spec.rotation = R;
 }
 
-void read_waypoints(TableReader& reader, DeviceSpec& spec) {
-  constexpr std::string_view form = "[t_s, x_mm, y_mm, z_mm]";
-  const auto* list = reader.read_array("waypoints", fmt::format("a list of {}", form));
-  if (list == nullptr) return;
-  if (list->size() < 2)
-    reader.complain("waypoints",
-                    fmt::format("the path is too short; write two waypoints or more, each {}", form));
+/// A list of [t_s, n numbers] whose times grow, each passed to `add(numbers)`. @return how many there are
+template <class Add>
+std::optional<std::size_t> read_path(TableReader& reader, const char* key, std::string_view what,
+                                     std::string_view form, std::size_t n, Add add) {
+  const auto* list = reader.read_array(key, fmt::format("a list of {}", form));
+  if (list == nullptr) return std::nullopt;
+  double last = -1;
   bool in_order = true;
   for (const auto& item : *list) {
-    const auto n = numbers_of(item, 4);
-    if (!n) {
-      reader.complain_value("waypoints", item, form);
+    const auto numbers = numbers_of(item, n + 1);
+    if (!numbers) {
+      reader.complain_value(key, item, form);
       continue;
     }
-    const double t = (*n)[0];
-    const double earliest = spec.waypoints.empty() ? 0 : spec.waypoints.back().t;
-    const bool late_enough = spec.waypoints.empty() ? t >= 0 : t > earliest;
+    const double t = (*numbers)[0];
+    const bool late_enough = last < 0 ? t >= 0 : t > last;
     if (!late_enough && in_order) {
-      reader.complain_at(
-          place_of(item.source()),
-          spec.waypoints.empty()
-              ? fmt::format("the path starts at {} s; times start at 0 or later", t)
-              : fmt::format("waypoint at {} s follows one at {} s; times must grow", t, earliest));
+      reader.complain_at(place_of(item.source()),
+                         last < 0
+                             ? fmt::format("the path starts at {} s; times start at 0 or later", t)
+                             : fmt::format("{} at {} s follows one at {} s; times must grow", what, t, last));
       in_order = false;  // say it once
     }
-    spec.waypoints.push_back({t, Vec3((*n)[1], (*n)[2], (*n)[3]) * m_from_mm(1.0)});
+    last = std::max(0.0, t);
+    add(*numbers);
+  }
+  return list->size();
+}
+
+void read_waypoints(TableReader& reader, DeviceSpec& spec) {
+  constexpr std::string_view form = "[t_s, x_mm, y_mm, z_mm]";
+  const auto n = read_path(reader, "waypoints", "waypoint", form, 3, [&](const auto& x) {
+    spec.waypoints.push_back({x[0], Vec3(x[1], x[2], x[3]) * m_from_mm(1.0)});
+  });
+  if (n && *n < 2)
+    reader.complain("waypoints",
+                    fmt::format("the path is too short; write two waypoints or more, each {}", form));
+}
+
+/// How the simulated hand turns, as the driver has it: SI without units in the names. Attitudes are those in the world.
+void read_turning(TableReader& reader, DeviceSpec& spec) {
+  std::string attitudes;
+  read_path(reader, "attitudes_deg", "attitude", "[t_s, about z, about y, about x]", 3, [&](const auto& x) {
+    const Eigen::Quaterniond q(
+        rotation_of_angles({rad_from_deg(x[1]), rad_from_deg(x[2]), rad_from_deg(x[3])}));
+    attitudes += fmt::format("{}{:.17g} {:.17g} {:.17g} {:.17g} {:.17g}", attitudes.empty() ? "" : "; ", x[0],
+                             q.w(), q.x(), q.y(), q.z());
+  });
+  if (!attitudes.empty()) spec.options.emplace_back("attitudes", attitudes);
+  struct Key {
+    const char *in_scene, *of_driver;
+    Range range;
+  };
+  for (const Key& key :
+       {Key{"max_torque_N_m", "max_torque", positive}, Key{"turn_inertia_kg_m2", "turn_inertia", positive},
+        Key{"turn_damping_N_m_s_per_rad", "turn_damping", not_negative},
+        Key{"turn_stiffness_N_m_per_rad", "turn_stiffness", not_negative},
+        Key{"turn_friction_N_m", "turn_friction", not_negative}}) {
+    const auto value = reader.read_number(key.in_scene, key.range);
+    if (!value) continue;
+    spec.options.emplace_back(key.of_driver, fmt::format("{:.17g}", *value));
+    if (!reader.has("attitudes_deg") && !reader.has("max_torque_N_m"))
+      reader.complain(
+          key.in_scene,
+          fmt::format("\"{}\" in {} is of a hand that turns; give attitudes_deg or max_torque_N_m, too",
+                      key.in_scene, reader.title()));
   }
 }
 
@@ -105,6 +149,7 @@ DeviceSpec read_device(TableReader& reader) {
     constexpr std::array<const char*, 4> models{"plain", "touch", "premium", "omega"};
     if (const auto model = reader.read_word("model", {"plain", "touch", "premium", "omega"}))
       spec.options.emplace_back("model", models[*model]);
+    read_turning(reader, spec);
   }
   if (simulated) reader.require("waypoints", "a simulated hand follows a list of [t_s, x_mm, y_mm, z_mm]");
   if (!simulated && !spec.driver.empty()) read_options(reader, spec);

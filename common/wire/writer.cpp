@@ -58,6 +58,13 @@ int Writer<M>::matched() noexcept {
   return static_cast<int>(status.current_count);
 }
 
+template <class M>
+std::uint64_t Writer<M>::matched_ever() noexcept {
+  dds_publication_matched_status_t status = {};
+  if (dds_get_publication_matched_status(inner_->writer, &status) != DDS_RETCODE_OK) return 0;
+  return status.total_count;
+}
+
 template class Writer<ToolState>;
 template class Writer<ContactPatch>;
 template class Writer<ToolWrench>;

@@ -31,6 +31,8 @@ class Writer {
 
   /// How many readers this writer has now.
   int matched() noexcept;
+  /// How many it has ever had: grows with each that comes, whoever leaves meanwhile.
+  std::uint64_t matched_ever() noexcept;
 
   /// Any thread.
   WriterCounts counts() const noexcept;

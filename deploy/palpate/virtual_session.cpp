@@ -74,10 +74,9 @@ nlohmann::json VirtualSession::finish() {
   nlohmann::json summary = physics::physics_summary(world_, recorder_.get(), wall_s_);
   if (!hands_.empty()) {
     const haptic::SessionCounts& counts = hands_.front()->counts();
-    summary["haptic"] = {{"rate_Hz", hands_.front()->rate_Hz()},
-                         {"energy_max_J", counts.energy_max},
-                         {"stale_events", counts.stale_events},
-                         {"faults", counts.faults}};
+    summary["haptic"] = {{"rate_Hz", hands_.front()->rate_Hz()}, {"energy_max_J", counts.energy_max},
+                         {"force_max_N", counts.force_max},      {"torque_max_N_m", counts.torque_max},
+                         {"stale_events", counts.stale_events},  {"faults", counts.faults}};
   }
   if (eye_) summary["render"] = eye_->summary(wall_s_);
   return summary;

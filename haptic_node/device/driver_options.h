@@ -18,8 +18,9 @@ struct DriverPlace {
 };
 
 /// The keys that the scene gives for its own driver are passed on as they stand; with another driver in its place
-/// (`driver` differs from spec.driver) they are left out. The simulated hand also gets `hand`, `seed` and
-/// `waypoints`, "t x y z; ..." in seconds and metres of the device's frame. The mouse gets what it cannot know from its
+/// (`driver` differs from spec.driver) they are left out. The simulated hand also gets `hand`, `seed`,
+/// `waypoints`, "t x y z; ..." in seconds and metres of the device's frame, and, if it turns, `attitudes`, "t w x y z; ..." as
+/// quaternions from handle to device. The mouse gets what it cannot know from its
 /// window: `domain` (unless below 0: no window), `tool`, and the calibration, as it points in the world.
 Device::Options driver_options(const DeviceSpec& spec, const Calibration& calibration,
                                const std::string& driver, const DriverPlace& place);

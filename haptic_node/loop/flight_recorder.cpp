@@ -61,13 +61,16 @@ bool FlightRecorder::write_kept(const std::string& path) {
   }
   fmt::print(
       file.get(),
-      "t_s,state,x_m,y_m,z_m,proxy_x_m,proxy_y_m,proxy_z_m,fx_N,fy_N,fz_N,energy_J,surplus_J,patch_age_s\n");
+      "t_s,state,x_m,y_m,z_m,qw,qx,qy,qz,proxy_x_m,proxy_y_m,proxy_z_m,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm,"
+      "energy_J,surplus_J,patch_age_s\n");
+  const auto put = [&file](const auto& values) {
+    for (const double value : values) fmt::print(file.get(), ",{:.9g}", value);
+  };
   const std::uint64_t size = ring.samples.size();
   for (std::uint64_t i = ring.n - std::min(ring.n, size); i < ring.n; ++i) {
     const FlightSample& s = ring.samples[i % size];
     fmt::print(file.get(), "{:.6f},{}", s.trace.t, name_of(s.state));
-    for (const Array3* triple : {&s.trace.p, &s.trace.proxy, &s.trace.force})
-      for (const double value : *triple) fmt::print(file.get(), ",{:.9g}", value);
+    put(s.trace.p), put(s.q_WT), put(s.trace.proxy), put(s.trace.force), put(s.trace.torque);
     fmt::print(file.get(), ",{:.6g},{:.6g},{:.6f}\n", s.trace.energy, s.surplus, s.patch_age);
   }
   const bool whole = std::fflush(file.get()) == 0 && std::ferror(file.get()) == 0;

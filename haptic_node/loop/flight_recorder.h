@@ -19,6 +19,7 @@ namespace palpate::haptic {
 
 struct FlightSample {
   TraceSample trace;
+  Array4 q_WT{1, 0, 0, 0};  // attitude of the handle, unit
   HapticState state = HapticState::off;
   double surplus = 0;    // [J]
   double patch_age = 0;  // since the newest patch was first used; below 0: never [s]
@@ -37,7 +38,8 @@ class FlightRecorder {
   /// @}
 
   /// Slow thread: writes the kept flight, oldest sample first, if there is one.
-  ///   t_s,state,x_m,y_m,z_m,proxy_x_m,proxy_y_m,proxy_z_m,fx_N,fy_N,fz_N,energy_J,surplus_J,patch_age_s
+  ///   t_s,state,x_m,y_m,z_m,qw,qx,qy,qz,proxy_x_m,proxy_y_m,proxy_z_m,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm,energy_J,surplus_J,
+  ///   patch_age_s                               force and moment are those on the hand, the moment about the tip, all in the world
   /// @param path  of the file; one that exists is replaced
   /// @return whether there was one. @throws InputError if it cannot be written
   bool write_kept(const std::string& path);

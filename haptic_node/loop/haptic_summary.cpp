@@ -34,6 +34,8 @@ nlohmann::json haptic_summary(const LoopStats& stats, const std::vector<SessionR
     sum.outran += tool.counts.outran;
     sum.energy_max = std::max(sum.energy_max, tool.counts.energy_max);
     sum.surplus_max = std::max(sum.surplus_max, tool.counts.surplus_max);
+    sum.force_max = std::max(sum.force_max, tool.counts.force_max);
+    sum.torque_max = std::max(sum.torque_max, tool.counts.torque_max);
   }
   nlohmann::json haptic = {{"ticks", stats.ticks},
                            {"missed_deadlines", stats.skipped},
@@ -42,6 +44,8 @@ nlohmann::json haptic_summary(const LoopStats& stats, const std::vector<SessionR
                            {"preempted", stats.preempted},
                            {"energy_max_J", sum.energy_max},
                            {"surplus_max_J", sum.surplus_max},
+                           {"force_max_N", sum.force_max},
+                           {"torque_max_N_m", sum.torque_max},
                            {"stale_events", sum.stale_events},
                            {"safe_events", sum.safe_events},
                            {"faults", sum.faults},

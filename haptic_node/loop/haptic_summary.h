@@ -13,7 +13,8 @@
 namespace palpate::haptic {
 
 /// {"haptic": {rate_Hz, period_us, compute_us, compute_cpu_us, loop_age_ms, page_faults, energy_max_J, surplus_max_J,
-/// stale_events, faults, ...}}. Counts are summed over tools, the energies are the largest of them. loop_age_ms is absent if no patch answered.
+/// force_max_N, torque_max_N_m, stale_events, faults, ...}}. Counts are summed over tools, of energies, forces and torques it is
+/// the largest. loop_age_ms is absent if no patch answered.
 nlohmann::json haptic_summary(const LoopStats& stats, const std::vector<SessionReport>& tools,
                               std::uint64_t trace_lost);
 

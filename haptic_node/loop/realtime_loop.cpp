@@ -51,7 +51,8 @@ void RealtimeLoop::tick_tool(ToolChannel& channel, HapticSession& session, std::
   session.tick(patch, channel.wrenches.newest());
   channel.states.write(session.tool_state());
   if (!channel.trace.push(session.trace())) channel.trace_lost.fetch_add(1);
-  channel.flight.add({session.trace(), session.state(), session.counts().surplus, session.patch_age()});
+  channel.flight.add({session.trace(), session.tool_state().q_WT, session.state(), session.counts().surplus,
+                      session.patch_age()});
   const bool fault = session.state() == HapticState::fault && before != HapticState::fault;
   if (fault || watchdog_stops_.load(std::memory_order_relaxed) != stats_.watchdog_stops)
     channel.flight.trigger();

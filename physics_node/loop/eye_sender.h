@@ -28,6 +28,7 @@ class EyeSender {
   void post(const VertexBlock& block);
 
   int watchers() noexcept { return blocks_.matched(); }
+  std::uint64_t watchers_ever() noexcept { return blocks_.matched_ever(); }
 
   const Writer<BodySurface>& surfaces() const noexcept { return surfaces_; }
   const Writer<VertexBlock>& blocks() const noexcept { return blocks_; }

@@ -13,6 +13,7 @@
 #include "common/time/histogram.h"
 #include "common/time/ticker.h"
 #include "common/wire/wire_report.h"
+#include "physics_node/record/earlier_record.h"
 #include "physics_node/report/physics_summary.h"
 
 namespace palpate::physics {
@@ -45,6 +46,8 @@ PhysicsLoop::PhysicsLoop(const NodeOptions& options, const Scene& scene)
   appearance_ = std::make_unique<Appearance>(*world_, scene_.render.threshold, Remake::beside);
   if (!options_.out.empty()) {
     std::filesystem::create_directories(options_.out + "/parts");
+    if (const auto aside = set_earlier_record_aside(options_.out))
+      log_warn("the record of an earlier session is now {}", aside->string());
     recorder_ = std::make_unique<Recorder>(*world_, source_of(scene_, options_.settings), options_.out,
                                            Recorder::WhenBehind::drop);
   }
@@ -124,10 +127,10 @@ void PhysicsLoop::publish_hand() {
 void PhysicsLoop::publish_eye() {
   const bool new_surfaces = appearance_->poll();
   if (new_surfaces) appearance_->write_surfaces([this](const BodySurface& chunk) { wire_.eye.post(chunk); });
-  const int watchers = wire_.eye.watchers();
-  if (watchers > watchers_) appearance_->resend();
-  watchers_ = watchers;
-  if (watchers == 0) {
+  const std::uint64_t ever = wire_.eye.watchers_ever();  // one that came as another left counts as well
+  if (ever > watchers_ever_) appearance_->resend();
+  watchers_ever_ = ever;
+  if (wire_.eye.watchers() == 0) {
     ++world_->report()[Stage::publish].skipped;
     return;
   }

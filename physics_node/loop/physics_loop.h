@@ -48,7 +48,7 @@ class PhysicsLoop {
   bool stop_ = false;
   bool unwelcome_ = false;  // in a session of another scene or version
   bool record_failed_ = false;  // said so
-  int watchers_ = 0;
+  std::uint64_t watchers_ever_ = 0;  // of vertex blocks, at the last look
   std::int64_t start_ns_ = 0;
 
   // status

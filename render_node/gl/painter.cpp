@@ -36,12 +36,13 @@ Painter::Painter(const Scene& scene, const ViewModel& model)
     tools_[i].radius = scene.tools[i].radius;
     tools_[i].axis = stick_axis(device);
     if (scene.tools[i].shape == ToolShape::stick) {
-      // B = A - L R e_z, as physics has it; drawn as it lies in a handle that is not turned.
+      // B = A - L R e_z, as physics has it.
       tools_[i].axis = -(scene.tools[i].attitude * Eigen::Vector3d::UnitZ());
       tools_[i].length = scene.tools[i].length;
     }
     tools_[i].force_limit = device.force_limit;
     tools_[i].is_body = scene.tools[i].shape == ToolShape::body;
+    tools_[i].at_hand = tools_[i].is_body || force_model_of(scene.tools[i]) == ForceModel::direct;
   }
 }
 
@@ -113,15 +114,18 @@ void Painter::draw_bodies(ViewModel& model, const Camera& camera, const PaintOpt
   }
 }
 
+// As the papers show it, a tool rests on the surface where its proxy is, however far beneath the hand has gone.
 void Painter::draw_tool(Tool& tool, const ToolView& view, const PaintOptions& options) {
   if (!view.tip || size_ <= 0) return;
+  const Eigen::Vector3d at = tool.at_hand ? *view.tip : view.proxy;
+  const Eigen::Vector3d axis = tool.length > 0 ? Eigen::Vector3d(view.attitude * tool.axis) : tool.axis;
   if (options.tool && !tool.is_body) {
     if (options.wire) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
     at_pixels_.finish(0.30F, 1.0F);
-    tool.stick.draw(at_pixels_, pose_along(*view.tip, tool.axis), steel);
+    tool.stick.draw(at_pixels_, pose_along(at, axis), steel);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   }
-  if (options.force) draw_arrow(tool, *view.tip, view.force);
+  if (options.force) draw_arrow(tool, at, view.force);
 }
 
 void Painter::draw_arrow(Tool& tool, const Eigen::Vector3d& from, const Eigen::Vector3d& force) {

@@ -34,10 +34,11 @@ class Painter {
  private:
   struct Tool {
     double radius = 0;       // of the tip [m]
-    Eigen::Vector3d axis;    // from the tip up the stick, unit
+    Eigen::Vector3d axis;    // from the tip up the stick, unit; of a stick, where the handle is not turned
     double length = 0;       // of the stick [m]; 0: as the picture needs
     double force_limit = 0;  // of its device [N]
     bool is_body = false;    // drawn as such, without a stick
+    bool at_hand = false;    // is where the hand is, not at the proxy
     SolidDrawing stick, arrow;
   };
   void adapt_sizes(const Eigen::AlignedBox3d& box);

@@ -37,6 +37,7 @@ void ViewModel::take(const ToolWrench& wrench) {
   tool.force = vec(wrench.force);
   tool.moment = vec(wrench.moment);
   tool.n_contacts = wrench.n_contacts;
+  tool.attitude = Eigen::Quaterniond(wrench.q_WT[0], wrench.q_WT[1], wrench.q_WT[2], wrench.q_WT[3]);
   tool.on_tool.add(wrench.t, tool.force.norm());
   for (std::size_t axis = 0; axis < 3; ++axis) tool.moment_history[axis].add(wrench.t, wrench.moment[axis]);
   t_ = wrench.t;

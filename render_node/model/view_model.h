@@ -16,10 +16,11 @@ namespace palpate::render {
 
 /// One tool, as far as messages have told.
 struct ToolView {
-  std::optional<Vec3> tip;     // of the newest trace sample [m]
-  Vec3 proxy = Vec3::Zero();   // [m]; meaningless without tip
-  Vec3 force = Vec3::Zero();   // of the tissue on the tool [N]
-  Vec3 moment = Vec3::Zero();  // about the set point [N m]
+  std::optional<Vec3> tip;                                       // of the newest trace sample [m]
+  Vec3 proxy = Vec3::Zero();                                     // [m]; meaningless without tip
+  Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();  // of the handle
+  Vec3 force = Vec3::Zero();                                     // of the tissue on the tool [N]
+  Vec3 moment = Vec3::Zero();                                    // about the set point [N m]
   std::uint32_t n_contacts = 0;
   double energy = 0;                      // given to the hand so far [J]
   History on_tool;                        // magnitude of the tissue's force, against simulated time [N]

@@ -46,6 +46,8 @@ TEST_F(HandFaults, KilledPhysicsLeavesNoForceAndComesBackWithoutAKick) {
   RecordProperty("ms_to_no_force", static_cast<int>((silent_ns - killed_ns) / 1'000'000));
 
   start_physics();
+  EXPECT_TRUE(until([this] { return std::filesystem::exists(folder / "out" / "record_1.h5"); }))
+      << "what was recorded before is kept";
   ASSERT_TRUE(until([&] {
     NodeStatus status;
     while (statuses.take(status))

@@ -1,6 +1,7 @@
 #pragma once
 // palpate-physics and palpate-haptic as processes of their own with the watched driver, and a test that stops, kills and
-// starts them. A rigid hand presses a block by 4 mm 1.3 s after forces are on, holds, and leaves and returns 5 s later.
+// starts them. Unless a test has a scene of its own, a rigid hand presses a block by 4 mm 1.3 s after forces are on, holds,
+// and leaves and returns 5 s later.
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -20,6 +21,7 @@
 #include "common/wire/participant.h"
 #include "common/wire/reader.h"
 #include "tests/support/devices/watched_device.h"
+#include "tests/system/block_scene.h"
 #include "tests/system/dds_domain.h"
 
 namespace palpate::test {
@@ -28,36 +30,15 @@ using namespace std::chrono_literals;
 
 class HandSession : public testing::Test {
  protected:
-  static constexpr double stiffness = 400;  // of the hand spring [N/m]
+  virtual std::string scene() const {
+    return block_scene(250, 10,
+                       "[0, 0, 0, 24], [0.8, 0, 0, 22], [1.3, 0, 0, 16], [6.3, 0, 0, 16], [6.8, 0, 0, 26], "
+                       "[7.3, 0, 0, 26], [8.3, 0, 0, 16]");
+  }
 
   void SetUp() override {
     std::filesystem::create_directories(folder / "out");
-    std::ofstream(folder / "scene.toml") << R"(title = "A block and a tip"
-gravity_m_per_s2 = [0, 0, 0]
-[physics]
-frame_Hz = 250
-[material.soft]
-density_kg_per_m3 = 1000.0
-modulus_kPa = 10.0
-viscosity_Pa_s = 1.0
-[[body]]
-name = "block"
-lattice = "voxel"
-spacing_mm = 10.0
-shape = "box"
-size_mm = [80, 80, 40]
-fixed = ["-z"]
-material = "soft"
-[[tool]]
-name = "tip"
-radius_mm = 16.0
-device = "hand"
-[device.hand]
-driver = "simulated"
-hand = "rigid"
-waypoints = [[0, 0, 0, 24], [0.8, 0, 0, 22], [1.3, 0, 0, 16], [6.3, 0, 0, 16], [6.8, 0, 0, 26], [7.3, 0, 0, 26],
-             [8.3, 0, 0, 16]]
-)";
+    std::ofstream(folder / "scene.toml") << scene();
     setenv("PALPATE_DRIVERS", WATCHED_DRIVERS, 1);
   }
   void TearDown() override {
@@ -126,7 +107,7 @@ waypoints = [[0, 0, 0, 24], [0.8, 0, 0, 22], [1.3, 0, 0, 16], [6.3, 0, 0, 16], [
       if (now.powered == 0) continue;
       const bool let_go = before.powered == 0 || now.t_ns - before.t_ns > 30'000'000;
       const double rise = now.norm - (let_go ? 0.0 : before.norm);
-      ASSERT_LE(rise, 0.1 + stiffness * std::abs(now.z - before.z) + 1e-9)
+      ASSERT_LE(rise, 0.1 + block_stiffness * std::abs(now.z - before.z) + 1e-9)
           << "write " << n << ", " << seconds_from_ns(now.t_ns - device->at(0).t_ns) << " s, gap "
           << 1e-6 * static_cast<double>(now.t_ns - before.t_ns) << " ms";
     }

@@ -109,20 +109,6 @@ TEST_F(ShippedScenes, ALumpIsFelt) {
   EXPECT_NEAR(over / depth, hard, 0.05 * hard);
 }
 
-TEST_F(ShippedScenes, AStickIsHeldStillByAHandThatGives) {
-  simulate("stick", "--seconds 2.5 --set device.hand.hand=arm");
-  std::array<double, 3> low{1, 1, 1}, high{-1, -1, -1};
-  double force = 0;
-  for (const auto& x : read_trace(folder / "stick" / "tool_stick.csv")) {
-    if (x[0] < 2) continue;
-    for (std::size_t i = 0; i < 3; ++i)
-      low[i] = std::min(low[i], x[1 + i]), high[i] = std::max(high[i], x[1 + i]);
-    force = x[6];
-  }
-  EXPECT_GT(force, 0.1);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_LT(high[i] - low[i], 200e-6) << "axis " << i;
-}
-
 TEST_F(ShippedScenes, WithAStepFarTooLongEndWithADiagnosis) {
   const fs::path out = folder / "out";
   EXPECT_EQ(palpate("simulate " + std::string(SCENES) + "/box_press.toml --no-frames --out " + out.string() +

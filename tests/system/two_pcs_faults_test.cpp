@@ -50,7 +50,7 @@ class TwoPcsFaults : public TwoPcs {
   nlohmann::json haptic(const std::string& pc) const { return summary(pc)["haptic"]; }
 
   WatchedFile device{"/dev/shm/palpate_two_pcs_" + std::to_string(getpid()), WatchedFile::Role::test};
-  HandLog hand{*device, pressing_stiffness, pressing_force_limit};
+  HandLog hand{*device, block_stiffness, block_force_limit};
   std::int64_t pulled_ns = 0, back_ns = 0;
 };
 

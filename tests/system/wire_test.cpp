@@ -41,6 +41,18 @@ using AllMessages = testing::Types<ToolState, ContactPatch, ToolWrench, BodySurf
                                    Pointer, Command, NodeStatus>;
 TYPED_TEST_SUITE(Wire, AllMessages);
 
+TEST(WireWriter, CountsAReaderThatComesAsAnotherLeaves) {
+  Participant participant(test::own_domain());
+  Writer<VertexBlock> writer(participant);
+  EXPECT_EQ(writer.matched_ever(), 0U);
+  auto reader = std::make_unique<Reader<VertexBlock>>(participant);
+  ASSERT_TRUE(eventually([&] { return writer.matched() == 1; }));
+  EXPECT_EQ(writer.matched_ever(), 1U);
+  reader.reset();
+  reader = std::make_unique<Reader<VertexBlock>>(participant);
+  EXPECT_TRUE(eventually([&] { return writer.matched() == 1 && writer.matched_ever() == 2; }));
+}
+
 TYPED_TEST(Wire, CarriesAMessageFromWriterToReader) {
   Participant participant(test::own_domain());
   Writer<TypeParam> writer(participant);

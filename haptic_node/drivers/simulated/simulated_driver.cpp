@@ -15,11 +15,13 @@
 #include "haptic_node/device/haptic_device.h"
 #include "haptic_node/drivers/simulated/simulated_hand.h"
 #include "haptic_node/drivers/simulated/simulated_options.h"
+#include "haptic_node/drivers/simulated/simulated_turn.h"
 
 using palpate::haptic::simulated::Array3;
 using palpate::haptic::simulated::parse_options;
 using palpate::haptic::simulated::SimulatedHand;
 using palpate::haptic::simulated::SimulatedOptions;
+using palpate::haptic::simulated::SimulatedTurn;
 
 namespace {
 
@@ -54,13 +56,18 @@ std::string& open_trouble() {
 
 struct hdev {
   hdev(const hdev_host* the_host, const SimulatedOptions& the_options)
-      : host(the_host), options(the_options), hand(options, host->now_ns(host->user)), noise(options.seed) {}
+      : host(the_host),
+        options(the_options),
+        hand(options, now()),
+        turn(options, now()),
+        noise(options.seed) {}
 
   const hdev_host* host;
   SimulatedOptions options;
   SimulatedHand hand;
+  SimulatedTurn turn;
   Noise noise;
-  Array3 force{};  // commanded [N]
+  Array3 force{}, torque{};  // commanded [N], [N m]
   std::int64_t last_write_ns = 0;
   std::uint64_t seq = 0;
   std::atomic<bool> powered{false};  // enable_force() and stop() may come from other threads
@@ -72,9 +79,22 @@ struct hdev {
 namespace {
 
 void advance(hdev& device, std::int64_t now) noexcept {
-  if (!device.powered.load()) device.force = {};
+  if (!device.powered.load()) device.force = device.torque = {};
   device.hand.advance_to(now, device.force, device.last_write_ns + watchdog_ns);
-  if (device.path_asked.load()) device.hand.start_path();
+  const bool path_asked = device.path_asked.load();
+  if (path_asked) device.hand.start_path();
+  if (!device.options.turns()) return;
+  device.turn.advance_to(now, device.torque, device.last_write_ns + watchdog_ns);
+  if (path_asked) device.turn.start_path();
+}
+
+/// Shortened to `limit`, direction kept. @return false if it is not finite
+bool limit_norm(Array3& v, double limit) noexcept {
+  const double norm = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  if (!std::isfinite(norm)) return false;
+  if (norm > limit)
+    for (double& component : v) component *= limit / norm;
+  return true;
 }
 
 hdev_status sim_enumerate(const hdev_host*, char (*ids)[64], std::uint32_t cap, std::uint32_t* n) {
@@ -117,6 +137,9 @@ hdev_status sim_get_info(hdev* device, hdev_info* info) {
     full.ws_min[i] = -options.half_workspace;
     full.ws_max[i] = options.half_workspace;
   }
+  if (options.turns()) full.caps |= HDEV_CAP_ROT | HDEV_CAP_ANGVEL, full.dof_in = 6;
+  if (options.turn.max_torque > 0) full.caps |= HDEV_CAP_TORQUE, full.dof_out = 6;
+  full.max_torque = full.cont_torque = options.turn.max_torque;
   full.max_force = model.max_force;
   full.cont_force = model.cont_force;
   full.max_stiffness = model.max_stiffness;
@@ -160,6 +183,13 @@ hdev_status sim_read(hdev* device, hdev_state* state, std::uint32_t) {
       full.pos[i] = q * std::round(full.pos[i] / q);
     full.vel[i] = device->hand.velocity()[i];
     full.applied_force[i] = now < device->last_write_ns + watchdog_ns ? device->force[i] : 0.0;
+    full.applied_torque[i] = now < device->last_write_ns + watchdog_ns ? device->torque[i] : 0.0;
+    full.angvel[i] = device->turn.velocity()(static_cast<Eigen::Index>(i));
+  }
+  if (device->options.turns()) {
+    full.valid |= HDEV_CAP_ROT | HDEV_CAP_ANGVEL;
+    const Eigen::Matrix3d R = device->turn.attitude().toRotationMatrix();
+    for (Eigen::Index i = 0; i < 9; ++i) full.R[i] = R(i / 3, i % 3);
   }
   full.temperature = -1.0;
   full.force_enabled = device->powered.load() ? 1u : 0u;
@@ -169,20 +199,17 @@ hdev_status sim_read(hdev* device, hdev_state* state, std::uint32_t) {
 }
 
 hdev_status sim_write(hdev* device, const hdev_command* command) {
-  Array3 force{};
-  double squared = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    force[i] = command->force[i];
-    squared += force[i] * force[i];
-  }
-  if (!std::isfinite(squared)) return HDEV_E_ARG;
-  const double limit = device->options.device.max_force;
-  if (squared > limit * limit) {
-    for (double& component : force) component *= limit / std::sqrt(squared);
-  }
+  Array3 force{}, torque{};
+  std::copy_n(command->force, 3, force.begin());
+  std::copy_n(command->torque, 3, torque.begin());
+  if (!limit_norm(force, device->options.device.max_force) ||
+      !limit_norm(torque, device->options.turn.max_torque))
+    return HDEV_E_ARG;
   const std::int64_t now = device->now();
   advance(*device, now);
-  device->force = device->powered.load() ? force : Array3{};
+  const bool powered = device->powered.load();
+  device->force = powered ? force : Array3{};
+  device->torque = powered ? torque : Array3{};
   device->last_write_ns = now;
   return HDEV_OK;
 }

@@ -45,7 +45,7 @@ void SimulatedHand::advance_to(std::int64_t now_ns, const Array3& force,
     path_at(t_ns_, x_, v_);
     return;
   }
-  constexpr double h = static_cast<double>(step_ns) * 1e-9;
+  constexpr double h = step_s;
   const double m = options_.hand.mass + options_.device.mass;
   const double k = options_.hand.stiffness;
   const double b = options_.hand.damping;

@@ -14,7 +14,6 @@ namespace palpate::haptic::simulated {
 
 class SimulatedHand {
  public:
-  static constexpr std::int64_t step_ns = 20'000;
   static constexpr std::int64_t longest_gap_ns =
       2'000'000'000;  // a longer absence is skipped, not integrated
 

@@ -70,6 +70,53 @@ std::string read_waypoints(const std::string& text, std::vector<PathPoint>& wayp
   return {};
 }
 
+std::string read_not_negative(const std::string& key, const std::string& text, double& value) {
+  if (read_number(text, value) && value >= 0) return {};
+  return key + " is \"" + text + "\"; a number not below 0 is wanted";
+}
+
+std::string read_attitudes(const std::string& text, std::vector<AttitudePoint>& attitudes) {
+  std::istringstream list(text);
+  for (std::string item; std::getline(list, item, ';');) {
+    std::istringstream fields(item);
+    std::array<std::string, 5> word;
+    std::string more;
+    for (std::string& one : word) fields >> one;
+    AttitudePoint point;
+    bool good = !(fields >> more) && read_number(word[0], point.t);
+    double squared = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      good = good && read_number(word[i + 1], point.q[i]);
+      squared += point.q[i] * point.q[i];
+    }
+    if (!good || std::abs(squared - 1) > 1e-6)
+      return "attitude \"" + item + "\": a time and a unit quaternion are wanted, \"t w x y z\"";
+    if (!attitudes.empty() && point.t <= attitudes.back().t)
+      return "attitude \"" + item + "\": its time must be after the one before";
+    attitudes.push_back(point);
+  }
+  return {};
+}
+
+/// What was not said follows from hand and device at the end of the lever. @return empty, or why it cannot be stepped
+std::string complete(SimulatedOptions& options) {
+  TurnParameters& turn = options.turn;
+  const auto unless_said = [](double& value, double otherwise) {
+    if (value < 0) value = otherwise;
+  };
+  constexpr double l = turn_lever;
+  unless_said(turn.inertia, l * l * (options.hand.mass + options.device.mass));
+  unless_said(turn.damping, l * l * options.hand.damping);
+  unless_said(turn.stiffness, l * l * options.hand.stiffness);
+  unless_said(turn.friction, l * options.device.friction);
+  turn.drag = l * l * options.device.damping;
+  constexpr double h = step_s;
+  if (options.turns() && h * (turn.damping + turn.drag) + h * h * turn.stiffness > turn.inertia)
+    return "turn_inertia is too small for turn_damping and turn_stiffness: it would swing within a step of "
+           "20 us";
+  return {};
+}
+
 std::string read_one(const std::string& key, const std::string& value, SimulatedOptions& options) {
   if (key == "waypoints") return read_waypoints(value, options.waypoints);
   if (key == "hand") return read_hand(value, options.hand);
@@ -77,6 +124,12 @@ std::string read_one(const std::string& key, const std::string& value, Simulated
   if (key == "mass") return read_positive(key, value, options.device.mass);
   if (key == "max_force") return read_max_force(key, value, options.device);
   if (key == "max_stiffness") return read_positive(key, value, options.device.max_stiffness);
+  if (key == "attitudes") return read_attitudes(value, options.attitudes);
+  if (key == "max_torque") return read_positive(key, value, options.turn.max_torque);
+  if (key == "turn_inertia") return read_positive(key, value, options.turn.inertia);
+  if (key == "turn_damping") return read_not_negative(key, value, options.turn.damping);
+  if (key == "turn_stiffness") return read_not_negative(key, value, options.turn.stiffness);
+  if (key == "turn_friction") return read_not_negative(key, value, options.turn.friction);
   if (key == "half_workspace") return read_positive(key, value, options.half_workspace);
   if (key == "noise") return read_positive(key, value, options.noise);
   if (key == "seed") {
@@ -85,7 +138,9 @@ std::string read_one(const std::string& key, const std::string& value, Simulated
     return !value.empty() && *end == '\0' ? "" : "seed is \"" + value + "\"; a whole number is wanted";
   }
   return "unknown key \"" + key +
-         "\"; known are waypoints, hand, model, mass, max_force, max_stiffness, half_workspace, noise, seed";
+         "\"; known are waypoints, attitudes, hand, model, mass, max_force, max_stiffness, max_torque, "
+         "turn_inertia, "
+         "turn_damping, turn_stiffness, turn_friction, half_workspace, noise, seed";
 }
 
 }  // namespace
@@ -105,7 +160,7 @@ std::string parse_options(const char* const* kv, std::uint32_t n_kv, SimulatedOp
       return text.str();
     }
   }
-  return {};
+  return complete(options);
 }
 
 }  // namespace palpate::haptic::simulated

@@ -10,10 +10,19 @@ namespace palpate::haptic::simulated {
 
 using Array3 = std::array<double, 3>;
 
+inline constexpr std::int64_t step_ns = 20'000;  // of hand and handle
+inline constexpr double step_s = static_cast<double>(step_ns) * 1e-9;
+
 /// Linear in between; at rest before the first and after the last.
 struct PathPoint {
   double t = 0;  // since the forces were first enabled [s]
   Array3 p{};    // device frame [m]
+};
+
+/// Straight turns in between; at rest before the first and after the last.
+struct AttitudePoint {
+  double t = 0;                         // since the forces were first enabled [s]
+  std::array<double, 4> q{1, 0, 0, 0};  // w, x, y, z; unit; handle to device frame
 };
 
 /// A hand as a mass on a spring and damper that pull the handle toward the path.
@@ -35,14 +44,31 @@ struct DeviceParameters {
   double max_stiffness = 1000.0;  // it claims to render [N/m]
 };
 
+/// How the handle turns in the hand. Below zero: what the masses, springs, dampers and frictions of hand and device make as
+/// if they were `turn_lever` from the axis.
+struct TurnParameters {
+  double inertia = -1;    // of hand and handle, the same about every axis [kg m^2]
+  double damping = -1;    // of the hand, toward the path [N m s/rad]
+  double stiffness = -1;  // of the hand, toward the path [N m/rad]
+  double friction = -1;   // Coulomb's, of the device [N m]
+  double drag = 0;        // damping of the device's joints; always from its model [N m s/rad]
+  double max_torque = 0;  // of the motors; 0: it has none that turn [N m]
+};
+inline constexpr double turn_lever = 0.03;  // assumed: half the width of what a hand holds [m]
+
 struct SimulatedOptions {
-  std::vector<PathPoint> waypoints;  // empty: rests at the origin
+  std::vector<PathPoint> waypoints;      // empty: rests at the origin
+  std::vector<AttitudePoint> attitudes;  // empty: the identity
   HandParameters hand{0.554, 6.45, 135.0, false};
   DeviceParameters device;
+  TurnParameters turn;
   std::string model = "plain";
   double half_workspace = 0.5;  // a cube about the origin [m]
   double noise = 0;             // standard deviation of measured positions [m]
   std::uint64_t seed = 1;       // of that noise
+
+  /// It measures its attitude: somebody asked for attitudes or for torques.
+  bool turns() const noexcept { return turn.max_torque > 0 || !attitudes.empty(); }
 };
 
 /// Hand models: arm (Sci. Rep. srep18004, fig. 3: mass, damper and spring fitted to one trial), pinch (light grip of two fingers)

@@ -27,8 +27,9 @@ struct WatchedDevice {
     double z = 0;           // of the sample before [m]
     double felt =
         0;  // force along z that the hand felt at that sample, the device's own watchdog included [N]
-    double force = 0;  // written, along z [N]
-    double norm = 0;   // of the force written [N]
+    double force = 0;   // written, along z [N]
+    double norm = 0;    // of the force written [N]
+    double torque = 0;  // norm of the torque written [N m]
     std::uint32_t powered = 0;
   };
 

@@ -154,11 +154,12 @@ hdev_status write_watched(hdev* device, const hdev_command* command) {
   device->called();
   WatchedDevice& watched = *device->watched;
   const double* f = command->force;
-  const double norm = std::sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
+  const double* m = command->torque;
+  const double norm = std::hypot(f[0], f[1], f[2]), torque = std::hypot(m[0], m[1], m[2]);
   const std::uint64_t n = watched.writes.load();
   const std::uint32_t powered = watched.powered.load();
   watched.log[n % WatchedDevice::kept] = {
-      device->host->now_ns(device->host->user), device->z, device->felt, f[2], norm, powered};
+      device->host->now_ns(device->host->user), device->z, device->felt, f[2], norm, torque, powered};
   watched.writes.store(n + 1);
   return inner_api()->write(device->inner, command);
 }

@@ -100,7 +100,7 @@ class FaultMatrix : public testing::Test {
       fs::path("/dev/shm") / (name + "_files");  // in memory: a disk that others keep busy is another fault
   WatchedFile device{"/dev/shm/" + name, WatchedFile::Role::test};
   NodeCrew crew{PROGRAMS, folder, domain};
-  HandLog hand{*device, pressing_stiffness, pressing_force_limit};
+  HandLog hand{*device, block_stiffness, block_force_limit};
   std::unique_ptr<SessionEar> ear = std::make_unique<SessionEar>(domain);
   Growth growth;
   bool hurried = false;  // what happened last has not been met yet

@@ -14,25 +14,15 @@ namespace palpate::render {
 namespace {
 
 using test::block_of;
-using test::chunks_of;
 using test::cube_surface;
+using test::show;
 using test::small_scene;
 
 constexpr std::uint32_t skin = 0xff96b4e6U;
 constexpr double side = 0.1;
 const auto cube = cube_surface(12, side, skin);
 
-void show(Picture& picture, const test::VoxelSurface& surface, std::uint32_t revision = 1) {
-  for (const auto& chunk : chunks_of(surface, 0, revision)) picture.take(chunk);
-}
-
-// The camera of the picture, as the picture sets it up.
-Camera camera_of(const Scene& scene) {
-  Camera camera(scene.render.camera);
-  camera.set_picture(scene.render.size_px[0], scene.render.size_px[1], 0);
-  camera.fit({Vec3::Constant(-side / 2), Vec3::Constant(side / 2)});
-  return camera;
-}
+Camera camera_of(const Scene& scene) { return test::camera_of_cube(scene, side); }
 
 Eigen::Vector3i pixel(const Picture& picture, const Eigen::Vector2d& p) {
   const auto* rgb = picture.image().at(static_cast<int>(p.x()), static_cast<int>(p.y()));
@@ -224,50 +214,6 @@ TEST(Picture, UploadsOnlyWhatMoved) {
   picture.draw(0);
   EXPECT_GT(picture.bytes_uploaded(), 0U);
   EXPECT_LT(picture.bytes_uploaded(), all / 5);
-}
-
-TEST(Picture, DrawsTheForceArrowToScale) {
-  Scene scene = small_scene();
-  scene.render.show_tool = false;
-  Picture picture(scene);
-  show(picture, cube);
-  picture.draw(0);
-  picture.take(test::trace_at({0, -side / 2, 0}, 0, 0));
-  ToolWrench wrench;
-  wrench.force = {0, 0, 2.5};
-  picture.take(wrench);
-  picture.draw(0);
-  // Limit 3 N, half the diagonal 0.087 m: 1 N is 20 mm, so 2.5 N reach from 0 to 50 mm.
-  const Camera camera = camera_of(scene);
-  const auto is_orange = [](const Eigen::Vector3i& c) {
-    return c.x() > 120 && c.x() > 2 * c.z() && c.x() > c.y() + 40;
-  };
-  const double before_it = -side / 2 - 0.001;
-  EXPECT_TRUE(is_orange(pixel(picture, *camera.project({0, before_it, 0.010}))));
-  EXPECT_TRUE(is_orange(pixel(picture, *camera.project({0, before_it, 0.040}))));
-  EXPECT_FALSE(is_orange(pixel(picture, *camera.project({0, before_it, 0.0535}))));
-  EXPECT_FALSE(is_orange(pixel(picture, *camera.project({0.02, before_it, 0.010}))));
-}
-
-TEST(Picture, EndsTheToolAtTheTip) {
-  Scene scene = small_scene();
-  scene.render.show_force = false;
-  scene.devices[0].waypoints = {{0, Vec3(0, 0, 0.2)}, {1, Vec3(0, 0, 0)}};
-  Picture picture(scene);
-  show(picture, cube);
-  picture.draw(0);
-  const Image before = picture.image();
-  picture.take(test::trace_at({0, -0.07, 0}, 0, 0));
-  picture.draw(0);
-  const auto tip = *camera_of(scene).project({0, -0.07, 0});
-  int lowest = 0;
-  for (int y = 0; y < 240; ++y) {
-    for (int x = 0; x < 320; ++x) {
-      if (!std::equal(before.at(x, y), before.at(x, y) + 3, picture.image().at(x, y)))
-        lowest = std::max(lowest, y);
-    }
-  }
-  EXPECT_NEAR(lowest, tip.y(), 2.0);  // a stick that leans: its round end goes a little below the tip
 }
 
 TEST(Picture, CountsFacets) {

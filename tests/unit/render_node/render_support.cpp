@@ -125,6 +125,17 @@ VertexBlock block_of(const VoxelSurface& surface, std::uint32_t body, std::uint3
   return message;
 }
 
+void show(Picture& picture, const VoxelSurface& surface, std::uint32_t revision) {
+  for (const auto& chunk : chunks_of(surface, 0, revision)) picture.take(chunk);
+}
+
+Camera camera_of_cube(const Scene& scene, double side_m) {
+  Camera camera(scene.render.camera);
+  camera.set_picture(scene.render.size_px[0], scene.render.size_px[1], 0);
+  camera.fit({Vec3::Constant(-side_m / 2), Vec3::Constant(side_m / 2)});
+  return camera;
+}
+
 Scene small_scene() {
   Scene scene;
   scene.title = "A small scene";

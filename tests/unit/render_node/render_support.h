@@ -8,6 +8,8 @@
 
 #include "common/message/messages.h"
 #include "common/scene/scene.h"
+#include "render_node/picture.h"
+#include "render_node/view/camera.h"
 
 namespace palpate::render::test {
 
@@ -32,6 +34,11 @@ std::vector<BodySurface> chunks_of(const VoxelSurface& surface, std::uint32_t bo
 /// All vertices of one block as they stand in the surface.
 VertexBlock block_of(const VoxelSurface& surface, std::uint32_t body, std::uint32_t revision,
                      std::uint32_t block);
+
+void show(Picture& picture, const VoxelSurface& surface, std::uint32_t revision = 1);
+
+/// The camera of a picture of a cube round the origin, as the picture sets it up.
+Camera camera_of_cube(const Scene& scene, double side_m);
 
 /// A scene with one body and one tool, 320 x 240 pixels, looking along +y, without panels.
 Scene small_scene();

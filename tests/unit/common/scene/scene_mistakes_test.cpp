@@ -138,6 +138,10 @@ INSTANTIATE_TEST_SUITE_P(Devices, SceneMistakes, testing::ValuesIn(std::vector<M
     {"waypoints = [[0, 0, 0, 50], [1.5, 0, 0, 40]]\n", "", "81:1", "lacks \"waypoints\""},
     {"hand = \"pinch\"", "hand = \"foot\"", "90:8", "write \"rigid\", \"arm\", \"pinch\" or \"firm\""},
     {"hand = \"pinch\"", "model = \"phantom\"", "90:9", "write \"plain\", \"touch\", \"premium\" or \"omega\""},
+    {"hand = \"pinch\"", "attitudes_deg = [[0, 0, 0, 0], [0, 9, 0, 0]]", "90:32", "attitude at 0 s follows one at 0 s; times must grow"},
+    {"hand = \"pinch\"", "attitudes_deg = [[0, 0, 0]]", "90:18", "write [t_s, about z, about y, about x]"},
+    {"hand = \"pinch\"", "max_torque_N_m = 0", "90:18", "write a number above 0"},
+    {"hand = \"pinch\"", "turn_friction_N_m = 0.1", "90:21", "is of a hand that turns; give attitudes_deg or max_torque_N_m, too"},
     {"hand = \"pinch\"", "port = 3", "90:1", "unknown key \"port\" in [device.right]"},
     {"port = 3", "port = [3]", "95:8", "write a text, a number, true or false"},
 }));

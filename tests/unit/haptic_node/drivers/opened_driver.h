@@ -30,6 +30,7 @@ class DriverUnderTest {
   DriverUnderTest& operator=(const DriverUnderTest&) = delete;
 
   hdev_status open(const std::map<std::string, std::string>& options = {}, const std::string& id = "") {
+    close();
     std::vector<const char*> kv;
     for (const auto& [key, value] : options) kv.insert(kv.end(), {key.c_str(), value.c_str()});
     return api().open(&host_, id.c_str(), kv.data(), static_cast<std::uint32_t>(options.size()), &device_);

@@ -108,6 +108,25 @@ TEST(ReplayDriver, ReadsFieldsBetweenBlanks) {
   EXPECT_NEAR(driver.state.pos[0], 0.004, 1e-15);
 }
 
+TEST(ReplayDriver, PlaysTheFlightOfAFault) {
+  const Table table(
+      "t_s,state,x_m,y_m,z_m,qw,qx,qy,qz,proxy_x_m,proxy_y_m,proxy_z_m,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm,"
+      "energy_J,surplus_J,"
+      "patch_age_s\n"
+      "7.001,run,0.01,0.02,0.03,0.5,-0.5,0.5,0.5,0,0,0,1,2,3,0.1,0.2,0.3,0,0,-1\n"
+      "7.002,fault,0.02,0.02,0.03,0.5,-0.5,0.5,0.5,0,0,0,0,0,0,0,0,0,0,0,0\n");
+  DriverUnderTest driver("replay");
+  ASSERT_EQ(driver.open({{"file", table.file}}), HDEV_OK) << driver.api().last_error(nullptr);
+  driver.power(true);
+  driver.read();
+  EXPECT_NEAR(driver.state.pos[0], 0.01, 1e-15);
+  EXPECT_NEAR(driver.state.R[3], 0, 1e-12);  // z becomes y, x becomes z
+  EXPECT_NEAR(driver.state.R[5], 1, 1e-12);
+  driver.now += 1'000'000;
+  driver.read();
+  EXPECT_NEAR(driver.state.pos[0], 0.02, 1e-15);
+}
+
 TEST(ReplayDriver, TakesTheNamesOfColumnsFromTheScene) {
   const Table table("# t x y z and what else there may be\n0 1 2 3 9 9\n1000 1 2 5 9 9\n");
   DriverUnderTest driver("replay");

@@ -47,12 +47,34 @@ TEST_F(FlightTest, KeepsTenSecondsUntilAFifthOfASecondAfterTheTrigger) {
   ASSERT_TRUE(recorder.write_kept(path));
   const auto lines = lines_of(path);
   ASSERT_EQ(lines.size(), 10'001u);
-  EXPECT_EQ(
-      lines[0],
-      "t_s,state,x_m,y_m,z_m,proxy_x_m,proxy_y_m,proxy_z_m,fx_N,fy_N,fz_N,energy_J,surplus_J,patch_age_s");
   EXPECT_EQ(lines[1].substr(0, 14), "20.100000,run,");
   EXPECT_EQ(lines.back().substr(0, 16), "30.099000,fault,");
   EXPECT_FALSE(recorder.write_kept(path)) << "once";
+}
+
+TEST_F(FlightTest, WritesPoseForceAndTorque) {
+  FlightSample sample = sample_at(3);
+  sample.trace.p = {0.1, 0.2, 0.3};
+  sample.q_WT = {0.5, -0.5, 0.5, 0.5};
+  sample.trace.proxy = {0.4, 0.5, 0.6};
+  sample.trace.force = {1, 2, 3};
+  sample.trace.torque = {0.01, 0.02, 0.03};
+  sample.trace.energy = 4e-3;
+  sample.surplus = 5e-3;
+  sample.patch_age = 0.006;
+  recorder.trigger();
+  recorder.add(sample);
+  recorder.end();
+  ASSERT_TRUE(recorder.write_kept(path));
+  const auto lines = lines_of(path);
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(
+      lines[0],
+      "t_s,state,x_m,y_m,z_m,qw,qx,qy,qz,proxy_x_m,proxy_y_m,proxy_z_m,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm,"
+      "energy_J,surplus_J,patch_age_s");
+  EXPECT_EQ(
+      lines[1],
+      "0.003000,run,0.1,0.2,0.3,0.5,-0.5,0.5,0.5,0.4,0.5,0.6,1,2,3,0.01,0.02,0.03,0.004,0.005,0.006000");
 }
 
 TEST_F(FlightTest, KeepsTheFirstWhenASecondComesBeforeItIsWritten) {
