@@ -41,7 +41,10 @@ Row force_is_true(Runs& runs);                // S4
 Row pulse_is_felt(Runs& runs);                // S5
 Row force_steps_are_small(const Runs& runs);  // S6
 Row free_space_is_free();                     // S10
-Row saturation_is_quiet(Runs& runs);          // S11
+Row saturation_is_quiet();                    // S11
+Row world_pulse_is_felt(Runs& runs);          // S5
+Row world_free_space_is_free();               // S10
+Row world_saturation_is_quiet();              // S11
 
 // rows_events.cpp
 Row teleports_push_gently();    // S7
@@ -61,6 +64,12 @@ Row world_return_is_no_kick();                 // F2
 Row world_raw_is_unstable(Runs& runs);         // S0
 Row stick_is_steady(Runs& runs);               // S12
 Row stick_with_torques_is_steady(Runs& runs);  // S12
+
+// rows_world_more.cpp
+Row world_wall_is_stable(Runs& runs);           // S1
+Row world_bears_a_stiff_spring(Runs& runs);     // S3
+Row world_bears_unruly_links(Runs& runs);       // N1
+Row world_edge_has_no_ghost(const Runs& runs);  // S8
 
 // rows_six.cpp
 Row torque_is_bounded(const Runs& runs);  // S12

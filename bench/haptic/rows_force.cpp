@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "bench/haptic/rows.h"
+#include "bench/haptic/world_cases.h"
 
 namespace palpate::bench {
 namespace {
@@ -42,10 +43,11 @@ Row force_is_true(Runs& runs) {
           error <= 0.02 && slow == 0};
 }
 
-Row pulse_is_felt(Runs& runs) {
-  Case c;
+namespace {
+
+Row beat_against(Runs& runs, const Case& base, const char* what) {
+  Case c = base;
   c.hand = hand_springs[2];
-  c.object = object_models[0];
   c.stiffness = 1000;
   c.damping = 2;
   Case ideal = c;
@@ -64,12 +66,22 @@ Row pulse_is_felt(Runs& runs) {
       double& most = rate < 60 ? worst_slow : worst;
       most = std::max(most, error);
     }
-  return {"S5",
-          "wall that beats by 1 mm at 1.2 Hz, K 1000, B 2, firm hand, Touch, against a plane without lag",
-          "range of force within 10 % (15 % at 20 Hz)",
+  return {"S5", what, "range of force within 10 % (15 % at 20 Hz)",
           fmt::format("reference {:.2f} to {:.2f} N; off by {:.1f} % (20 Hz: {:.1f} %)",
                       reference.force_least, reference.force_most, 100 * worst, 100 * worst_slow),
           worst <= 0.10 && worst_slow <= 0.15};
+}
+
+}  // namespace
+
+Row pulse_is_felt(Runs& runs) {
+  return beat_against(
+      runs, {},
+      "wall that beats by 1 mm at 1.2 Hz, K 1000, B 2, firm hand, Touch, against a plane without lag");
+}
+Row world_pulse_is_felt(Runs& runs) {
+  return beat_against(runs, case_of(held_slab),
+                      "the same with a held slab of real physics on a table that beats");
 }
 
 Row force_steps_are_small(const Runs& runs) {
@@ -80,10 +92,12 @@ Row force_steps_are_small(const Runs& runs) {
           t.force_step_most <= 0.3 && t.step_beyond_most <= 0.1};
 }
 
-Row free_space_is_free() {
+namespace {
+
+Row wave_above(const Case& base, const char* what) {
   double most = 0, energy = 0;
   for (const DeviceModel& device : device_models) {
-    Case c;
+    Case c = base;
     c.device = device;
     c.link.loss = 0.01;
     Trial trial(c, [](double t) {
@@ -95,15 +109,15 @@ Row free_space_is_free() {
     trial.run(5.0, [&] { most = std::max(most, trial.rendered().force.norm()); });
     energy = std::max(energy, std::abs(trial.energy().port()));
   }
-  return {"S10", "a hand that waves 2 to 18 mm above the surface, all devices", "force and energy exactly 0",
-          fmt::format("{:g} N, {:g} J", most, energy), most == 0 && energy == 0};
+  return {"S10", what, "force and energy exactly 0", fmt::format("{:g} N, {:g} J", most, energy),
+          most == 0 && energy == 0};
 }
 
-Row saturation_is_quiet(Runs& runs) {
+Row press_too_hard(const Case& base, const char* what) {
   double swing = 0, turned = 0, surplus = 0, over = 0;
   for (const DeviceModel& device : device_models)
     for (const HandSpring& hand : {hand_springs[0], hand_springs[1], hand_springs[2]}) {
-      Case c;
+      Case c = base;
       c.device = device;
       c.hand = hand;
       const double pushed = 2 * device.force_limit;
@@ -130,13 +144,25 @@ Row saturation_is_quiet(Runs& runs) {
       swing = std::max(swing, high - low);
       surplus = std::max(surplus, trial.energy().surplus());
     }
-  static_cast<void>(runs);
-  return {"S11", "twice the peak force pressed, all devices and hands, K 500",
-          "limit kept, direction within 0.1 deg, p-p <= 200 um, G <= 0.1 mJ",
+  return {"S11", what, "limit kept, direction within 0.1 deg, p-p <= 200 um, G <= 0.1 mJ",
           fmt::format("over the limit by {:.1g}, {:.2g} deg, {:.0f} um, G {:.3f} mJ", std::max(over, 0.0),
                       turned * 180 / std::numbers::pi, 1e6 * swing, 1e3 * surplus),
           over <= 1e-12 && turned * 180 / std::numbers::pi <= 0.1 && swing <= 200e-6 &&
               surplus <= EnergyBook::G_allowed};
+}
+
+}  // namespace
+
+Row free_space_is_free() {
+  return wave_above({}, "a hand that waves 2 to 18 mm above the surface, all devices");
+}
+Row world_free_space_is_free() { return wave_above(case_of(slab_models[0]), "the same above real tissue"); }
+
+Row saturation_is_quiet() {
+  return press_too_hard({}, "twice the peak force pressed, all devices and hands, K 500");
+}
+Row world_saturation_is_quiet() {
+  return press_too_hard(case_of(held_slab), "the same on a slab of real physics whose masses are all held");
 }
 
 }  // namespace palpate::bench

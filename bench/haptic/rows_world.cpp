@@ -7,65 +7,28 @@
 
 #include "bench/haptic/dead_physics.h"
 #include "bench/haptic/rows.h"
+#include "bench/haptic/world_cases.h"
 
 namespace palpate::bench {
-namespace {
-
-/// Steps of force beyond K (v T + q) that a tick may make [N].
-constexpr double limit_step = 0.1;
-
-Case case_of(const SlabModel& slab) {
-  Case c;
-  c.slab = &slab;
-  c.object = {slab.name, 1.0, 0.0, slab.about};
-  c.hand = hand_springs[1];
-  c.stiffness = 500;
-  return c;
-}
-
-std::vector<Case> world_cases(Effort effort, RenderMode mode, const DeviceModel& device) {
-  std::vector<Case> bases;
-  for (const SlabModel& slab : slab_models)
-    for (const HandSpring& hand : hand_springs) {
-      if (hand.stiffness <= 0) continue;
-      Case c = case_of(slab);
-      c.device = device;
-      c.hand = hand;
-      c.mode = mode;
-      bases.push_back(c);
-    }
-  MatrixSize size;
-  size.losses = {0, 0.1};
-  if (effort == Effort::quick) size = {{60, 1000}, {5e-3, 50e-3}, {0.1}, {}};
-  return chosen(over_links(bases, size), effort, 12);
-}
-
-std::string figure_of(const Tally& t) {
-  return fmt::format(
-      "{} cases: {} above 200 um, {} above 100 um, {} break an energy bound; most {:.0f} um, G {:.3f} mJ; "
-      "step {:.3f} N, "
-      "{:.3f} N beyond K v T",
-      t.cases, t.above_200_um, t.above_100_um, t.energy_broken, 1e6 * t.swing_most, 1e3 * t.surplus_most,
-      t.force_step_most, t.step_beyond_most);
-}
-
-}  // namespace
 
 Row world_is_stable(Runs& runs) {
   std::vector<Case> cases;
-  for (const DeviceModel& device : {device_models[0], device_models[1]}) {
-    const auto more = world_cases(runs.effort, RenderMode::local, device);
-    cases.insert(cases.end(), more.begin(), more.end());
-  }
+  for (const double stiffness : {300.0, 500.0})
+    for (const DeviceModel& device : {device_models[0], device_models[1]})
+      for (Case c : world_cases(runs.effort, RenderMode::local, device)) {
+        c.stiffness = stiffness;
+        cases.push_back(c);
+      }
   const auto results = run_cases(cases, runs.jobs);
   runs.world.insert(runs.world.end(), results.begin(), results.end());
   const Tally t = tally(results);
   return {"S2",
-          "real tissue, 3-D: slabs of 30 and 100 kPa and one that yields; Touch and Premium, 3 hands, K 500",
+          "real tissue, 3-D: slabs of 30 and 100 kPa and one that yields; Touch and Premium, 3 hands, K 300 "
+          "and 500",
           "none above 200 um, <= 1 % above 100 um, energy bounds in all, steps <= K (v T + q) + 0.1 N",
-          figure_of(t),
+          world_figure(t),
           t.above_200_um == 0 && t.above_100_um * 100 <= t.cases && t.energy_broken == 0 &&
-              t.step_beyond_most <= limit_step};
+              t.step_beyond_most <= world_step_limit};
 }
 
 Row world_raw_is_unstable(Runs& runs) {
@@ -114,7 +77,7 @@ Row world_silence_fades() {
           "stale; falls steadily to 0 N within 400 ms; steps <= K (v T + q) + 0.1 N; G <= 0.1 mJ; ready "
           "within 0.1 s of "
           "its return",
-          text_of(s), fades(s, limit_step)};
+          text_of(s), fades(s, world_step_limit)};
 }
 
 Row world_return_is_no_kick() {
@@ -132,7 +95,7 @@ Row world_return_is_no_kick() {
       fmt::format(
           "inside {:g} N; beyond K v T {:.3f} N; plane work {:+.3f} mJ of its bound; {:.2f} N again at least",
           r.inside, r.step, 1e3 * r.excess, least_again),
-      r.inside == 0 && r.step <= limit_step && r.excess <= 1e-9 && least_again > 0.3};
+      r.inside == 0 && r.step <= world_step_limit && r.excess <= 1e-9 && least_again > 0.3};
 }
 
 namespace {
@@ -182,8 +145,8 @@ Row steady_stick(const Runs& runs, const char* what, double torque_limit) {
           "{} cases: {} above 200 um, most {:.0f} um; G {:.3f} mJ, work {:+.3f} mJ of its bound; {:.3f} N "
           "beyond K v T; force off by {:.2f} %",
           t.cases, t.above_200_um, 1e6 * t.swing, 1e3 * t.surplus, 1e3 * t.excess, t.step, 100 * t.untrue),
-      t.above_200_um == 0 && t.surplus <= EnergyBook::G_allowed && t.excess <= 1e-9 && t.step <= limit_step &&
-          t.untrue <= 0.02};
+      t.above_200_um == 0 && t.surplus <= EnergyBook::G_allowed && t.excess <= 1e-9 &&
+          t.step <= world_step_limit && t.untrue <= 0.02};
 }
 
 }  // namespace

@@ -31,6 +31,7 @@ class Tissue {
   /// Moves the whole object: a pulse, or a jump [m].
   void set_base(double z) noexcept { base_ = z; }
 
+  double base() const noexcept { return base_; }          // [m]
   double surface() const noexcept { return base_ + z_; }  // [m]
   /// A square of 2 x 40 mm side in two triangles.
   ContactPatch patch(std::uint64_t tick) const noexcept;

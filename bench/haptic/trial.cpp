@@ -72,7 +72,8 @@ void Trial::answer_of_world() {
   }
   Answer answer;
   const bool fresh = known_.state.tick > 0 && now_ns_ - known_ns_ <= silence_ns;
-  world_->frame(fresh ? &known_.state : nullptr, physics_clock_ns(), answer.patch, answer.wrench);
+  world_->frame(fresh ? &known_.state : nullptr, tissue_.base(), physics_clock_ns(), answer.patch,
+                answer.wrench);
   answer.patch.tick = answer.wrench.tick = ++frame_;
   if (!physics_alive) return;
   if (alter_patch) alter_patch(answer.patch, known_.proxy);

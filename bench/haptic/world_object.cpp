@@ -19,21 +19,33 @@ Scene slab_scene(const SlabModel& slab, ForceModel model, double rate_Hz, double
           "title = \"slab\"\ngravity_m_per_s2 = [0, 0, 0]\n[physics]\nframe_Hz = {}\nthreads = 1\n"
           "[material.tissue]\ndensity_kg_per_m3 = 1000\n{}\n"
           "[[body]]\nname = \"slab\"\nlattice = \"voxel\"\nspacing_mm = 4\nmaterial = \"tissue\"\n"
-          "shape = \"box\"\nsize_mm = [64, 40, {}]\nat_mm = [10, 0, {}]\nfixed = [\"-z\"]\n"
+          "shape = \"box\"\nsize_mm = [64, 40, {}]\nat_mm = [10, 0, {}]\nfixed = [{}]\n"
           "[[tool]]\nname = \"tool\"\n{}device = \"hand\"\nstiffness_N_per_m = {}\ndamping_N_s_per_m = {}\n"
           "[device.hand]\ndriver = \"simulated\"\nwaypoints = [[0, 0, 0, 20], [1, 0, 0, 20]]\n",
-          rate_Hz, slab.material, thick_mm, top_mm - thick_mm / 2, tool, hand_stiffness, hand_damping),
+          rate_Hz, slab.material, thick_mm, top_mm - thick_mm / 2,
+          slab.held ? "{ min_mm = [-100, -100, -100], max_mm = [100, 100, 100] }" : "\"-z\"", tool,
+          hand_stiffness, hand_damping),
       slab.name);
   scene.tools[0].force_model = model;
   return scene;
 }
 
-void WorldObject::frame(const ToolState* hand, std::int64_t now_ns, ContactPatch& patch, ToolWrench& wrench) {
-  const std::optional<ToolState> state = hand == nullptr ? std::nullopt : std::optional(*hand);
+void WorldObject::frame(const ToolState* hand, double table, std::int64_t now_ns, ContactPatch& patch,
+                        ToolWrench& wrench) {
+  std::optional<ToolState> state = hand == nullptr ? std::nullopt : std::optional(*hand);
+  if (state) {
+    state->p_WT[2] -= table;
+    state->proxy[2] -= table;
+  }
   world_.frame(std::span(&state, 1));
   const auto number = static_cast<std::uint64_t>(world_.report().frames);
   world_.tool(0).write_wrench(wrench, number, now_ns, world_.t());
   world_.tool(0).write_patch(patch, number, now_ns);
+  for (Array3* p : {&wrench.p_WT, &wrench.set_point, &wrench.tip}) (*p)[2] += table;
+  for (std::size_t i = 0; i < patch.n_facets; ++i) {
+    patch.facets[i].point[2] += table;
+    for (Array3& corner : patch.facets[i].corners) corner[2] += table;
+  }
 }
 
 }  // namespace palpate::bench

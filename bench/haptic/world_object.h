@@ -16,13 +16,15 @@ struct SlabModel {
   const char* name;
   const char* material;  // keys of a [material]
   bool stick;
-  double about;  // [N/m]
+  double about;       // [N/m]
+  bool held = false;  // every mass of it: a wall
 };
 inline constexpr std::array<SlabModel, 3> slab_models{
     {{"slab 30 kPa", "modulus_kPa = 30\nviscosity_Pa_s = 10", false, 270},
      {"slab 100 kPa", "modulus_kPa = 100\nviscosity_Pa_s = 20", false, 900},
      {"yielding slab", "modulus_kPa = 60\nviscosity_Pa_s = 10\nyield_ratio = 1.03\nbreak_ratio = 3", false,
       400}}};
+inline constexpr SlabModel held_slab{"held slab", "modulus_kPa = 100", false, rigid_stiffness, true};
 inline constexpr SlabModel stick_slab{"slab 100 kPa, stick", "modulus_kPa = 100\nviscosity_Pa_s = 20", true,
                                       1500};
 
@@ -33,8 +35,11 @@ Scene slab_scene(const SlabModel& slab, ForceModel model, double rate_Hz, double
 class WorldObject {
  public:
   explicit WorldObject(const Scene& scene) : world_(scene) {}
-  /// One frame. @param hand  newest known; null: nothing fresh
-  void frame(const ToolState* hand, std::int64_t now_ns, ContactPatch& patch, ToolWrench& wrench);
+  /// One frame. The whole world stands on a table, which may be moved slowly: hand and answers are seen from beside it.
+  /// @param hand   newest known; null: nothing fresh
+  /// @param table  its height [m]
+  void frame(const ToolState* hand, double table, std::int64_t now_ns, ContactPatch& patch,
+             ToolWrench& wrench);
   const physics::World& world() const { return world_; }
 
  private:

@@ -37,9 +37,12 @@ INSTANTIATE_TEST_SUITE_P(
         std::pair{"StiffHandSpring", &stiff_matrix_is_stable},
         std::pair{"UnrulyLinks", &unruly_links_are_borne}, std::pair{"Gaps", &gaps_are_borne},
         std::pair{"RawPlanesOnRealTissue", &world_raw_is_unstable}, std::pair{"RealTissue", &world_is_stable},
+        std::pair{"RealWall", &world_wall_is_stable}, std::pair{"PulseOfRealPhysics", &world_pulse_is_felt},
+        std::pair{"StiffSpringOnRealTissue", &world_bears_a_stiff_spring},
+        std::pair{"UnrulyLinksToRealTissue", &world_bears_unruly_links},
         std::pair{"TrueForceOfRealTissue", &world_force_is_true}, std::pair{"Stick", &stick_is_steady},
         std::pair{"StickWithTorques", &stick_with_torques_is_steady}, std::pair{"TrueForce", &force_is_true},
-        std::pair{"Pulse", &pulse_is_felt}, std::pair{"Saturation", &saturation_is_quiet}),
+        std::pair{"Pulse", &pulse_is_felt}),
     [](const auto& which) { return std::string(which.param.first); });
 
 TEST(HapticLoop, PushesGentlyWhenPlanesTeleport) { expect(teleports_push_gently()); }
@@ -47,6 +50,10 @@ TEST(HapticLoop, FeelsEdgesAndCornersAsTheyAre) { expect(edges_and_corners()); }
 TEST(HapticLoop, FeelsASphereAsRound) { expect(sphere_is_round()); }
 TEST(HapticLoop, MindsNoOtherClock) { expect(clocks_may_differ(quick())); }
 TEST(HapticLoop, IsFreeInFreeSpace) { expect(free_space_is_free()); }
+TEST(HapticLoop, IsFreeAboveRealTissue) { expect(world_free_space_is_free()); }
+TEST(HapticLoop, HoldsItsLimitStill) { expect(saturation_is_quiet()); }
+TEST(HapticLoop, HoldsItsLimitStillOnRealPhysics) { expect(world_saturation_is_quiet()); }
+TEST(HapticLoop, FeelsNothingBesideARealEdge) { expect(world_edge_has_no_ghost(quick())); }
 TEST(HapticLoop, FadesWhenPhysicsDies) { expect(silence_fades()); }
 TEST(HapticLoop, BoundsTorques) { expect(torque_is_bounded(quick())); }
 TEST(HapticLoop, FadesWhenRealTissueFallsSilent) { expect(world_silence_fades()); }
