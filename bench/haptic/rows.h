@@ -69,6 +69,7 @@ Row stick_with_torques_is_steady(Runs& runs);  // S12
 Row world_wall_is_stable(Runs& runs);           // S1
 Row world_bears_a_stiff_spring(Runs& runs);     // S3
 Row world_bears_unruly_links(Runs& runs);       // N1
+Row world_teleports_push_gently();              // S7
 Row world_edge_has_no_ghost(const Runs& runs);  // S8
 
 // rows_six.cpp

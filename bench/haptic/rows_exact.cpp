@@ -107,6 +107,7 @@ std::vector<Row> all_rows(Runs& runs) {
           world_bears_a_stiff_spring(runs),
           world_force_is_true(runs),
           world_pulse_is_felt(runs),
+          world_teleports_push_gently(),
           world_edge_has_no_ghost(runs),
           world_free_space_is_free(),
           world_saturation_is_quiet(),

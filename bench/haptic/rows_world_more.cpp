@@ -82,6 +82,40 @@ Row world_bears_unruly_links(Runs& runs) {
           "as S2", world_figure(t), as_s2(t)};
 }
 
+/// A held slab of 16 mm leaps 6 mm into the hand; slabs are told of only when the hand is in them, nearer to the side below.
+Row world_teleports_push_gently() {
+  constexpr double when = 2.0;
+  double step = -1, excess = -1, surplus = 0, least = 1e9;
+  std::vector<const SlabModel*> slabs{nullptr, &held_slab};  // null: the leap
+  for (const SlabModel& slab : slab_models) slabs.push_back(&slab);
+  for (const SlabModel* slab : slabs)
+    for (const double rate : {20.0, 1000.0}) {
+      Case c = case_of(slab == nullptr ? held_slab : *slab);
+      c.device = device_models[3];
+      c.rate_Hz = rate;
+      Trial trial(c, press_path(c));
+      if (slab == nullptr)
+        trial.move_object = [](Tissue& table, double t) { table.set_base(t > when ? 0.006 : 0.0); };
+      else
+        trial.alter_patch = [&](ContactPatch& patch, const Vec3&) {
+          if (trial.t() < when) patch.n_facets = 0;
+        };
+      trial.run(4.0);
+      step = std::max(step, trial.force_step_beyond_motion());
+      excess = std::max(excess, trial.energy().plane_excess());
+      surplus = std::max(surplus, trial.energy().surplus());
+      least = std::min(least, trial.rendered().force.norm());
+    }
+  return {
+      "S7",
+      "real physics: a held slab leaps 6 mm into the hand; slabs appear around a hand that is deep in them",
+      "steps <= K (v T + q) + 0.1 N, bound on plane work kept, G <= 0.1 mJ; felt in the end",
+      fmt::format("beyond K v T {:.3f} N; plane work {:+.3f} mJ of its bound; G {:.3f} mJ; {:.2f} N at least "
+                  "after 2 s",
+                  step, 1e3 * excess, 1e3 * surplus, least),
+      step <= world_step_limit && excess <= 1e-9 && surplus <= EnergyBook::G_allowed && least > 0.1};
+}
+
 /// 2 mm deep along a held slab, over its edge and down beside it, 10 mm off; the ball of the tool has a radius of 5 mm.
 Row world_edge_has_no_ghost(const Runs& runs) {
   constexpr double edge = 0.042, radius = 5e-3, down = 0.5, depth = 2e-3;

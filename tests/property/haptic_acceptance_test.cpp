@@ -53,6 +53,7 @@ TEST(HapticLoop, IsFreeInFreeSpace) { expect(free_space_is_free()); }
 TEST(HapticLoop, IsFreeAboveRealTissue) { expect(world_free_space_is_free()); }
 TEST(HapticLoop, HoldsItsLimitStill) { expect(saturation_is_quiet()); }
 TEST(HapticLoop, HoldsItsLimitStillOnRealPhysics) { expect(world_saturation_is_quiet()); }
+TEST(HapticLoop, PushesGentlyWhenRealPhysicsLeaps) { expect(world_teleports_push_gently()); }
 TEST(HapticLoop, FeelsNothingBesideARealEdge) { expect(world_edge_has_no_ghost(quick())); }
 TEST(HapticLoop, FadesWhenPhysicsDies) { expect(silence_fades()); }
 TEST(HapticLoop, BoundsTorques) { expect(torque_is_bounded(quick())); }
