@@ -1,11 +1,12 @@
 // The loop thread takes no memory, no lock and no page once it is warm: counted while the real loop runs, beside threads
-// that take both all the time.
+// that take both all the time. PALPATE_QUIET_SECONDS in the environment: how long; 3 s otherwise.
 
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <pthread.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdlib>
 #include <mutex>
@@ -75,18 +76,24 @@ TEST(QuietLoop, TheCountersSeeAnAllocationAndALock) {
   EXPECT_EQ(locks.exchange(0), 1u);
 }
 
+int seconds_to_watch() {
+  const char* given = std::getenv("PALPATE_QUIET_SECONDS");
+  return given == nullptr ? 3 : std::max(1, std::atoi(given));
+}
+
 /// In and out of the tissue twice a second.
-std::vector<Waypoint> tapping() {
+std::vector<Waypoint> tapping(int seconds) {
   std::vector<Waypoint> path = {{0, {0, 0, 0.005}}};
-  for (int i = 1; i < 40; ++i) path.push_back({0.25 * i, {0, 0, i % 2 == 1 ? -0.002 : 0.005}});
+  for (int i = 1; i < 4 * (seconds + 5); ++i) path.push_back({0.25 * i, {0, 0, i % 2 == 1 ? -0.002 : 0.005}});
   return path;
 }
 
 TEST(QuietLoop, TakesNoMemoryNoLockAndNoPageOnceItIsWarm) {
+  const int seconds = seconds_to_watch();
   std::string why;
   lock_memory(why);
   palpate::test::WatchedFile file(watched_file(), palpate::test::WatchedFile::Role::test);
-  RunningLoop running(watched(scene_with(HandModel::arm, tapping())));
+  RunningLoop running(watched(scene_with(HandModel::arm, tapping(seconds))));
   std::atomic<bool> end{false};
   std::mutex mutex;
   std::thread busy([&] {
@@ -100,7 +107,7 @@ TEST(QuietLoop, TakesNoMemoryNoLockAndNoPageOnceItIsWarm) {
   ASSERT_GT(file->loop_thread.load(), 0);
   const std::uint64_t before = running.last_tick;
   counted_thread.store(file->loop_thread.load());
-  running.live(3000ms, true);
+  running.live(1000ms * seconds, true);
   counted_thread.store(0);
   end.store(true);
   busy.join();
