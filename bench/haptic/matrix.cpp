@@ -80,9 +80,8 @@ std::vector<Case> over_links(const std::vector<Case>& bases, const MatrixSize& s
 std::vector<Case> matrix(const DeviceModel& device, const MatrixSize& size, RenderMode mode) {
   std::vector<Case> bases;
   for (const double stiffness : size.stiffnesses)
-    for (const HandSpring& hand : hand_springs)
+    for (const HandSpring& hand : holding_hands)
       for (const ObjectModel& object : object_models) {
-        if (hand.stiffness <= 0) continue;
         Case c;
         c.device = device;
         c.hand = hand;
@@ -132,6 +131,20 @@ Tally tally(const std::vector<CaseResult>& results) {
       all.force_error_most = std::max(all.force_error_most, std::abs(r.force - 1.0));
   }
   return all;
+}
+
+bool keeps_S2(const Tally& t) noexcept {
+  return t.above_200_um == 0 && t.above_100_um * 100 <= t.cases && t.energy_broken == 0;
+}
+
+Case against_wall(Case c) noexcept {
+  c.stiffness = c.device.friction > 0.1 ? 1000.0 : 500.0;
+  c.damping = damping_for(c.stiffness);
+  return c;
+}
+
+bool is_still(const CaseResult& r) noexcept {
+  return std::max(r.swing, r.sideways) <= std::max(2 * r.c.device.resolution, 100e-6);
 }
 
 std::string text_of(const Case& c) {

@@ -65,6 +65,17 @@ struct Tally {
 };
 Tally tally(const std::vector<CaseResult>& results);
 
+/// S2: none above 200 um, at most 1 % above 100 um, energy bounds in all.
+bool keeps_S2(const Tally& tally) noexcept;
+
+/// Above 500 N/m two newton seconds per metre are needed.
+inline double damping_for(double stiffness) noexcept { return stiffness > 500 ? 2.0 : 1.0; }
+
+/// S1: `c` against a wall, as stiff as its device bears.
+Case against_wall(Case c) noexcept;
+/// S1: swings by no more than two steps of the encoder, or 100 um.
+bool is_still(const CaseResult& result) noexcept;
+
 /// "Touch arm O1 60 Hz 20 ms 10 % K 500 seed 7"
 std::string text_of(const Case& c);
 

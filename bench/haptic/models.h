@@ -2,6 +2,7 @@
 // Devices, hands and objects of the matrix that the haptic loop must bear, as masses, springs and dampers.
 
 #include <array>
+#include <span>
 
 namespace palpate::bench {
 
@@ -39,6 +40,8 @@ inline constexpr std::array<HandSpring, 4> hand_springs{{{"pinch", 0.02, 1.0, 10
                                                          {"arm", 0.554, 6.45, 135.0},
                                                          {"firm", 0.15, 5.0, 700.0},
                                                          {"none", 0.0, 0.0, 0.0}}};
+/// All but none.
+inline constexpr std::span<const HandSpring> holding_hands{hand_springs.data(), 3};
 inline constexpr std::array<ObjectModel, 4> object_models{
     {{"static", 0.0, 0.0, 0.0}, {"O1", 0.1, 2.0, 200.0}, {"O2", 0.5, 5.0, 1000.0}, {"O3", 0.02, 0.5, 50.0}}};
 

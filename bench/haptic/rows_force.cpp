@@ -116,7 +116,7 @@ Row wave_above(const Case& base, const char* what) {
 Row press_too_hard(const Case& base, const char* what) {
   double swing = 0, turned = 0, surplus = 0, over = 0;
   for (const DeviceModel& device : device_models)
-    for (const HandSpring& hand : {hand_springs[0], hand_springs[1], hand_springs[2]}) {
+    for (const HandSpring& hand : holding_hands) {
       Case c = base;
       c.device = device;
       c.hand = hand;

@@ -26,9 +26,7 @@ Row world_is_stable(Runs& runs) {
           "real tissue, 3-D: slabs of 30 and 100 kPa and one that yields; Touch and Premium, 3 hands, K 300 "
           "and 500",
           "none above 200 um, <= 1 % above 100 um, energy bounds in all, steps <= K (v T + q) + 0.1 N",
-          world_figure(t),
-          t.above_200_um == 0 && t.above_100_um * 100 <= t.cases && t.energy_broken == 0 &&
-              t.step_beyond_most <= world_step_limit};
+          world_figure(t), keeps_S2(t) && t.step_beyond_most <= world_step_limit};
 }
 
 Row world_raw_is_unstable(Runs& runs) {
@@ -107,8 +105,7 @@ struct StickTally {
 /// A stick pressed into a slab by all hands. @param torque_limit  of the device [N m]
 StickTally press_stick(const Runs& runs, double torque_limit) {
   std::vector<Case> bases;
-  for (const HandSpring& hand : hand_springs) {
-    if (hand.stiffness <= 0) continue;
+  for (const HandSpring& hand : holding_hands) {
     bases.push_back(case_of(stick_slab));
     bases.back().hand = hand;
     bases.back().torque_limit = torque_limit;
@@ -129,10 +126,6 @@ StickTally press_stick(const Runs& runs, double torque_limit) {
   }
   return t;
 }
-
-}  // namespace
-
-namespace {
 
 Row steady_stick(const Runs& runs, const char* what, double torque_limit) {
   const StickTally t = press_stick(runs, torque_limit);

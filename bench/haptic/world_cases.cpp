@@ -16,8 +16,7 @@ Case case_of(const SlabModel& slab) {
 std::vector<Case> world_cases(Effort effort, RenderMode mode, const DeviceModel& device) {
   std::vector<Case> bases;
   for (const SlabModel& slab : slab_models)
-    for (const HandSpring& hand : hand_springs) {
-      if (hand.stiffness <= 0) continue;
+    for (const HandSpring& hand : holding_hands) {
       Case c = case_of(slab);
       c.device = device;
       c.hand = hand;
