@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "haptic_node/contact/hand_motion.h"
 #include "haptic_node/drivers/simulated/simulated_hand.h"
 
 namespace palpate::haptic::simulated {
@@ -18,13 +19,6 @@ Quaterniond turned_by(const Vector3d& r) noexcept {
   if (angle < 1e-12) return Quaterniond(1, 0.5 * r.x(), 0.5 * r.y(), 0.5 * r.z());
   const Vector3d v = std::sin(0.5 * angle) / angle * r;
   return Quaterniond(std::cos(0.5 * angle), v.x(), v.y(), v.z());
-}
-
-/// The rotation vector of q, by at most half a turn.
-Vector3d turn_of(const Quaterniond& q) noexcept {
-  const double sine = q.vec().norm();
-  if (sine < 1e-12) return (q.w() < 0 ? -2.0 : 2.0) * q.vec();
-  return 2 * std::atan2(q.w() < 0 ? -sine : sine, std::abs(q.w())) / sine * q.vec();
 }
 
 }  // namespace
@@ -53,7 +47,7 @@ void SimulatedTurn::path_at(std::int64_t t_ns, Quaterniond& q, Vector3d& w) noex
   q = quaternion(from);
   if (leg_ + 1 == points.size() || t <= from.t) return;
   const AttitudePoint& to = points[leg_ + 1];
-  w = turn_of(quaternion(to) * q.conjugate()) / (to.t - from.t);
+  w = turn_between(q, quaternion(to)) / (to.t - from.t);
   q = turned_by((t - from.t) * w) * q;
 }
 
@@ -74,9 +68,9 @@ void SimulatedTurn::advance_to(std::int64_t now_ns, const Array3& torque,
   while (t_ns_ + step_ns <= now_ns) {
     path_at(t_ns_, q_path, w_path);
     const double on = t_ns_ < torque_until_ns ? 1.0 : 0.0;
-    w_ += h / turn.inertia *
-          (turn.stiffness * turn_of(q_path * q_.conjugate()) + turn.damping * (w_path - w_) - turn.drag * w_ +
-           on * M);
+    w_ +=
+        h / turn.inertia *
+        (turn.stiffness * turn_between(q_, q_path) + turn.damping * (w_path - w_) - turn.drag * w_ + on * M);
     const double speed = w_.norm();
     if (friction > 0) w_ *= speed > friction ? 1.0 - friction / speed : 0.0;
     q_ = (turned_by(h * w_) * q_).normalized();
