@@ -20,4 +20,7 @@ inline constexpr Range any_number{};
 inline constexpr Range positive{.lo = 0, .without_lo = true};
 inline constexpr Range not_negative{.lo = 0};
 
+/// How long anything may run [s]: eleven days. Whatever is asked of a scene or on a command line lies in it.
+inline constexpr Range run_seconds{.lo = 0, .hi = 1e6, .without_lo = true};
+
 }  // namespace palpate

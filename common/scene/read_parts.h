@@ -13,6 +13,7 @@ struct ReadContext {
   Complaints& complaints;
 };
 
+void read_run(TableReader& root, ReadContext& context);        // [scene]
 void read_physics(TableReader& root, ReadContext& context);    // [physics]
 void read_floor(TableReader& root, ReadContext& context);      // [floor]
 void read_walls(TableReader& root, ReadContext& context);      // [[wall]]

@@ -1,4 +1,4 @@
-// [physics], [floor] and [contact].
+// [scene], [physics], [floor] and [contact].
 #include <fmt/format.h>
 
 #include "common/math/units.h"
@@ -19,6 +19,14 @@ void read_step(TableReader& reader, PhysicsSpec& physics) {
 }
 
 }  // namespace
+
+void read_run(TableReader& root, ReadContext& context) {
+  const auto* table = root.read_table("scene");
+  if (table == nullptr) return;
+  TableReader reader(*table, "[scene]", context.complaints);
+  context.scene.seconds = reader.read_number("seconds", run_seconds);
+  reader.refuse_left_over();
+}
 
 void read_physics(TableReader& root, ReadContext& context) {
   const auto* table = root.read_table("physics");

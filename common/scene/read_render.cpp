@@ -40,6 +40,10 @@ void read_render(TableReader& root, ReadContext& context) {
     render.show_fragments = (*shown)[4];
   }
   set_if(render.rate_Hz, reader.read_number("rate_Hz", {.lo = 0, .hi = 1000, .without_lo = true}));
+  if (const auto most = reader.read_integer("most_frames", 2, 1'000'000))
+    render.most_frames = static_cast<int>(*most);
+  if (const auto most = reader.read_number("most_frames_MB", {.lo = 1, .hi = 1e6}))
+    render.most_frame_bytes = 1e6 * *most;
   reader.refuse_left_over();
 }
 

@@ -26,6 +26,7 @@ const DeviceSpec& Scene::device(const std::string& name) const { return named(de
 
 double Scene::natural_seconds() const {
   constexpr double without_path = 5.0, after_path = 1.0;
+  if (seconds) return *seconds;
   double end = without_path - after_path;
   bool any = false;
   for (const auto& device : devices) {

@@ -212,6 +212,9 @@ struct RenderSpec {
   bool show_tool = true, show_force = true, show_panels = true, show_wire = false;
   bool show_fragments = false;         // every fragment but the largest in a colour of its own
   double rate_Hz = 10;                 // frames per simulated second when headless
+  // What the frames of one run may take on the disk. Where that is reached, every second one goes and half as many come.
+  int most_frames = 400;
+  double most_frame_bytes = 200e6;
 };
 
 struct RecordSpec {
@@ -226,6 +229,7 @@ struct Scene {
   std::string path;                    // of the scene file, as given
   std::uint64_t checksum = 0;          // of its text and the settings on the command line
   std::uint64_t seed = 1;
+  std::optional<double> seconds;       // that a run lasts where nobody says otherwise [s]; absent: natural_seconds()
   Vec3 gravity{0, 0, -9.81};           // [m/s^2]
   PhysicsSpec physics;
   std::vector<BodySpec> bodies;
@@ -240,7 +244,8 @@ struct Scene {
 
   const MaterialSpec& material(const std::string& name) const;  // must exist
   const DeviceSpec& device(const std::string& name) const;      // must exist
-  /// End of the longest device path plus one second; five seconds where there is none [s].
+  /// How long a run lasts where nobody says otherwise: as the scene has it, else to the end of the longest device path
+  /// plus one second, five seconds where there is none [s].
   double natural_seconds() const;
 };
 

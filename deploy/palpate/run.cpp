@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "common/error/error.h"
+#include "common/process/checked_option.h"
 #include "common/process/stop_flag.h"
 #include "common/scene/load_scene.h"
 #include "deploy/palpate/disk_reserve.h"
@@ -131,6 +132,7 @@ int run(const RunOptions& options) {
                      .reach = reach,
                      .identity = own_identity("supervisor", scene.path, scene.checksum)},
       .seconds = session_seconds(scene, options),
+      .simulated_too = options.seconds == 0,
       .ending = [&room] { room.reset(); }};
   require_programs(plan);
   require_drivers(scene, options, plan);
@@ -173,8 +175,8 @@ void add_run(CLI::App& app, int& exit_code) {
   command
       ->add_option(
           "--seconds", options->seconds,
-          "how long, once all nodes run; else until the hand's path ends, or the mouse's window is closed")
-      ->check(CLI::PositiveNumber);
+          "how long, once all nodes run; else until the scene's length is simulated, or the mouse's window is closed")
+      ->check(number_in(run_seconds));
   command->add_option("--out", options->out, "folder for results (default: out/NAME_OF_SCENE)");
   command->add_option("--set", options->settings, "table.key=value over the scene; may be repeated")
       ->allow_extra_args(false);

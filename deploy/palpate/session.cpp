@@ -77,9 +77,16 @@ class Session {
   /// True when the session is to end: a person said so, its time is up, or a node has gone or is past waiting for.
   bool over() {
     if (stop_requested() || quarrelled_) return true;
-    if (running_since_ && seconds_since(*running_since_) >= plan_.seconds) return true;
+    if (running_since_ && seconds_since(*running_since_) >= plan_.seconds && simulated_enough()) return true;
     return std::any_of(nodes_.begin(), nodes_.end(),
                        [this](RunningNode& node) { return node.child.ending() || silent_for_good(node); });
+  }
+
+  bool simulated_enough() const {
+    if (!plan_.simulated_too || std::find(shown_.begin(), shown_.end(), NodeKind::physics) == shown_.end())
+      return true;
+    const auto& physics = board_.at(NodeKind::physics).newest;
+    return physics && physics->t >= plan_.seconds;
   }
 
   void watch_start() {

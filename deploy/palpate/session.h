@@ -21,6 +21,7 @@ struct SessionPlan {
   std::vector<std::string> arguments;  // of every node
   Membership membership;               // of the supervisor; its identity is what all others are compared with
   double seconds = 0;                  // from the moment all nodes run
+  bool simulated_too = false;          // physics must have come so far, too: what happens slowly is seen to its end
   std::function<void()> ending;        // called before nodes are told to end; empty: nothing
 };
 

@@ -115,10 +115,15 @@ camera = { yaw_deg = 90, pitch_deg = 30, distance_mm = 400, target_mm = [0, 0, 1
 threshold = 226
 show = ["force", "wire", "fragments"]
 rate_Hz = 25
+most_frames = 50
+most_frames_MB = 20
 
 [record]
 what = ["positions"]
 rate_Hz = 100
+
+[scene]
+seconds = 12.5
 )";
 
 const char* const least_scene = R"([material.a]

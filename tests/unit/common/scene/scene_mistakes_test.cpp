@@ -151,7 +151,12 @@ INSTANTIATE_TEST_SUITE_P(Views, SceneMistakes, testing::ValuesIn(std::vector<Mis
     {"pitch_deg = 30", "pitch_deg = 91", "101:38", "\"pitch_deg\" in camera of [render] is 91; write a number from -90 to 90"},
     {"threshold = 226", "threshold = \"bone\"", "102:13", "write a finite number"},
     {"\"wire\"", "\"wires\"", "103:18", "write \"tool\", \"force\", \"panels\", \"wire\" or \"fragments\""},
-    {"what = [\"positions\"]", "what = \"positions\"", "107:8", "write a list of \"positions\", \"forces\" and \"energy\""},
+    {"most_frames = 50", "most_frames = 1", "105:15", "write a whole number from 2 to 1000000"},
+    {"most_frames_MB = 20", "most_frames_MB = nan", "106:18", "write a number from 1 to 1000000"},
+    {"seconds = 12.5", "seconds = 0", "113:11", "is 0; write a number above 0 and at most 1000000"},
+    {"seconds = 12.5", "seconds = nan", "113:11", "is nan; write a number above 0 and at most 1000000"},
+    {"seconds = 12.5", "second = 1", "113:1", "unknown key \"second\" in [scene]; did you mean \"seconds\"?"},
+    {"what = [\"positions\"]", "what = \"positions\"", "109:8", "write a list of \"positions\", \"forces\" and \"energy\""},
 }));
 
 INSTANTIATE_TEST_SUITE_P(Syntax, SceneMistakes, testing::ValuesIn(std::vector<Mistake>{
@@ -251,7 +256,7 @@ TEST(SceneReader, KeepsComplaintsOnOneLine) {
   for (const auto& line : complaints_about("\"a\\nb\" = 1\ntitle = [\"x\\n\"]\n")) EXPECT_EQ(line.find('\n'), line.npos);
   EXPECT_EQ(complaints_about("\"a\\nb\" = 1\n").at(0),
             "s.toml:1:1: unknown key \"a b\" in the scene; known keys: \"title\", \"seed\", \"gravity_m_per_s2\", "
-            "\"physics\", \"material\", \"device\", \"body\", \"tool\", \"floor\", \"wall\", \"contact\", \"render\" and \"record\"");
+            "\"scene\", \"physics\", \"material\", \"device\", \"body\", \"tool\", \"floor\", \"wall\", \"contact\", \"render\" and \"record\"");
 }
 
 }  // namespace

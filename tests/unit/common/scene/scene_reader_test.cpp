@@ -147,6 +147,8 @@ TEST(SceneReader, ReadsWhatIsSeenAndKept) {
   EXPECT_TRUE(scene.render.show_wire);
   EXPECT_TRUE(scene.render.show_fragments);
   EXPECT_EQ(scene.render.rate_Hz, 25);
+  EXPECT_EQ(scene.render.most_frames, 50);
+  EXPECT_EQ(scene.render.most_frame_bytes, 20e6);
   EXPECT_TRUE(scene.record.positions);
   EXPECT_FALSE(scene.record.forces);
   EXPECT_EQ(scene.record.rate_Hz, 100);
@@ -184,8 +186,12 @@ TEST(SceneReader, ChecksumTellsTextAndSettingsApart) {
   EXPECT_NE(parsed(least_scene, {"seed=1"}).checksum, parsed(least_scene, {"seed=2"}).checksum);
 }
 
-TEST(SceneReader, NaturalTimeIsTheLongestPathAndASecond) {
-  EXPECT_DOUBLE_EQ(parsed(full_scene).natural_seconds(), 2.5);
+TEST(SceneReader, LastsAsItSaysElseToTheEndOfTheLongestPathAndASecond) {
+  EXPECT_DOUBLE_EQ(parsed(full_scene).natural_seconds(), 12.5);
+  std::string text(full_scene);
+  const std::string own = "[scene]\nseconds = 12.5\n";
+  text.erase(text.find(own), own.size());
+  EXPECT_DOUBLE_EQ(parsed(text).natural_seconds(), 2.5);
   EXPECT_DOUBLE_EQ(parsed(least_scene).natural_seconds(), 5.0);
 }
 
