@@ -11,6 +11,7 @@
 #include "bench/problems/settings.h"
 #include "bench/subcommands.h"
 #include "common/error/error.h"
+#include "common/process/checked_option.h"
 #include "physics_node/step/element_context.h"
 
 namespace palpate::bench {
@@ -143,7 +144,9 @@ void add_kernel(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
   command->add_option("--out", options->out, "folder of the results")->capture_default_str();
   command->add_option("--filter", options->filter, "rows to run, as a regular expression: fcc/single/damped");
-  command->add_option("--min-time", options->min_time_s, "of a repetition [s]")->capture_default_str();
+  command->add_option("--min-time", options->min_time_s, "of a repetition [s]")
+      ->capture_default_str()
+      ->check(number_in({.lo = 0, .hi = 600, .without_lo = true}));
   command->add_option("--repetitions", options->repetitions, "of a row; the median counts")
       ->capture_default_str();
   command->add_flag("--quick", options->quick, "two sizes only");

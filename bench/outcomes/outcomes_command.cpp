@@ -15,6 +15,7 @@
 #include "bench/problems/stopwatch.h"
 #include "bench/subcommands.h"
 #include "common/error/error.h"
+#include "common/process/checked_option.h"
 
 namespace palpate::bench {
 namespace {
@@ -101,10 +102,10 @@ void add_outcomes(CLI::App& app, int& exit_code) {
   command->add_option("--out", options->out, "folder of the results")->capture_default_str();
   command->add_option("--speeds", options->speeds, "at which it meets the floor [m/s]; 100 falls each")
       ->capture_default_str()
-      ->check(CLI::Range(0.01, 100.0));
+      ->check(number_in({.lo = 0.01, .hi = 100}));
   command->add_option("--seconds", options->seconds, "of each fall")
       ->capture_default_str()
-      ->check(CLI::Range(0.01, 10.0));
+      ->check(number_in({.lo = 0.01, .hi = 10}));
   command->add_option("--jobs", options->jobs, "falls at a time")
       ->capture_default_str()
       ->check(CLI::Range(1, 256));

@@ -15,6 +15,7 @@
 #include "bench/shots/shot.h"
 #include "bench/subcommands.h"
 #include "common/error/error.h"
+#include "common/process/checked_option.h"
 
 namespace palpate::bench {
 namespace {
@@ -108,7 +109,7 @@ void add_shots(CLI::App& app, int& exit_code) {
   command->add_option("--seed", options->one, "one shot");
   command->add_option("--fastest", options->fastest, "[m/s]")
       ->capture_default_str()
-      ->check(CLI::Range(0.2, 1000.0));
+      ->check(number_in({.lo = 0.2, .hi = 1000}));
   command->add_flag("--paper", options->paper,
                     "contact of the paper, which lets masses through: counts them");
   command->add_option("--jobs", options->jobs, "shots at a time")

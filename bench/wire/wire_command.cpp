@@ -10,6 +10,7 @@
 #include "bench/wire/scene_traffic.h"
 #include "bench/wire/topic_cost.h"
 #include "common/error/error.h"
+#include "common/process/checked_option.h"
 #include "common/wire/reach.h"
 #include "common/wire/shared_memory.h"
 
@@ -145,7 +146,9 @@ void add_wire(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--scene-folder", options->scene_folder, "where they are")->capture_default_str();
   command->add_option("--nodes", options->nodes, "nodes of these sessions")->capture_default_str();
-  command->add_option("--seconds", options->seconds, "of each session")->capture_default_str();
+  command->add_option("--seconds", options->seconds, "of each session")
+      ->capture_default_str()
+      ->check(number_in(run_seconds));
   command->add_option("--rounds", options->rounds, "there and back, of each size; 0: left out")
       ->capture_default_str()
       ->check(CLI::Range(0, 1'000'000));

@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "common/error/error.h"
+#include "common/process/checked_option.h"
 #include "common/process/stop_flag.h"
 #include "common/report/log.h"
 #include "common/scene/load_scene.h"
@@ -47,7 +48,7 @@ int node_main(int argc, char** argv, const char* name,
                  "network interface or its address; else this machine only");
   app.add_option("--peers", peers, "other machines, by name or address, separated by commas");
   app.add_option("--seconds", options.seconds, "simulated time after which to stop")
-      ->check(CLI::NonNegativeNumber);
+      ->check(number_in({.lo = 0, .hi = run_seconds.hi}));
   app.add_option("--device", options.device, "driver instead of the scene's");
   app.add_flag("--headless", options.headless, "frames to files instead of a window");
   app.add_flag("--require-rt", options.require_rt, "fail without real-time rights");

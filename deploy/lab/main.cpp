@@ -10,6 +10,7 @@
 #include <ctime>
 
 #include "common/error/error.h"
+#include "common/process/checked_option.h"
 #include "common/process/stop_flag.h"
 #include "common/time/clock.h"
 #include "deploy/lab/link_model.h"
@@ -48,9 +49,9 @@ int main(int argc, char** argv) {
   CLI::App app{"palpate-link: a cable between two network interfaces that delays, loses and reorders"};
   app.add_option("a", interfaces[0], "network interface")->required();
   app.add_option("b", interfaces[1], "network interface")->required();
-  app.add_option("--delay-ms", quality.delay_ms, "each way")->check(CLI::Range(0., 10000.));
-  app.add_option("--jitter-ms", quality.jitter_ms, "uniform, on top")->check(CLI::Range(0., 10000.));
-  app.add_option("--loss-percent", quality.loss_percent, "of frames")->check(CLI::Range(0., 100.));
+  app.add_option("--delay-ms", quality.delay_ms, "each way")->check(number_in({.lo = 0, .hi = 10'000}));
+  app.add_option("--jitter-ms", quality.jitter_ms, "uniform, on top")->check(number_in({.lo = 0, .hi = 10'000}));
+  app.add_option("--loss-percent", quality.loss_percent, "of frames")->check(number_in({.lo = 0, .hi = 100}));
   app.add_option("--seed", seed, "of loss and jitter");
   try {
     app.parse(argc, argv);

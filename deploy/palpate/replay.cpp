@@ -11,6 +11,7 @@
 
 #include "common/error/error.h"
 #include "common/math/hash.h"
+#include "common/process/checked_option.h"
 #include "common/process/stop_flag.h"
 #include "common/report/commit.h"
 #include "common/report/json_file.h"
@@ -164,7 +165,7 @@ void add_replay(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ReplayOptions>();
   CLI::App* command = app.add_subcommand("replay", "run a recorded session again and compare its states");
   command->add_option("record", options->record, "record.h5 of a run")->required();
-  command->add_option("--until", options->until, "simulated time [s]")->check(CLI::PositiveNumber);
+  command->add_option("--until", options->until, "simulated time [s]")->check(number_in(run_seconds));
   command->add_option("--threads", options->threads, "threads of physics, 0: as many as pay")
       ->check(CLI::Range(0, 256));
   command->add_option("--out", options->out, "folder for record, traces and plots of this run");

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "common/error/error.h"
+#include "common/process/checked_option.h"
 #include "common/process/stop_flag.h"
 #include "common/report/json_file.h"
 #include "common/scene/load_scene.h"
@@ -61,7 +62,8 @@ void add_simulate(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("simulate", "run a scene in simulated time, in one process, deterministic");
   command->add_option("scene", options->scene, "scene file (TOML)")->required();
-  command->add_option("--seconds", options->seconds, "simulated time")->check(CLI::PositiveNumber);
+  command->add_option("--seconds", options->seconds, "simulated time [s]; else that of the scene")
+      ->check(number_in(run_seconds));
   command->add_option("--out", options->out, "folder for the results (default out/SCENE)");
   command->add_option("--set", options->settings, "table.key=value over the scene; may be repeated")
       ->allow_extra_args(false);

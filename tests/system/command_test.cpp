@@ -48,6 +48,12 @@ TEST(Command, AnswersAMistakeWithOneLineAndExitCodeTwo) {
   expect_mistake("plot /no/such/folder", "/no/such/folder: has no summary.json");
 }
 
+TEST(Command, RefusesTimesThatNeverEnd) {
+  for (const char* seconds : {"nan", "inf", "1e300", "-1", "0"})
+    for (const char* option : {"run a.toml --seconds=", "simulate a.toml --seconds=", "replay a.h5 --until="})
+      expect_mistake(option + std::string(seconds), "is out of range; write a number above 0 and at most 1000000");
+}
+
 TEST(Command, HelpsWithExitCodeZero) {
   for (const char* arguments : {"--help", "run --help", "info --help", "plot --help", "doctor --help"}) {
     const Answer answer = palpate_says(arguments);
