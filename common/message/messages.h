@@ -14,7 +14,7 @@ using Array3 = std::array<double, 3>;
 using Array4 = std::array<double, 4>;
 using Array3f = std::array<float, 3>;
 
-inline constexpr std::uint32_t wire_version = 4;  // a reader rejects every other version
+inline constexpr std::uint32_t wire_version = 5;  // a reader rejects every other version
 
 inline constexpr std::uint32_t max_tools = 8;
 inline constexpr std::uint32_t max_bodies = 64;
@@ -26,6 +26,18 @@ inline constexpr std::uint32_t max_block_vertices = 2048;    // in one VertexBlo
 inline constexpr std::uint32_t max_trace_samples = 64;
 inline constexpr std::uint32_t histogram_bins = 24;  // bin b counts [2^b, 2^(b+1)) microseconds; bin 0 also 0
 inline constexpr std::uint32_t n_tallies = 8;        // counters of rejected samples, by RejectReason
+
+// What no number on the wire exceeds, whoever sends it. Why: a changed bit makes finite numbers, too, of which a time of
+// 1e300 s is one, and what is not bounded where it enters becomes an index or a size somewhere.
+inline constexpr double longest_time = 1e8;          // three years [s]
+inline constexpr double farthest_hand = 1e3;         // a hand, what it touches, and how fast they are [m], [m/s]
+inline constexpr double farthest_vertex = 1e6;       // what has flown off [m]
+inline constexpr double fastest_turn = 1e6;          // [rad/s]
+inline constexpr double strongest_hand = 1e3;        // that a device applies [N], [N m]
+inline constexpr double strongest_tissue = 1e6;      // [N], [N m]
+inline constexpr double most_energy = 1e6;           // [J]
+inline constexpr double largest_value = 1e9;         // of a command or a rate, in its unit
+inline constexpr std::int64_t latest_stamp = std::int64_t{1} << 61;  // either side of zero [ns]
 
 /// haptic -> physics. Where the hand is, and the force that it feels now.
 struct ToolState {
@@ -196,12 +208,14 @@ struct NodeStatus {
   std::uint64_t samples_received = 0;
   std::uint64_t samples_lost = 0;       // gaps in the writers' ticks
   std::array<std::uint64_t, n_tallies> rejected{};
+  std::uint64_t foreign = 0;            // samples of processes that may not speak here, or not now: never looked at
   std::uint32_t warnings = 0;
   double energy_J = 0;                  // haptic only: given to the hand so far, of the tool that got most
   double surplus_J = 0;                 // haptic only: of that, made out of nothing, now; above 0.1 mJ is not passive
   std::uint32_t stale_events = 0, safe_events = 0, faults = 0;  // haptic only: since the start, over all tools
   std::array<std::uint64_t, histogram_bins> lateness{};  // wake-up lateness since the start
   std::array<char, 128> note{};         // what a person should know now
+  std::array<char, 128> refused{};      // the first sample that was rejected or foreign, and why; empty: none so far
 };
 
 }  // namespace palpate

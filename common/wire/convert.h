@@ -2,9 +2,9 @@
 // Between what travels (idl/palpate.idl) and what the nodes work with (common/message/messages.h). For common/wire and
 // its tests only.
 //
-// judge() looks at everything a message promises and names the first promise broken; a sample with a broken promise is
-// never turned into a message. Text must end within its array; arrays matter up to their counts only; positions, forces
-// and times must be finite, those of a hand within 1 km and 1 kN; directions and quaternions of length one within 1e-3.
+// The one door for numbers: judge() looks at everything a message promises and names the first promise broken; a sample
+// with a broken promise is never turned into a message. Text must end within its array; arrays matter up to their counts
+// only; every number is finite and within the limits of messages.h; directions and quaternions are of length one within 1e-3.
 
 #include <optional>
 
@@ -13,7 +13,17 @@
 
 namespace palpate {
 
-using Verdict = std::optional<RejectReason>;  // nothing: the sample keeps all promises
+struct Broken {
+  RejectReason reason = RejectReason::other;
+  const char* field = "";  // as the IDL calls it
+  friend bool operator==(const Broken& broken, RejectReason reason) noexcept {
+    return broken.reason == reason;
+  }
+};
+using Verdict = std::optional<Broken>;  // nothing: the sample keeps all promises
+
+/// As in "out of range".
+const char* text_of(RejectReason reason) noexcept;
 
 Verdict judge(const palpate_wire_ToolState& wire) noexcept;
 Verdict judge(const palpate_wire_ContactPatch& wire) noexcept;

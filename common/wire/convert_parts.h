@@ -8,13 +8,11 @@
 #include <cstring>
 #include <type_traits>
 
+#include "common/wire/convert.h"
+
 namespace palpate::wire_parts {
 
 inline constexpr double unit_tolerance = 1e-3;
-// No hand is beyond these. A changed bit makes finite numbers, too, of which a force of 1e200 N is one.
-inline constexpr double farthest = 1e3;      // [m], [m/s]
-inline constexpr double fastest_turn = 1e6;  // [rad/s]
-inline constexpr double strongest = 1e3;     // [N], [N m]
 
 inline bool finite(double value) noexcept { return std::isfinite(value); }
 inline bool finite(float value) noexcept { return std::isfinite(value); }
@@ -26,17 +24,11 @@ bool finite(const T (&values)[N], std::size_t n = N) noexcept {
 }
 
 /// No number is larger than `limit`. False if anything is not finite.
-template <std::size_t N>
-bool within(const double (&values)[N], double limit) noexcept {
-  return std::all_of(values, values + N, [limit](double value) { return std::abs(value) <= limit; });
-}
-
-/// Length one within the tolerance. False if anything is not finite.
-template <std::size_t N>
-bool unit(const double (&values)[N]) noexcept {
-  double squared = 0;
-  for (const double value : values) squared += value * value;
-  return std::abs(std::sqrt(squared) - 1.0) <= unit_tolerance;
+inline bool within(double value, double limit) noexcept { return std::abs(value) <= limit; }
+template <class T, std::size_t N>
+bool within(const T (&values)[N], double limit, std::size_t n = N) noexcept {
+  return std::all_of(values, values + std::min(n, N),
+                     [limit](const auto& value) { return within(value, limit); });
 }
 
 /// Nothing but zeros.
@@ -61,5 +53,52 @@ void copy(const From& from, To& to, std::size_t n = SIZE_MAX) noexcept {
   static_assert(element == sizeof(to[0]), "arrays of the same shape");
   std::memcpy(&to, &from, std::min(n, sizeof(From) / element) * element);
 }
+
+/// The first promise of a sample that is broken, looked for in order.
+class Check {
+ public:
+  explicit Check(std::uint32_t version) noexcept {
+    that(version == wire_version, RejectReason::version, "version");
+  }
+  Check() = default;
+
+  Check& that(bool kept, RejectReason reason, const char* field) noexcept {
+    if (!kept && !verdict_) verdict_ = Broken{reason, field};
+    return *this;
+  }
+  /// Finite and not beyond the limit, either side of zero.
+  template <class T>
+  Check& bounded(const T& value, double limit, const char* field) noexcept {
+    if (verdict_ || within(value, limit)) return *this;
+    return that(false, finite(value) ? RejectReason::out_of_range : RejectReason::not_finite, field);
+  }
+  /// The same of the first `n` elements.
+  template <class T, std::size_t N>
+  Check& bounded(const T (&values)[N], double limit, const char* field, std::size_t n) noexcept {
+    if (verdict_ || within(values, limit, n)) return *this;
+    return that(false, finite(values, n) ? RejectReason::out_of_range : RejectReason::not_finite, field);
+  }
+  /// Finite, from 0 to the limit.
+  Check& positive(double value, double limit, const char* field) noexcept {
+    return bounded(value, limit, field).that(!(value < 0), RejectReason::out_of_range, field);
+  }
+  /// Length one within the tolerance.
+  template <std::size_t N>
+  Check& unit(const double (&values)[N], const char* field) noexcept {
+    if (verdict_) return *this;
+    double squared = 0;
+    for (const double value : values) squared += value * value;
+    if (std::abs(std::sqrt(squared) - 1.0) <= unit_tolerance) return *this;
+    return that(false, finite(values) ? RejectReason::not_unit : RejectReason::not_finite, field);
+  }
+  Check& stamp(std::int64_t value, const char* field) noexcept {
+    return that(value >= -latest_stamp && value <= latest_stamp, RejectReason::out_of_range, field);
+  }
+
+  const Verdict& verdict() const noexcept { return verdict_; }
+
+ private:
+  Verdict verdict_;
+};
 
 }  // namespace palpate::wire_parts

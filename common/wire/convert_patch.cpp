@@ -8,23 +8,28 @@ using namespace wire_parts;
 namespace {
 
 Verdict judge_facet(const palpate_wire_PatchFacet& wire) noexcept {
-  if (wire.body >= max_bodies) return RejectReason::unknown_id;
-  if (!finite(wire.corners) || !finite(wire.point) || !finite(wire.normal) || !finite(wire.velocity) ||
-      !finite(wire.stiffness) || !finite(wire.damping)) {
-    return RejectReason::not_finite;
-  }
-  if (!unit(wire.normal)) return RejectReason::not_unit;
-  if (wire.stiffness <= 0 || wire.stiffness > rigid_stiffness || wire.damping < 0)
-    return RejectReason::out_of_range;
-  return {};
+  return Check()
+      .that(wire.body < max_bodies, RejectReason::unknown_id, "facets.body")
+      .bounded(wire.corners, farthest_hand, "facets.corners")
+      .bounded(wire.point, farthest_hand, "facets.point")
+      .unit(wire.normal, "facets.normal")
+      .bounded(wire.velocity, farthest_hand, "facets.velocity")
+      .positive(wire.stiffness, rigid_stiffness, "facets.stiffness")
+      .that(wire.stiffness > 0, RejectReason::out_of_range, "facets.stiffness")
+      .positive(wire.damping, rigid_stiffness, "facets.damping")
+      .verdict();
 }
 
 }  // namespace
 
 Verdict judge(const palpate_wire_ContactPatch& wire) noexcept {
-  if (wire.version != wire_version) return RejectReason::version;
-  if (wire.tool >= max_tools) return RejectReason::unknown_id;
-  if (wire.n_facets > max_patch_facets) return RejectReason::count;
+  const Verdict head = Check(wire.version)
+                           .that(wire.tool < max_tools, RejectReason::unknown_id, "tool")
+                           .that(wire.n_facets <= max_patch_facets, RejectReason::count, "n_facets")
+                           .stamp(wire.stamp_ns, "stamp_ns")
+                           .stamp(wire.answers_ns, "answers_ns")
+                           .verdict();
+  if (head) return head;
   for (std::uint32_t i = 0; i < wire.n_facets; ++i) {
     if (const Verdict verdict = judge_facet(wire.facets[i])) return verdict;
   }

@@ -6,12 +6,13 @@ namespace palpate {
 using namespace wire_parts;
 
 Verdict judge(const palpate_wire_Pointer& wire) noexcept {
-  if (wire.version != wire_version) return RejectReason::version;
-  if (wire.tool >= max_tools) return RejectReason::unknown_id;
-  if (!finite(wire.p_W) || !finite(wire.q_W)) return RejectReason::not_finite;
-  if (!unit(wire.q_W)) return RejectReason::not_unit;
-  if (wire.held > 1) return RejectReason::out_of_range;
-  return {};
+  return Check(wire.version)
+      .that(wire.tool < max_tools, RejectReason::unknown_id, "tool")
+      .stamp(wire.stamp_ns, "stamp_ns")
+      .bounded(wire.p_W, farthest_hand, "p_W")
+      .unit(wire.q_W, "q_W")
+      .that(wire.held <= 1, RejectReason::out_of_range, "held")
+      .verdict();
 }
 
 Verdict from_wire(const palpate_wire_Pointer& wire, Pointer& message) noexcept {

@@ -5,12 +5,34 @@ namespace palpate {
 
 using namespace wire_parts;
 
+const char* text_of(RejectReason reason) noexcept {
+  switch (reason) {
+    case RejectReason::version:
+      return "of another version";
+    case RejectReason::count:
+      return "too many";
+    case RejectReason::unknown_id:
+      return "not known";
+    case RejectReason::not_finite:
+      return "not finite";
+    case RejectReason::not_unit:
+      return "not of length one";
+    case RejectReason::out_of_range:
+      return "out of range";
+    case RejectReason::text:
+      return "text without end";
+    case RejectReason::other:
+      return "out of order";
+  }
+  return "";
+}
+
 Verdict judge(const palpate_wire_Command& wire) noexcept {
-  if (wire.version != wire_version) return RejectReason::version;
-  if (wire.kind >= n_command_kinds) return RejectReason::unknown_id;
-  if (!finite(wire.value)) return RejectReason::not_finite;
-  if (!ends(wire.name)) return RejectReason::text;
-  return {};
+  return Check(wire.version)
+      .that(wire.kind < n_command_kinds, RejectReason::unknown_id, "kind")
+      .bounded(wire.value, largest_value, "value")
+      .that(ends(wire.name), RejectReason::text, "name")
+      .verdict();
 }
 
 Verdict from_wire(const palpate_wire_Command& wire, Command& message) noexcept {
@@ -31,18 +53,18 @@ void to_wire(const Command& message, palpate_wire_Command& wire) noexcept {
 }
 
 Verdict judge(const palpate_wire_NodeStatus& wire) noexcept {
-  if (wire.version != wire_version) return RejectReason::version;
-  if (wire.node >= n_node_kinds) return RejectReason::unknown_id;
-  if (wire.phase >= n_node_phases) return RejectReason::out_of_range;
-  if (!finite(wire.t) || !finite(wire.rate_Hz) || !finite(wire.real_time_factor) ||
-      !finite(wire.loop_age_ms_p50) || !finite(wire.energy_J) || !finite(wire.surplus_J)) {
-    return RejectReason::not_finite;
-  }
-  if (wire.t < 0 || wire.rate_Hz < 0 || wire.real_time_factor < 0 || wire.loop_age_ms_p50 < 0) {
-    return RejectReason::out_of_range;
-  }
-  if (!ends(wire.note)) return RejectReason::text;
-  return {};
+  return Check(wire.version)
+      .that(wire.node < n_node_kinds, RejectReason::unknown_id, "node")
+      .that(wire.phase < n_node_phases, RejectReason::out_of_range, "phase")
+      .positive(wire.t, longest_time, "t")
+      .positive(wire.rate_Hz, largest_value, "rate_Hz")
+      .positive(wire.real_time_factor, largest_value, "real_time_factor")
+      .positive(wire.loop_age_ms_p50, largest_value, "loop_age_ms_p50")
+      .bounded(wire.energy_J, most_energy, "energy_J")
+      .bounded(wire.surplus_J, most_energy, "surplus_J")
+      .that(ends(wire.note), RejectReason::text, "note")
+      .that(ends(wire.refused), RejectReason::text, "refused")
+      .verdict();
 }
 
 Verdict from_wire(const palpate_wire_NodeStatus& wire, NodeStatus& message) noexcept {
@@ -60,6 +82,7 @@ Verdict from_wire(const palpate_wire_NodeStatus& wire, NodeStatus& message) noex
   message.samples_received = wire.samples_received;
   message.samples_lost = wire.samples_lost;
   copy(wire.rejected, message.rejected);
+  message.foreign = wire.foreign;
   message.warnings = wire.warnings;
   message.energy_J = wire.energy_J;
   message.surplus_J = wire.surplus_J;
@@ -68,6 +91,7 @@ Verdict from_wire(const palpate_wire_NodeStatus& wire, NodeStatus& message) noex
   message.faults = wire.faults;
   copy(wire.lateness, message.lateness);
   copy(wire.note, message.note);
+  copy(wire.refused, message.refused);
   return {};
 }
 
@@ -86,6 +110,7 @@ void to_wire(const NodeStatus& message, palpate_wire_NodeStatus& wire) noexcept 
   wire.samples_received = message.samples_received;
   wire.samples_lost = message.samples_lost;
   copy(message.rejected, wire.rejected);
+  wire.foreign = message.foreign;
   wire.warnings = message.warnings;
   wire.energy_J = message.energy_J;
   wire.surplus_J = message.surplus_J;
@@ -94,6 +119,7 @@ void to_wire(const NodeStatus& message, palpate_wire_NodeStatus& wire) noexcept 
   wire.faults = message.faults;
   copy(message.lateness, wire.lateness);
   copy(message.note, wire.note);
+  copy(message.refused, wire.refused);
 }
 
 }  // namespace palpate

@@ -8,7 +8,9 @@ using namespace wire_parts;
 namespace {
 
 /// `n` things from `first` on lie within `total`, whatever the 32-bit sums would do.
-bool within(std::uint64_t first, std::uint64_t n, std::uint64_t total) noexcept { return first + n <= total; }
+bool ends_by(std::uint64_t first, std::uint64_t n, std::uint64_t total) noexcept {
+  return first + n <= total;
+}
 
 bool corners_exist(const palpate_wire_BodySurface& wire) noexcept {
   return std::all_of(wire.corners, wire.corners + wire.n_facets, [&](const auto& facet) {
@@ -19,23 +21,24 @@ bool corners_exist(const palpate_wire_BodySurface& wire) noexcept {
 }  // namespace
 
 Verdict judge(const palpate_wire_BodySurface& wire) noexcept {
-  if (wire.version != wire_version) return RejectReason::version;
-  if (wire.body >= max_bodies) return RejectReason::unknown_id;
-  if (wire.n_vertices > max_surface_vertices || wire.n_facets > max_surface_facets)
-    return RejectReason::count;
-  if (wire.n_chunks > max_surface_chunks || wire.chunk >= wire.n_chunks) return RejectReason::count;
-  if (wire.total_vertices > std::uint64_t{wire.n_chunks} * max_surface_vertices ||
-      wire.total_facets > std::uint64_t{wire.n_chunks} * max_surface_facets) {
-    return RejectReason::count;
-  }
-  if (!within(wire.first_vertex, wire.n_vertices, wire.total_vertices) ||
-      !within(wire.first_facet, wire.n_facets, wire.total_facets)) {
-    return RejectReason::out_of_range;
-  }
-  if (wire.revision == 0 || wire.rigid > 1) return RejectReason::out_of_range;
-  if (!finite(wire.position, wire.n_vertices)) return RejectReason::not_finite;
-  if (!corners_exist(wire)) return RejectReason::unknown_id;
-  return {};
+  const std::uint64_t chunks = wire.n_chunks;
+  Check check(wire.version);
+  check.that(wire.body < max_bodies, RejectReason::unknown_id, "body")
+      .that(wire.n_vertices <= max_surface_vertices, RejectReason::count, "n_vertices")
+      .that(wire.n_facets <= max_surface_facets, RejectReason::count, "n_facets")
+      .that(chunks <= max_surface_chunks, RejectReason::count, "n_chunks")
+      .that(wire.chunk < wire.n_chunks, RejectReason::count, "chunk")
+      .that(wire.total_vertices <= chunks * max_surface_vertices, RejectReason::count, "total_vertices")
+      .that(wire.total_facets <= chunks * max_surface_facets, RejectReason::count, "total_facets")
+      .that(ends_by(wire.first_vertex, wire.n_vertices, wire.total_vertices), RejectReason::out_of_range,
+            "first_vertex")
+      .that(ends_by(wire.first_facet, wire.n_facets, wire.total_facets), RejectReason::out_of_range,
+            "first_facet")
+      .that(wire.revision > 0, RejectReason::out_of_range, "revision")
+      .that(wire.rigid <= 1, RejectReason::out_of_range, "rigid")
+      .bounded(wire.position, farthest_vertex, "position", wire.n_vertices);
+  if (check.verdict()) return check.verdict();
+  return check.that(corners_exist(wire), RejectReason::unknown_id, "corners").verdict();
 }
 
 Verdict from_wire(const palpate_wire_BodySurface& wire, BodySurface& message) noexcept {
@@ -78,20 +81,20 @@ void to_wire(const BodySurface& message, palpate_wire_BodySurface& wire) noexcep
 }
 
 Verdict judge(const palpate_wire_VertexBlock& wire) noexcept {
-  if (wire.version != wire_version) return RejectReason::version;
-  if (wire.body >= max_bodies) return RejectReason::unknown_id;
-  if (wire.n_vertices > max_block_vertices) return RejectReason::count;
-  if (wire.block != wire.first_vertex / max_block_vertices ||
-      !within(wire.first_vertex, wire.n_vertices, std::uint64_t{max_surface_chunks} * max_surface_vertices)) {
-    return RejectReason::out_of_range;
-  }
-  if (wire.revision == 0) return RejectReason::out_of_range;
-  if (!finite(wire.t) || !finite(wire.position, wire.n_vertices)) return RejectReason::not_finite;
+  constexpr std::uint64_t most = std::uint64_t{max_surface_chunks} * max_surface_vertices;
+  Check check(wire.version);
+  check.that(wire.body < max_bodies, RejectReason::unknown_id, "body")
+      .that(wire.n_vertices <= max_block_vertices, RejectReason::count, "n_vertices")
+      .that(wire.block == wire.first_vertex / max_block_vertices, RejectReason::out_of_range, "block")
+      .that(ends_by(wire.first_vertex, wire.n_vertices, most), RejectReason::out_of_range, "first_vertex")
+      .that(wire.revision > 0, RejectReason::out_of_range, "revision")
+      .bounded(wire.t, longest_time, "t")
+      .bounded(wire.position, farthest_vertex, "position", wire.n_vertices);
+  if (check.verdict()) return check.verdict();
   const bool sound = std::all_of(wire.flags, wire.flags + wire.n_vertices, [](std::uint8_t flags) {
     return flags < vertex_share_one || (flags & vertex_yielded) != 0;
   });
-  if (!sound) return RejectReason::out_of_range;
-  return {};
+  return check.that(sound, RejectReason::out_of_range, "flags").verdict();
 }
 
 Verdict from_wire(const palpate_wire_VertexBlock& wire, VertexBlock& message) noexcept {

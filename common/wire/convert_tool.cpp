@@ -6,19 +6,19 @@ namespace palpate {
 using namespace wire_parts;
 
 Verdict judge(const palpate_wire_ToolState& wire) noexcept {
-  if (wire.version != wire_version) return RejectReason::version;
-  if (wire.tool >= max_tools) return RejectReason::unknown_id;
-  if (!finite(wire.p_WT) || !finite(wire.q_WT) || !finite(wire.v_WT) || !finite(wire.w_WT) ||
-      !finite(wire.proxy) || !finite(wire.force_on_hand) || !finite(wire.force_now) ||
-      !finite(wire.torque_now)) {
-    return RejectReason::not_finite;
-  }
-  if (!unit(wire.q_WT)) return RejectReason::not_unit;
-  if (!within(wire.p_WT, farthest) || !within(wire.proxy, farthest) || !within(wire.v_WT, farthest) ||
-      !within(wire.w_WT, fastest_turn) || !within(wire.force_on_hand, strongest) ||
-      !within(wire.force_now, strongest) || !within(wire.torque_now, strongest) || wire.engaged > 1)
-    return RejectReason::out_of_range;
-  return {};
+  return Check(wire.version)
+      .that(wire.tool < max_tools, RejectReason::unknown_id, "tool")
+      .stamp(wire.stamp_ns, "stamp_ns")
+      .bounded(wire.p_WT, farthest_hand, "p_WT")
+      .unit(wire.q_WT, "q_WT")
+      .bounded(wire.v_WT, farthest_hand, "v_WT")
+      .bounded(wire.w_WT, fastest_turn, "w_WT")
+      .bounded(wire.proxy, farthest_hand, "proxy")
+      .bounded(wire.force_on_hand, strongest_hand, "force_on_hand")
+      .bounded(wire.force_now, strongest_hand, "force_now")
+      .bounded(wire.torque_now, strongest_hand, "torque_now")
+      .that(wire.engaged <= 1, RejectReason::out_of_range, "engaged")
+      .verdict();
 }
 
 Verdict from_wire(const palpate_wire_ToolState& wire, ToolState& message) noexcept {
@@ -59,15 +59,21 @@ void to_wire(const ToolState& message, palpate_wire_ToolState& wire) noexcept {
 }
 
 Verdict judge(const palpate_wire_ToolWrench& wire) noexcept {
-  if (wire.version != wire_version) return RejectReason::version;
-  if (wire.tool >= max_tools) return RejectReason::unknown_id;
-  if (!finite(wire.t) || !finite(wire.force) || !finite(wire.moment) || !finite(wire.set_point) ||
-      !finite(wire.stiffness) || !finite(wire.p_WT) || !finite(wire.q_WT) || !finite(wire.tip) ||
-      !finite(wire.normal) || !finite(wire.stretch)) {
-    return RejectReason::not_finite;
-  }
-  if (!unit(wire.q_WT) || !(zero(wire.normal) || unit(wire.normal))) return RejectReason::not_unit;
-  return {};
+  Check check(wire.version);
+  check.that(wire.tool < max_tools, RejectReason::unknown_id, "tool")
+      .stamp(wire.stamp_ns, "stamp_ns")
+      .stamp(wire.answers_ns, "answers_ns")
+      .bounded(wire.t, longest_time, "t")
+      .bounded(wire.p_WT, farthest_hand, "p_WT")
+      .unit(wire.q_WT, "q_WT")
+      .bounded(wire.force, strongest_tissue, "force")
+      .bounded(wire.moment, strongest_tissue, "moment")
+      .bounded(wire.set_point, farthest_hand, "set_point")
+      .bounded(wire.tip, farthest_hand, "tip")
+      .bounded(wire.stiffness, rigid_stiffness, "stiffness")
+      .bounded(wire.stretch, farthest_hand, "stretch");
+  if (!zero(wire.normal)) check.unit(wire.normal, "normal");
+  return check.verdict();
 }
 
 Verdict from_wire(const palpate_wire_ToolWrench& wire, ToolWrench& message) noexcept {

@@ -6,16 +6,24 @@ namespace palpate {
 using namespace wire_parts;
 
 Verdict judge(const palpate_wire_HapticTrace& wire) noexcept {
-  if (wire.version != wire_version) return RejectReason::version;
-  if (wire.tool >= max_tools) return RejectReason::unknown_id;
-  if (wire.n_samples > max_trace_samples) return RejectReason::count;
+  const Verdict head = Check(wire.version)
+                           .that(wire.tool < max_tools, RejectReason::unknown_id, "tool")
+                           .that(wire.n_samples <= max_trace_samples, RejectReason::count, "n_samples")
+                           .verdict();
+  if (head) return head;
   for (std::uint32_t i = 0; i < wire.n_samples; ++i) {
     const palpate_wire_TraceSample& sample = wire.samples[i];
-    if (!finite(sample.t) || !finite(sample.p) || !finite(sample.proxy) || !finite(sample.force) ||
-        !finite(sample.torque) || !finite(sample.energy)) {
-      return RejectReason::not_finite;
-    }
-    if (i > 0 && sample.tick <= wire.samples[i - 1].tick) return RejectReason::other;  // out of order
+    const bool in_order = i == 0 || sample.tick > wire.samples[i - 1].tick;
+    const Verdict verdict = Check()
+                                .bounded(sample.t, longest_time, "samples.t")
+                                .bounded(sample.p, farthest_hand, "samples.p")
+                                .bounded(sample.proxy, farthest_hand, "samples.proxy")
+                                .bounded(sample.force, strongest_hand, "samples.force")
+                                .bounded(sample.torque, strongest_hand, "samples.torque")
+                                .bounded(sample.energy, most_energy, "samples.energy")
+                                .that(in_order, RejectReason::other, "samples.tick")
+                                .verdict();
+    if (verdict) return verdict;
   }
   return {};
 }

@@ -78,7 +78,7 @@ template <class M>
 bool Reader<M>::Inner::next(M& message, dds_time_t& sent) noexcept {
   while (fetch(sent)) {
     if (const Verdict verdict = from_wire(wire, message)) {
-      ++counts.rejected[static_cast<std::size_t>(*verdict)];
+      ++counts.rejected[static_cast<std::size_t>(verdict->reason)];
       continue;
     }
     ++counts.received;
@@ -120,7 +120,7 @@ bool Reader<M>::take_newest(M& message) noexcept {
     const bool newer = sent >= newest;
     const Verdict verdict = newer ? from_wire(inner_->wire, message) : judge(inner_->wire);
     if (verdict) {
-      ++inner_->counts.rejected[static_cast<std::size_t>(*verdict)];
+      ++inner_->counts.rejected[static_cast<std::size_t>(verdict->reason)];
       continue;
     }
     ++inner_->counts.received;

@@ -8,8 +8,6 @@
 namespace palpate::haptic {
 namespace {
 
-constexpr double farthest = 1e3;   // [m]
-constexpr double strongest = 1e6;  // [N], [N m]
 constexpr double unit_tolerance = 1e-3;
 
 bool within(const Array3& a, double limit) noexcept {
@@ -25,11 +23,11 @@ bool is_unit(const Array& a) noexcept {
 
 bool facet_is_sound(const PatchFacet& facet) noexcept {
   for (const Array3& corner : facet.corners)
-    if (!within(corner, farthest)) return false;
-  if (!within(facet.point, farthest) || !within(facet.velocity, farthest)) return false;
+    if (!within(corner, farthest_hand)) return false;
+  if (!within(facet.point, farthest_hand) || !within(facet.velocity, farthest_hand)) return false;
   if (!is_unit(facet.normal)) return false;
   return facet.stiffness > 0 && facet.stiffness <= rigid_stiffness && facet.damping >= 0 &&
-         std::isfinite(facet.damping);
+         facet.damping <= rigid_stiffness;
 }
 
 }  // namespace
@@ -40,12 +38,12 @@ bool is_sound(const ContactPatch& patch, std::uint32_t tool) noexcept {
 }
 
 bool is_sound(const ToolWrench& wrench, std::uint32_t tool) noexcept {
-  if (wrench.tool != tool || !within(wrench.p_WT, farthest) || !within(wrench.set_point, farthest))
+  if (wrench.tool != tool || !within(wrench.p_WT, farthest_hand) || !within(wrench.set_point, farthest_hand))
     return false;
-  if (!within(wrench.force, strongest) || !within(wrench.moment, strongest)) return false;
+  if (!within(wrench.force, strongest_tissue) || !within(wrench.moment, strongest_tissue)) return false;
   for (const double k : wrench.stiffness)
     if (!(std::abs(k) <= rigid_stiffness)) return false;
-  if (!within(wrench.tip, farthest) || !(std::abs(wrench.stretch) <= farthest)) return false;
+  if (!within(wrench.tip, farthest_hand) || !(std::abs(wrench.stretch) <= farthest_hand)) return false;
   return is_unit(wrench.q_WT) && (wrench.normal == Array3{} || is_unit(wrench.normal));
 }
 

@@ -24,7 +24,7 @@ TYPED_TEST(Conversion, BringsEveryFieldBack) {
     const auto got = std::make_unique<TypeParam>();
     to_wire(*sent, *wire);
     const Verdict verdict = from_wire(*wire, *got);
-    ASSERT_FALSE(verdict) << "seed " << seed << " rejected for reason " << static_cast<int>(*verdict);
+    ASSERT_FALSE(verdict) << "seed " << seed << ": " << verdict->field << " is " << text_of(verdict->reason);
     ASSERT_TRUE(same(*sent, *got)) << "seed " << seed;
   }
 }

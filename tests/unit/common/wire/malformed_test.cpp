@@ -86,6 +86,8 @@ TEST(MalformedToolState, IsRejectedForItsReason) {
       {"force of no device", R::out_of_range, [](auto& w) { w.force_on_hand[0] = 1e200; }},
       {"force now of no device", R::out_of_range, [](auto& w) { w.force_now[1] = -2e3; }},
       {"torque of no device", R::out_of_range, [](auto& w) { w.torque_now[2] = 2e3; }},
+      {"a stamp that no difference may be taken of", R::out_of_range,
+       [](auto& w) { w.stamp_ns = std::numeric_limits<std::int64_t>::min(); }},
   });
 }
 
@@ -110,6 +112,12 @@ TEST(MalformedContactPatch, IsRejectedForItsReason) {
       {"stiffer than rigid", R::out_of_range, [](auto& w) { w.facets[2].stiffness = 2 * rigid_stiffness; }},
       {"damping negative", R::out_of_range, [](auto& w) { w.facets[2].damping = -1e-9; }},
       {"body beyond the last", R::unknown_id, [](auto& w) { w.facets[2].body = max_bodies; }},
+      {"corner on the moon", R::out_of_range, [](auto& w) { w.facets[0].corners[1][0] = 4e8; }},
+      {"plane on the moon", R::out_of_range, [](auto& w) { w.facets[0].point[2] = -4e8; }},
+      {"faster than any tissue", R::out_of_range, [](auto& w) { w.facets[4].velocity[2] = 1e30; }},
+      {"damped beyond rigid", R::out_of_range, [](auto& w) { w.facets[4].damping = 1e300; }},
+      {"an answer to a time without end", R::out_of_range,
+       [](auto& w) { w.answers_ns = std::numeric_limits<std::int64_t>::max(); }},
   });
 }
 
@@ -131,6 +139,17 @@ TEST(MalformedToolWrench, IsRejectedForItsReason) {
       {"NaN tip", R::not_finite, [](auto& w) { w.tip[1] = nan; }},
       {"NaN normal", R::not_finite, [](auto& w) { w.normal[0] = nan; }},
       {"infinite stretch", R::not_finite, [](auto& w) { w.stretch = inf; }},
+      {"time of 1e300 s", R::out_of_range, [](auto& w) { w.t = 1e300; }},
+      {"time of 1e17 s", R::out_of_range, [](auto& w) { w.t = -1e17; }},
+      {"force of no tissue", R::out_of_range, [](auto& w) { w.force[1] = 1e7; }},
+      {"moment of no tissue", R::out_of_range, [](auto& w) { w.moment[1] = 1e7; }},
+      {"tip on the moon", R::out_of_range, [](auto& w) { w.tip[0] = 4e8; }},
+      {"set point on the moon", R::out_of_range, [](auto& w) { w.set_point[0] = 4e8; }},
+      {"a hand on the moon", R::out_of_range, [](auto& w) { w.p_WT[0] = 4e8; }},
+      {"stiffer than rigid", R::out_of_range, [](auto& w) { w.stiffness[7] = 1e10; }},
+      {"stretched to the moon", R::out_of_range, [](auto& w) { w.stretch = 4e8; }},
+      {"a stamp that no difference may be taken of", R::out_of_range,
+       [](auto& w) { w.stamp_ns = std::numeric_limits<std::int64_t>::min(); }},
       {"normal neither unit nor zero", R::not_unit,
        [](auto& w) {
          w.normal[0] = w.normal[1] = 0;
@@ -158,6 +177,8 @@ TEST(MalformedBodySurface, IsRejectedForItsReason) {
       {"revision zero", R::out_of_range, [](auto& w) { w.revision = 0; }},
       {"rigid neither 0 nor 1", R::out_of_range, [](auto& w) { w.rigid = 255; }},
       {"NaN position", R::not_finite, [](auto& w) { w.position[w.n_vertices - 1][2] = nan_f; }},
+      {"vertex that no float may square", R::out_of_range,
+       [](auto& w) { w.position[w.n_vertices - 1][1] = 1e30F; }},
       {"corner that is no vertex", R::unknown_id,
        [](auto& w) { w.corners[w.n_facets - 1][3] = w.total_vertices; }},
   });
@@ -174,6 +195,9 @@ TEST(MalformedVertexBlock, IsRejectedForItsReason) {
       {"revision zero", R::out_of_range, [](auto& w) { w.revision = 0; }},
       {"NaN time", R::not_finite, [](auto& w) { w.t = nan; }},
       {"NaN position", R::not_finite, [](auto& w) { w.position[w.n_vertices - 1][0] = nan_f; }},
+      {"time of 1e300 s", R::out_of_range, [](auto& w) { w.t = 1e300; }},
+      {"vertex that no float may square", R::out_of_range,
+       [](auto& w) { w.position[w.n_vertices - 1][1] = -1e30F; }},
       {"a share of nothing that yielded", R::out_of_range, [](auto& w) { w.flags[w.n_vertices - 1] = 4; }},
   });
 }
@@ -189,6 +213,13 @@ TEST(MalformedHapticTrace, IsRejectedForItsReason) {
       {"infinite force", R::not_finite, [](auto& w) { w.samples[9].force[1] = inf; }},
       {"NaN torque", R::not_finite, [](auto& w) { w.samples[9].torque[0] = nan; }},
       {"NaN energy", R::not_finite, [](auto& w) { w.samples[9].energy = nan; }},
+      {"time of 1e300 s", R::out_of_range, [](auto& w) { w.samples[63].t = 1e300; }},
+      {"time of 1e17 s", R::out_of_range, [](auto& w) { w.samples[0].t = 1e17; }},
+      {"a hand on the moon", R::out_of_range, [](auto& w) { w.samples[9].p[2] = 4e8; }},
+      {"a proxy on the moon", R::out_of_range, [](auto& w) { w.samples[9].proxy[2] = 4e8; }},
+      {"force of no device", R::out_of_range, [](auto& w) { w.samples[9].force[2] = 1e200; }},
+      {"torque of no device", R::out_of_range, [](auto& w) { w.samples[9].torque[2] = 1e200; }},
+      {"energy of no hand", R::out_of_range, [](auto& w) { w.samples[9].energy = -1e200; }},
       {"samples out of order", R::other, [](auto& w) { w.samples[9].tick = w.samples[8].tick; }},
   });
 }
@@ -203,6 +234,7 @@ TEST(MalformedPointer, IsRejectedForItsReason) {
        [](auto& w) {
          for (double& q : w.q_W) q *= 0.9;
        }},
+      {"a mouse on the moon", R::out_of_range, [](auto& w) { w.p_W[0] = 4e8; }},
       {"held neither 0 nor 1", R::out_of_range, [](auto& w) { w.held = 2; }},
   });
 }
@@ -212,6 +244,7 @@ TEST(MalformedCommand, IsRejectedForItsReason) {
       {"other version", R::version, [](auto& w) { w.version = 7; }},
       {"unknown kind", R::unknown_id, [](auto& w) { w.kind = n_command_kinds; }},
       {"NaN value", R::not_finite, [](auto& w) { w.value = nan; }},
+      {"threshold of 1e300", R::out_of_range, [](auto& w) { w.value = 1e300; }},
       {"name without end", R::text, [](auto& w) { std::memset(w.name, 'a', sizeof w.name); }},
   });
 }
@@ -229,6 +262,10 @@ TEST(MalformedNodeStatus, IsRejectedForItsReason) {
       {"NaN loop age", R::not_finite, [](auto& w) { w.loop_age_ms_p50 = nan; }},
       {"negative time", R::out_of_range, [](auto& w) { w.t = -1; }},
       {"negative rate", R::out_of_range, [](auto& w) { w.rate_Hz = -1; }},
+      {"time of 1e300 s", R::out_of_range, [](auto& w) { w.t = 1e300; }},
+      {"rate of 1e300 Hz", R::out_of_range, [](auto& w) { w.rate_Hz = 1e300; }},
+      {"energy of no hand", R::out_of_range, [](auto& w) { w.energy_J = -1e30; }},
+      {"refusal without end", R::text, [](auto& w) { std::memset(w.refused, 'x', sizeof w.refused); }},
       {"note without end", R::text, [](auto& w) { std::memset(w.note, 'x', sizeof w.note); }},
   });
 }

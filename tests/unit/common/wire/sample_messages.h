@@ -26,7 +26,7 @@ class Dice {
   void fill(double& value) { value = real(-10, 10); }
   void fill(float& value) { value = static_cast<float>(real(-10, 10)); }
   void fill(std::uint64_t& value) { value = integer(); }
-  void fill(std::int64_t& value) { value = static_cast<std::int64_t>(integer() >> 1); }
+  void fill(std::int64_t& value) { value = static_cast<std::int64_t>(integer() >> 3); }
   void fill(std::uint32_t& value) { value = static_cast<std::uint32_t>(integer()); }
   template <std::size_t N>
   void fill_unit(std::array<double, N>& values) {
@@ -129,7 +129,8 @@ inline void randomise(Dice& dice, NodeStatus& m) {
   m.node = static_cast<NodeKind>(dice.below(n_node_kinds));
   m.phase = static_cast<NodePhase>(dice.below(n_node_phases));
   dice.fill(m.pid), dice.fill(m.scene_checksum), dice.fill(m.ticks), dice.fill(m.late);
-  dice.fill(m.samples_received), dice.fill(m.samples_lost), dice.fill(m.rejected), dice.fill(m.warnings);
+  dice.fill(m.samples_received), dice.fill(m.samples_lost), dice.fill(m.rejected), dice.fill(m.foreign);
+  dice.fill(m.warnings), dice.fill_text(m.refused);
   dice.fill(m.lateness), dice.fill_text(m.note), dice.fill(m.energy_J), dice.fill(m.surplus_J);
   dice.fill(m.stale_events), dice.fill(m.safe_events), dice.fill(m.faults);
   m.t = dice.real(0, 1e4), m.rate_Hz = dice.real(0, 1e4), m.real_time_factor = dice.real(0, 9);
@@ -175,7 +176,7 @@ inline auto fields(const Command& m) { return std::tie(m.id, m.kind, m.value, m.
 inline auto fields(const NodeStatus& m) {
   return std::tie(m.node, m.phase, m.pid, m.scene_checksum, m.t, m.rate_Hz, m.real_time_factor,
                   m.loop_age_ms_p50, m.ticks, m.late, m.samples_received, m.samples_lost, m.rejected,
-                  m.warnings, m.energy_J, m.surplus_J, m.stale_events, m.safe_events, m.faults, m.lateness,
+                  m.foreign, m.refused, m.warnings, m.energy_J, m.surplus_J, m.stale_events, m.safe_events, m.faults, m.lateness,
                   m.note);
 }
 template <class M>
