@@ -15,6 +15,7 @@
 #include "common/process/stop_flag.h"
 #include "common/report/commit.h"
 #include "common/report/json_file.h"
+#include "common/report/warnings.h"
 #include "deploy/palpate/out_folder.h"
 #include "deploy/palpate/plotter.h"
 #include "deploy/palpate/progress.h"
@@ -119,6 +120,7 @@ class Rerun {
     fs::remove(out / "parts");  // the nodes' folder, empty here
     draw_plots(out);
     fmt::print("summary  {}\n", (out / "summary.json").string());
+    for (const std::string& text : warnings_of(summary)) fmt::print(stderr, "palpate: {}\n", text);
   }
 
   int tell(double wall_s) const {

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "common/error/error.h"
 #include "common/process/checked_option.h"
 #include "common/process/stop_flag.h"
 #include "common/report/json_file.h"
+#include "common/report/warnings.h"
 #include "common/scene/load_scene.h"
 #include "deploy/palpate/out_folder.h"
 #include "deploy/palpate/plotter.h"
@@ -38,7 +40,8 @@ int simulate(SimulateOptions options) {
   prepare_out(out);
   install_stop_handlers();
   session.leave_in(out, source_of(scene, options.settings));
-  for (const auto& remark : session.remarks()) fmt::print(stderr, "palpate: {}\n", remark);
+  const std::vector<std::string> known = session.remarks();
+  for (const auto& remark : known) fmt::print(stderr, "palpate: {}\n", remark);
   session.run(seconds, [&](double t) { show_progress(t, seconds); });
   const nlohmann::json summary = session.finish();
   write_json((out / "summary.json").string(), summary);
@@ -50,6 +53,8 @@ int simulate(SimulateOptions options) {
   fmt::print("summary  {}\n", (out / "summary.json").string());
   if (std::filesystem::exists(out / "force.png")) fmt::print("plot     {}\n", (out / "force.png").string());
   if (!options.no_pictures) fmt::print("pictures {}\n", (out / "frames").string());
+  for (const std::string& text : warnings_of(summary))
+    if (std::find(known.begin(), known.end(), text) == known.end()) fmt::print(stderr, "palpate: {}\n", text);
   if (!summary["guard"].contains("stopped")) return exit_ok;
   fmt::print(stderr, "palpate: {}\n", summary["guard"]["stopped"].get<std::string>());
   return exit_failed;

@@ -7,6 +7,7 @@
 #include "common/error/error.h"
 #include "common/report/commit.h"
 #include "common/report/json_file.h"
+#include "common/report/warnings.h"
 #include "deploy/palpate/nodes.h"
 
 namespace palpate::deploy {
@@ -40,8 +41,14 @@ json node_report(const NodeOutcome& outcome) {
 
 json merged_summary(const fs::path& out, const Scene& scene, const SessionResult& result) {
   json summary = json::object();
-  for (const NodeKind node : all_nodes)
-    summary.update(part_of(out / "parts" / fmt::format("{}.json", name_of(node))), true);
+  std::vector<std::string> warnings;  // update() would keep those of the last node only
+  for (const NodeKind node : all_nodes) {
+    const json part = part_of(out / "parts" / fmt::format("{}.json", name_of(node)));
+    summary.update(part, true);
+    for (std::string& text : warnings_of(part)) warnings.push_back(std::move(text));
+  }
+  summary["warnings"] = json::array();
+  add_warnings(summary, warnings);
   const json ours = {
       {"scene", scene.path}, {"commit", commit()}, {"seed", scene.seed}, {"wall_s", result.wall_s}};
   for (const auto& [key, value] : ours.items()) {

@@ -10,7 +10,7 @@
 namespace palpate::deploy {
 
 /// The keys of all parts in one object, with "nodes" (what became of each), and "scene", "commit", "seed" and "wall_s"
-/// where no node said them. A part that is missing is left out; one that is not JSON is named on stderr and left out.
+/// where no node said them. "warnings" holds the lines of all nodes, one after the other. A part that is missing is left out; one that is not JSON is named on stderr and left out.
 nlohmann::json merged_summary(const std::filesystem::path& out, const Scene& scene,
                               const SessionResult& result);
 

@@ -56,7 +56,10 @@ PhysicsLoop::PhysicsLoop(const NodeOptions& options, const Scene& scene)
   log_info("{} masses, step {:.3f} ms of at most {:.3f}, {} thread(s), {} visible facets, loaded in {:.2f} s",
            masses, 1e3 * world_->step_seconds(), 1e3 * world_->stable_step_seconds(), world_->threads(),
            appearance_->facets_visible(), seconds_from_ns(now_ns() - begin));
-  for (const auto& remark : world_->remarks()) log_warn("{}", remark);
+  for (const auto& remark : world_->remarks()) {
+    log_warn("{}", remark);
+    note(remark);
+  }
 }
 
 /// @return true if the hand has spoken since the last frame
@@ -138,6 +141,22 @@ void PhysicsLoop::publish_eye() {
   appearance_->write_blocks([this](const VertexBlock& block) { wire_.eye.post(block); });
 }
 
+/// A warning is logged once, when it comes up; the window shows the newest.
+void PhysicsLoop::tell_warnings() {
+  const WarningKinds raised = raised_warnings(*world_);
+  for (const std::string& text : warning_texts(*world_, raised & ~known_warnings_)) {
+    log_warn("{}", text);
+    note(text);
+  }
+  known_warnings_ |= raised;
+  status_.warnings = static_cast<std::uint32_t>(world_->remarks().size() + known_warnings_.count());
+}
+
+void PhysicsLoop::note(std::string_view text) {
+  status_.note.fill('\0');
+  std::copy_n(text.begin(), std::min(text.size(), status_.note.size() - 1), status_.note.begin());
+}
+
 void PhysicsLoop::publish_status(NodePhase phase) {
   const std::int64_t now = now_ns();
   status_.phase = phase;
@@ -149,8 +168,7 @@ void PhysicsLoop::publish_status(NodePhase phase) {
       status_.rate_Hz = static_cast<double>(world_->report().frames - last_status_frames_) / wall;
       status_.real_time_factor = (world_->t() - last_status_t_) / wall;
     }
-    status_.warnings = static_cast<std::uint32_t>(world_->remarks().size()) +
-                       static_cast<std::uint32_t>(world_->report().restored);
+    tell_warnings();
     const ReaderCounts tools = wire_.tool_states.counts();
     status_.samples_received = tools.received;
     status_.rejected = tools.rejected;

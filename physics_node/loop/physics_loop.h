@@ -9,6 +9,7 @@
 #include "physics_node/appearance/appearance.h"
 #include "physics_node/loop/wire.h"
 #include "physics_node/record/recorder.h"
+#include "physics_node/report/run_warnings.h"
 #include "physics_node/world.h"
 
 namespace palpate::physics {
@@ -26,6 +27,8 @@ class PhysicsLoop {
   void publish_hand();
   void publish_eye();
   void publish_status(NodePhase phase);
+  void tell_warnings();
+  void note(std::string_view text);  // for the window
   bool leave();
 
   NodeOptions options_;
@@ -53,6 +56,7 @@ class PhysicsLoop {
 
   // status
   NodeStatus status_{};
+  WarningKinds known_warnings_;  // logged
   std::int64_t last_status_ns_ = 0;
   double last_status_t_ = 0;
   std::int64_t last_status_frames_ = 0;

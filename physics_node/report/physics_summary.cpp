@@ -5,7 +5,9 @@
 
 #include "common/math/hash.h"
 #include "common/report/commit.h"
+#include "common/report/warnings.h"
 #include "physics_node/fragments/outcome.h"
+#include "physics_node/report/run_warnings.h"
 
 namespace palpate::physics {
 namespace {
@@ -133,8 +135,7 @@ nlohmann::json physics_summary(const World& world, const Recorder* recorder, dou
                    {"grown", world.report().grown},
                    {"restored", world.report().restored},
                    {"halved", world.report().halved},
-                   {"unsolved", world.report().unsolved},
-                   {"warnings", world.report().warnings + static_cast<std::int64_t>(world.remarks().size())}};
+                   {"unsolved", world.report().unsolved}};
   if (const auto why = world.stopped()) part["guard"]["stopped"] = *why;
   if (const Collisions* collisions = world.collisions()) {
     const CollisionTally& tally = collisions->tally();
@@ -153,6 +154,8 @@ nlohmann::json physics_summary(const World& world, const Recorder* recorder, dou
                                           {"trace", Recorder::trace_name(scene.tools[n].name)}};
   }
   if (recorder != nullptr) part["record"] = {{"dropped", recorder->dropped()}};
+  part["warnings"] = nlohmann::json::array();
+  add_warnings(part, all_warnings(world));
   return part;
 }
 

@@ -53,6 +53,18 @@ TEST_F(Summary, SaysWhatBecameOfEachNode) {
   EXPECT_EQ(nodes["haptic"], (nlohmann::json{{"seen", true}, {"signal", 11}}));
 }
 
+TEST_F(Summary, HoldsTheWarningsOfAllParts) {
+  folder.write("parts/physics.json", R"({"warnings": ["one", "two"]})");
+  folder.write("parts/haptic.json", R"({"warnings": ["three", "one"], "haptic": {}})");
+  folder.write("parts/render.json", R"({"render": {}})");
+  EXPECT_EQ(merged_summary(folder.path(), scene, result)["warnings"], (nlohmann::json{"one", "two", "three"}));
+}
+
+TEST_F(Summary, HasWarningsWhereNobodyWarns) {
+  folder.write("parts/physics.json", R"({"warnings": "not an array"})");
+  EXPECT_EQ(merged_summary(folder.path(), scene, result)["warnings"], nlohmann::json::array());
+}
+
 TEST_F(Summary, LeavesOutAPartThatWasCutShort) {
   folder.write("parts/physics.json", R"({"steps": 10, "wall)");
   folder.write("parts/haptic.json", R"({"haptic": {}})");
