@@ -20,3 +20,8 @@ target_compile_definitions(physics_collide_test PRIVATE SCENES="${PROJECT_SOURCE
 # Nothing tunnels.
 palpate_test(NAME physics_tunnelling_test KIND property SOURCES physics_tunnelling_test.cpp
   LIBS palpate_bench_shots TIMEOUT 300)
+# The same bits as ever, by the widest instruction set that this machine has and by that of every x86-64 machine.
+palpate_test(NAME physics_golden_test KIND golden SOURCES physics_golden_test.cpp LIBS palpate_physics_worlds TIMEOUT 300)
+add_test(NAME physics_golden_sse2_test COMMAND physics_golden_test WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+set_tests_properties(physics_golden_sse2_test PROPERTIES LABELS golden TIMEOUT 300
+  ENVIRONMENT "PALPATE_SOURCE=${PROJECT_SOURCE_DIR};PALPATE_ISA=sse2")
