@@ -1,6 +1,7 @@
 #include "haptic_node/device/device.h"
 
 #include <fmt/format.h>
+#include <time.h>
 
 #include <cmath>
 #include <cstdio>
@@ -11,6 +12,7 @@ namespace palpate::haptic {
 namespace {
 
 constexpr std::uint32_t calibration_timeout_ms = 10'000;
+constexpr timespec grace{0, 5'000'000};  // for a thread that stop() of an older driver has only woken
 
 void log_line(void*, int level, const char* line) {
   std::fprintf(stderr, "haptic device %s: %s\n", level >= 2 ? "error" : level == 1 ? "warn" : "info", line);
@@ -36,16 +38,15 @@ Device::Device(const DriverLibrary& library, const Options& options, ClockFuncti
   host_.log = &log_line;
   host_.now_ns = now_ns;
 
-  std::string id;
-  std::vector<const char*> kv;
+  words_ = {library.name(), library.path(), {}, {}};
   for (const auto& [key, value] : options) {
-    if (key == "id") {
-      id = value;
-    } else {
-      kv.push_back(key.c_str());
-      kv.push_back(value.c_str());
-    }
+    if (key == "id")
+      words_.id = value;
+    else
+      words_.pairs.insert(words_.pairs.end(), {key, value});
   }
+  std::vector<const char*> kv;
+  for (const auto& word : words_.pairs) kv.push_back(word.c_str());
   const auto refuse = [&](const std::string& what) {
     throw InputError(
         fmt::format("{}{}driver \"{}\": {}", place, place.empty() ? "" : ": ", library.name(), what));
@@ -56,7 +57,7 @@ Device::Device(const DriverLibrary& library, const Options& options, ClockFuncti
   };
 
   const auto pairs = static_cast<std::uint32_t>(kv.size() / 2);
-  if (api_->open(&host_, id.c_str(), kv.data(), pairs, &handle_) != HDEV_OK || handle_ == nullptr) {
+  if (api_->open(&host_, words_.id.c_str(), kv.data(), pairs, &handle_) != HDEV_OK || handle_ == nullptr) {
     handle_ = nullptr;
     refuse(api_->last_error(nullptr));
   }
@@ -75,6 +76,14 @@ hdev_status Device::enable_force(bool on) noexcept {
 
 void Device::stop() noexcept {
   if (handle_ != nullptr) api_->stop(handle_);
+}
+
+bool Device::emergency_stop(std::uint32_t within_us) noexcept {
+  if (handle_ == nullptr) return true;
+  if (api_->emergency_stop != nullptr) return api_->emergency_stop(handle_, within_us) == HDEV_OK;
+  const bool good = api_->stop(handle_) == HDEV_OK;
+  nanosleep(&grace, nullptr);
+  return good;
 }
 
 void Device::close() noexcept {

@@ -14,6 +14,14 @@ namespace palpate::haptic {
 /// The time, real or simulated, as drivers and the controller see it [ns].
 using ClockFunction = std::int64_t (*)(void* user);
 
+/// How another process finds a device: its driver, and what open() was told.
+struct RescueWords {
+  std::string driver;  // name
+  std::string file;    // of the driver
+  std::string id;
+  std::vector<std::string> pairs;  // key, value, key, value, ...
+};
+
 class Device {
  public:
   using Options = std::vector<std::pair<std::string, std::string>>;
@@ -42,6 +50,13 @@ class Device {
   /// Motors off now; any thread.
   void stop() noexcept;
 
+  /// The process dies: motors off, from a signal handler on any thread (see haptic_device.h). @return whether they are
+  /// known to be off; of a driver without that function, its own word
+  bool emergency_stop(std::uint32_t within_us) noexcept;
+  /// Whether another process can switch the motors off once this one has gone; by these words.
+  bool can_be_rescued() const noexcept { return api_->rescue != nullptr; }
+  const RescueWords& rescue_words() const noexcept { return words_; }
+
   /// Motors off, device released; safe to repeat.
   void close() noexcept;
   bool is_open() const noexcept { return handle_ != nullptr; }
@@ -51,6 +66,7 @@ class Device {
   hdev_host host_{};
   hdev* handle_ = nullptr;
   hdev_info info_{};
+  RescueWords words_;
 };
 
 }  // namespace palpate::haptic

@@ -6,7 +6,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdlib>
+#include <cstring>
+#include <map>
+#include <mutex>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -19,6 +23,7 @@ namespace {
 
 constexpr std::string_view prefix = "palpate_driver_";
 constexpr std::string_view suffix = ".so";
+constexpr std::size_t first_table = offsetof(hdev_api, emergency_stop);  // of minor version 0 [bytes]
 
 bool is_driver_name(const std::string& name) {
   const auto fits = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
@@ -62,10 +67,20 @@ std::string objection(const hdev_api* api) {
   if (api->abi_major != HDEV_ABI_MAJOR)
     return fmt::format("speaks ABI {}.{}, this palpate speaks {}.{}; rebuild it against haptic_device.h",
                        api->abi_major, api->abi_minor, HDEV_ABI_MAJOR, HDEV_ABI_MINOR);
-  if (api->size < sizeof(hdev_api))
-    return fmt::format("hands out a table of {} bytes, {} are needed", api->size, sizeof(hdev_api));
+  if (api->size < first_table)
+    return fmt::format("hands out a table of {} bytes, {} are needed", api->size, first_table);
   if (const char* function = missing_function(*api)) return fmt::format("leaves {}() null", function);
   return {};
+}
+
+/// The table as this host knows it: what an older driver does not have is null. One a driver file, for ever.
+const hdev_api& known_table(const std::string& file, const hdev_api& given) {
+  static std::mutex gate;
+  static std::map<std::string, hdev_api> tables;
+  const std::lock_guard<std::mutex> lock(gate);
+  hdev_api& known = tables[file];
+  std::memcpy(&known, &given, std::min<std::size_t>(given.size, sizeof known));
+  return known;
 }
 
 }  // namespace
@@ -114,6 +129,11 @@ DriverLibrary DriverLibrary::load(const std::string& name, const std::string& pl
   }
   if (file.empty()) refuse(name, place, file_name + " not found");
 
+  return load_file(name, file, place);
+}
+
+DriverLibrary DriverLibrary::load_file(const std::string& name, const fs::path& file,
+                                       const std::string& place) {
   void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (handle == nullptr) refuse(name, place, fmt::format("{} does not load ({})", file.string(), dlerror()));
   void* symbol = dlsym(handle, HDEV_ENTRY_SYMBOL);
@@ -125,7 +145,7 @@ DriverLibrary DriverLibrary::load(const std::string& name, const std::string& pl
     refuse(name, place, file.string() + " " + wrong);
 
   DriverLibrary library;
-  library.api_ = api;
+  library.api_ = &known_table(file.string(), *api);
   library.name_ = name;
   library.path_ = file.string();
   return library;

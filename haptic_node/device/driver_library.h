@@ -24,6 +24,10 @@ class DriverLibrary {
   /// @throws InputError, one line: the name, the loader's own words, where it was looked for, which drivers there are
   static DriverLibrary load(const std::string& name, const std::string& place = {});
 
+  /// The same for a file that is known already.
+  static DriverLibrary load_file(const std::string& name, const std::filesystem::path& file,
+                                 const std::string& place = {});
+
   const hdev_api& api() const noexcept { return *api_; }
   const std::string& name() const noexcept { return name_; }
   const std::string& path() const noexcept { return path_; }

@@ -22,7 +22,7 @@ extern "C" {
 #endif
 
 #define HDEV_ABI_MAJOR 1u
-#define HDEV_ABI_MINOR 0u
+#define HDEV_ABI_MINOR 1u
 #define HDEV_ENTRY_SYMBOL "hdev_plugin_query"
 
 /* What a call answers. Zero is good. */
@@ -173,6 +173,19 @@ typedef struct hdev_api {
   hdev_status (*write)(hdev* device, const hdev_command* command);
   /* Motors off, now. From any thread and from signal handlers. enable_force() powers them again. */
   hdev_status (*stop)(hdev* device);
+
+  /* Since minor version 1; a table of version 0 ends before them, and both may be null. */
+
+  /* The process is about to die: motors off, whatever state it is in. Called from a signal handler on any thread, which
+     may be one of the driver's own or have crashed inside the vendor's library; perhaps on a stack of 64 KiB. Allocates
+     nothing, takes no lock of its own; may sleep, for `within_us` at most. It may crash or hang in the vendor's library:
+     the host goes on with the next device, and ends the process in time. Nothing but this is called afterwards.
+     HDEV_OK: the motors are known to be off. Null: stop() does it. */
+  hdev_status (*emergency_stop)(hdev* device, uint32_t within_us);
+  /* In another process, after the one that had a device open has died with its motors on: opens it by the words that
+     open() got, no force, motors off, releases it. May block. Called again after a failure, since it may take the system
+     a while to take a device from the dead; last_error(NULL) says why. Null: nothing can be done from outside. */
+  hdev_status (*rescue)(const hdev_host* host, const char* id, const char* const* kv, uint32_t n_kv);
 } hdev_api;
 
 /* The one exported symbol. Null if the driver cannot serve that host. */

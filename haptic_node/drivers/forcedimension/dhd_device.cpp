@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "haptic_node/drivers/kit/emergency.h"
+
 namespace palpate::haptic::forcedimension {
 namespace {
 
@@ -126,9 +128,12 @@ void DhdDevice::power(bool on) {
   if (on && !calibrated_.load())
     throw kit::Trouble(HDEV_E_NOTCAL, "forces stay off until the device is calibrated");
   powered_.store(false);
+  if (doomed_.load()) return;
+  off_.store(false);
   if (dhd_.set_effort(0, 0, 0, 0, 0, 0, id_) < 0 || dhd_.enable_force(on ? DHD_ON : DHD_OFF, id_) < 0)
     throw kit::Trouble(HDEV_E_COMM, fmt::format("forces do not switch: {}", dhd_.get_last_error()));
   powered_.store(on);
+  off_.store(!on);
 }
 
 std::string DhdDevice::last_words() const {
@@ -202,7 +207,7 @@ hdev_status DhdDevice::read(hdev_state& state) noexcept {
 
 hdev_status DhdDevice::write(const kit::Effort& effort) noexcept {
   if (lost_.load()) return HDEV_E_LOST;
-  if (!powered_.load()) return HDEV_OK;
+  if (!powered_.load() || doomed_.load()) return HDEV_OK;
   const auto& f = effort.force;
   const auto& t = effort.torque;
   const int answer = dhd_.set_effort(f[0], f[1], f[2], t[0], t[1], t[2], id_);
@@ -221,10 +226,37 @@ void DhdDevice::keep_ready_to_stop() noexcept {
     }
     if (leaving_.load()) return;
     if (lost_.load() || powered_.load()) continue;
-    dhd_.set_effort(0, 0, 0, 0, 0, 0, id_);
-    dhd_.enable_force(DHD_OFF, id_);
-    dhd_.stop(id_);
+    switch_off();
   }
+}
+
+void DhdDevice::switch_off() noexcept {
+  dhd_.set_effort(0, 0, 0, 0, 0, 0, id_);
+  const bool told = dhd_.enable_force(DHD_OFF, id_) >= 0;
+  const bool braked = dhd_.stop(id_) >= 0;
+  if (told || braked) off_.store(true);
+}
+
+/// The thread that is kept ready lives, unless libdhd is locked by whoever has crashed: it is waited for, then libdhd is
+/// called from here. Whatever hangs, the device hears no more forces, and its own watchdog lets go.
+hdev_status DhdDevice::emergency_stop(std::uint32_t within_us) noexcept {
+  doomed_.store(true);
+  stop();
+  if (lost_.load() || kit::comes_true([this] { return off_.load(); }, within_us / 2)) return HDEV_OK;
+  switch_off();
+  return off_.load() ? HDEV_OK : HDEV_E_COMM;
+}
+
+void rescue_device(const Dhd& dhd, const std::string& id) {
+  const int number = open_number(dhd, id);
+  if (number < 0) throw kit::Trouble(HDEV_E_NODEV, dhd.get_last_error());
+  const char device = static_cast<char>(number);
+  dhd.set_effort(0, 0, 0, 0, 0, 0, device);
+  const bool off = dhd.enable_force(DHD_OFF, device) >= 0;
+  const bool braked = dhd.stop(device) >= 0;
+  const std::string words = off || braked ? "" : dhd.get_last_error();
+  dhd.close(device);
+  if (!words.empty()) throw kit::Trouble(HDEV_E_COMM, words);
 }
 
 }  // namespace palpate::haptic::forcedimension

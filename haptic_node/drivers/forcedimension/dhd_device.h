@@ -15,6 +15,9 @@
 
 namespace palpate::haptic::forcedimension {
 
+/// Motors off from outside, after the process that had the device open has died. @throws kit::Trouble
+void rescue_device(const Dhd& dhd, const std::string& id);
+
 class DhdDevice final : public kit::OpenDevice {
  public:
   static constexpr double watchdog_tick = 125e-6;       // unit of the device's watchdog [s]
@@ -34,6 +37,7 @@ class DhdDevice final : public kit::OpenDevice {
   hdev_status read(hdev_state& state) noexcept override;
   hdev_status write(const kit::Effort& effort) noexcept override;
   hdev_status stop() noexcept override;
+  hdev_status emergency_stop(std::uint32_t within_us) noexcept override;
 
  private:
   void say_what_it_is();
@@ -41,6 +45,7 @@ class DhdDevice final : public kit::OpenDevice {
   std::uint32_t faults(const int* status) const noexcept;
   hdev_status failed() noexcept;
   void keep_ready_to_stop() noexcept;
+  void switch_off() noexcept;
 
   const Dhd& dhd_;
   char id_ = 0;
@@ -51,6 +56,8 @@ class DhdDevice final : public kit::OpenDevice {
   sem_t wake_;
   std::atomic<bool> leaving_{false};
   std::atomic<bool> powered_{false};
+  std::atomic<bool> off_{true};      // and the device has been told so
+  std::atomic<bool> doomed_{false};  // the process is dying: motors stay off
   std::atomic<bool> lost_{false};
   std::atomic<bool> calibrated_{false};
   std::uint64_t seq_ = 0;

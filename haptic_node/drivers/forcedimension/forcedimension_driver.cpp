@@ -32,10 +32,14 @@ std::unique_ptr<kit::OpenDevice> open(const hdev_host& host, const std::string& 
   return std::make_unique<forcedimension::DhdDevice>(host, shared_dhd(library), id);
 }
 
+void rescue(const hdev_host&, const std::string& id, kit::Options& options) {
+  forcedimension::rescue_device(shared_dhd(options.text("library", "")), id);
+}
+
 }  // namespace
 
 const kit::Driver& kit::this_driver() {
-  static const Driver driver{"forcedimension", "1.0", list, open};
+  static const Driver driver{"forcedimension", "1.0", list, open, rescue};
   return driver;
 }
 

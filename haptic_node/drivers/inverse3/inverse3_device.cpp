@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "haptic_node/drivers/kit/emergency.h"
+
 namespace palpate::haptic::inverse3 {
 namespace {
 
@@ -52,6 +54,7 @@ Inverse3Device::Inverse3Device(const hdev_host& host, const Settings& settings, 
   if (!exchange(true))
     throw kit::Trouble(HDEV_E_COMM, "the Haply Inverse service does not answer with a state");
   has_grip_ = known_.has_grip;
+  no_force_ = WebSocket::frame_of(force_message(settings_.dialect, id_, {}, false));
   thread_ = std::thread([this] { converse(); });
 } catch (const ConnectionLost& lost) {
   throw no_service(settings, lost.what());
@@ -109,13 +112,14 @@ void Inverse3Device::converse() noexcept {
 /// One message, one answer. @return false for an answer that says nothing of the device
 /// @throws ConnectionLost
 bool Inverse3Device::exchange(bool first) {
-  const bool powered = wanted_.load();
+  forcing_.store(forcing_.load() || wanted_.load());
+  const bool powered = wanted_.load() && !doomed_.load();
   const std::array<double, 3> force = powered ? force_due() : std::array<double, 3>{};
   // After the last force one message with none, then questions only.
-  const bool with_force = powered || forcing_;
+  const bool with_force = forcing_.load();
   socket_.send_text(with_force ? force_message(settings_.dialect, id_, force, first)
                                : probe_message(settings_.dialect, id_, first));
-  forcing_ = powered;
+  forcing_.store(powered);
   std::string answer;
   if (!socket_.receive_text(answer, answer_time))
     throw ConnectionLost("the Haply Inverse service has fallen silent");
@@ -175,6 +179,28 @@ hdev_status Inverse3Device::write(const kit::Effort& effort) noexcept {
 hdev_status Inverse3Device::stop() noexcept {
   wanted_.store(false);
   return HDEV_OK;
+}
+
+/// The conversation ends the force with its next message, unless it waits for an answer that does not come, or has crashed.
+/// Then the message that was made ready goes to the socket from here.
+hdev_status Inverse3Device::emergency_stop(std::uint32_t within_us) noexcept {
+  doomed_.store(true);
+  if (kit::comes_true([this] { return !forcing_.load(); }, within_us / 2)) return HDEV_OK;
+  return socket_.send_now(no_force_) ? HDEV_OK : HDEV_E_COMM;
+}
+
+void rescue_device(const Settings& settings, const std::string& id) {
+  try {
+    WebSocket socket(settings.host, settings.port, opening_time);
+    const auto ids = devices_in(inventory_of(socket, settings));
+    if (id.empty() && ids.empty()) throw kit::Trouble(HDEV_E_NODEV, "the service has no Inverse3 any more");
+    socket.send_text(force_message(settings.dialect, id.empty() ? ids.front() : id, {}, true));
+    std::string answer;
+    if (!socket.receive_text(answer, Inverse3Device::answer_time))
+      throw kit::Trouble(HDEV_E_COMM, "the service does not answer");
+  } catch (const ConnectionLost& lost) {
+    throw no_service(settings, lost.what());
+  }
 }
 
 }  // namespace palpate::haptic::inverse3

@@ -29,6 +29,10 @@ struct Settings {
 /// The devices that the service has now. @throws kit::Trouble
 std::vector<std::string> list_devices(const Settings& settings);
 
+/// No force, over a connection of its own: for another process, after the one that led the device has died.
+/// @throws kit::Trouble
+void rescue_device(const Settings& settings, const std::string& id);
+
 class Inverse3Device final : public kit::OpenDevice {
  public:
   static constexpr std::int64_t silence_ns = 20'000'000;        // of the host, after which the force is none
@@ -45,6 +49,7 @@ class Inverse3Device final : public kit::OpenDevice {
   hdev_status read(hdev_state& state) noexcept override;
   hdev_status write(const kit::Effort& effort) noexcept override;
   hdev_status stop() noexcept override;
+  hdev_status emergency_stop(std::uint32_t within_us) noexcept override;
 
  private:
   struct Sample {
@@ -68,12 +73,14 @@ class Inverse3Device final : public kit::OpenDevice {
   TripleBuffer<Sample> samples_;  // conversation -> host's thread
   TripleBuffer<Order> orders_;    // host's thread -> conversation
   std::atomic<bool> wanted_{false}, leaving_{false}, lost_{false};
+  std::atomic<bool> doomed_{false};   // the process is dying: no force any more
+  std::atomic<bool> forcing_{false};  // the last message held a force, perhaps none
+  std::string no_force_;              // the message that ends a force, ready to be sent
   std::string lost_words_;  // written before lost_ is set, read after
   // Host's thread:
   std::uint64_t last_seq_ = 0;
   // Conversation:
   std::uint64_t seq_ = 0;
-  bool forcing_ = false;  // the last message held a force, perhaps none
   int bad_in_a_row_ = 0;
   std::thread thread_;
 };

@@ -71,7 +71,7 @@ void WebSocket::shake_hands(const std::string& host, const std::string& port, Ti
 }
 
 /// A client masks what it sends.
-void WebSocket::send_frame(unsigned char kind, const std::string& content) {
+std::string WebSocket::frame_of(unsigned char kind, const std::string& content) {
   std::string frame(1, static_cast<char>(last_of_message | kind));
   const auto byte = [&frame](std::uint64_t value) { frame += static_cast<char>(value & 0xff); };
   const std::uint64_t n = content.size();
@@ -81,7 +81,7 @@ void WebSocket::send_frame(unsigned char kind, const std::string& content) {
   const std::string mask = random_bytes(4);
   frame += mask;
   for (std::size_t i = 0; i < content.size(); ++i) frame += static_cast<char>(content[i] ^ mask[i % 4]);
-  stream_.send_all(frame);
+  return frame;
 }
 
 /// @return false if no whole frame comes in time

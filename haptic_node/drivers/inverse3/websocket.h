@@ -24,6 +24,11 @@ class WebSocket {
   /// @throws ConnectionLost
   void send_text(const std::string& text) { send_frame(0x1, text); }
 
+  /// A text message made ready for send_now().
+  static std::string frame_of(const std::string& text) { return frame_of(0x1, text); }
+  /// From a signal handler: a message made ready before, without waiting. @return whether all of it has left
+  bool send_now(const std::string& frame) const noexcept { return stream_.send_now(frame); }
+
   /// The next text message. Answers pings.
   /// @return false if none is complete within the time; what has come of it is kept
   /// @throws ConnectionLost
@@ -32,7 +37,10 @@ class WebSocket {
  private:
   using Time = kit::TcpStream::Time;
   void shake_hands(const std::string& host, const std::string& port, Time end);
-  void send_frame(unsigned char kind, const std::string& content);
+  static std::string frame_of(unsigned char kind, const std::string& content);
+  void send_frame(unsigned char kind, const std::string& content) {
+    stream_.send_all(frame_of(kind, content));
+  }
   bool next_frame(unsigned char& head, std::string& content, Time end);
 
   kit::TcpStream stream_;

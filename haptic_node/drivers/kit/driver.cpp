@@ -130,6 +130,18 @@ hdev_status kit_write(hdev* device, const hdev_command* command) {
 
 hdev_status kit_stop(hdev* device) { return device->device->stop(); }
 
+hdev_status kit_emergency_stop(hdev* device, std::uint32_t within_us) {
+  return device->device->emergency_stop(within_us);
+}
+
+hdev_status kit_rescue(const hdev_host* host, const char* id, const char* const* kv, std::uint32_t n_kv) {
+  if (host == nullptr) return HDEV_E_ARG;
+  return answer(open_trouble(), [&] {
+    kit::Options options(kv, n_kv);
+    kit::this_driver().rescue(*host, id == nullptr ? "" : id, options);
+  });
+}
+
 }  // namespace
 
 extern "C" const hdev_api* hdev_plugin_query(std::uint32_t host_major, std::uint32_t) {
@@ -149,6 +161,8 @@ extern "C" const hdev_api* hdev_plugin_query(std::uint32_t host_major, std::uint
                                kit_rt_attach,
                                kit_read,
                                kit_write,
-                               kit_stop};
+                               kit_stop,
+                               kit_emergency_stop,
+                               kit::this_driver().rescue == nullptr ? nullptr : kit_rescue};
   return host_major == HDEV_ABI_MAJOR ? &api : nullptr;
 }

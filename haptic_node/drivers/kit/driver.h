@@ -51,6 +51,9 @@ class OpenDevice {
   /// Any thread, signal handlers too.
   virtual hdev_status stop() noexcept = 0;
 
+  /// The process dies: as hdev_api.emergency_stop says. Enough where stop() itself is.
+  virtual hdev_status emergency_stop(std::uint32_t /*within_us*/) noexcept { return stop(); }
+
  protected:
   std::int64_t now_ns() const noexcept { return host_->now_ns(host_->user); }
   void log(int level, const std::string& line) const { host_->log(host_->user, level, line.c_str()); }
@@ -66,6 +69,8 @@ struct Driver {
   std::vector<std::string> (*list)();
   /// @param id  "" is the first device
   std::unique_ptr<OpenDevice> (*open)(const hdev_host& host, const std::string& id, Options& options);
+  /// As hdev_api.rescue says. Null where a second process can do nothing, or nothing has to be done. Throws Trouble.
+  void (*rescue)(const hdev_host& host, const std::string& id, Options& options) = nullptr;
 };
 
 /// Defined by each driver.

@@ -47,6 +47,11 @@ void TcpStream::send_all(const std::string& bytes) {
   }
 }
 
+bool TcpStream::send_now(const std::string& bytes) const noexcept {
+  return send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT) ==
+         static_cast<ssize_t>(bytes.size());
+}
+
 bool TcpStream::read_more(std::string& input, Time end) {
   const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
   pollfd wait{socket_, POLLIN, 0};

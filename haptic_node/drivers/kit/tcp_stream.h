@@ -25,6 +25,9 @@ class TcpStream {
   /// Small messages leave at once. @throws ConnectionLost
   void send_all(const std::string& bytes);
 
+  /// From a signal handler: what fits into the socket's buffer now. @return whether that was all
+  bool send_now(const std::string& bytes) const noexcept;
+
   /// Appends what has come to `input`; waits for something until `end`.
   /// @return false if nothing came
   /// @throws ConnectionLost

@@ -1,6 +1,7 @@
 #include "haptic_node/drivers/openhaptics/hd_device.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -130,7 +131,11 @@ unsigned int HdDevice::frame(void* self) {
   auto& device = *static_cast<HdDevice*>(self);
   const Hd& hd = device.hd_;
   if (device.lost_.load()) return HD_CALLBACK_CONTINUE;
+  static thread_local const int scheduler_thread = gettid();  // another one after each rest of the scheduler
+  device.scheduler_thread_.store(scheduler_thread);
+  device.frame_part_.store(FramePart::outside);
   hd.make_current(device.scheduled_.device);
+  device.frame_part_.store(FramePart::open);
   hd.begin_frame(device.scheduled_.device);
 
   // 1. the hand
@@ -140,14 +145,16 @@ unsigned int HdDevice::frame(void* self) {
   device.measure(sample.state);
 
   // 2. the force; motors go on and off with none
-  const bool wanted = device.wanted_.load() && device.fault_ == 0;
+  const bool wanted = device.wanted_.load() && !device.doomed_.load() && device.fault_ == 0;
   const bool was_on = device.powered_.load();
   const kit::Effort effort = wanted && was_on ? device.effort_due(now) : kit::Effort{};
   if (wanted || was_on) device.set_effort(effort);
   hd.end_frame(device.scheduled_.device);
+  device.frame_part_.store(FramePart::outside);
   if (wanted && !was_on) hd.enable(HD_FORCE_OUTPUT);
   if (!wanted && was_on) hd.disable(HD_FORCE_OUTPUT);
   device.powered_.store(wanted);
+  device.frame_part_.store(FramePart::none);
 
   // 3. what the vendor has to say, and what the host is told
   device.heed_errors(sample);

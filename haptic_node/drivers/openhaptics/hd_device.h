@@ -32,8 +32,10 @@ class HdDevice final : public kit::OpenDevice {
   hdev_status read(hdev_state& state) noexcept override;
   hdev_status write(const kit::Effort& effort) noexcept override;
   hdev_status stop() noexcept override;
+  hdev_status emergency_stop(std::uint32_t within_us) noexcept override;
 
  private:
+  enum class FramePart { none, outside, open };  // of frame(): between hdBeginFrame and hdEndFrame it is open
   struct Sample {
     hdev_state state{};
     hdev_status status = HDEV_OK;
@@ -59,6 +61,9 @@ class HdDevice final : public kit::OpenDevice {
   TripleBuffer<Order> orders_;    // host's thread -> vendor's
   std::uint64_t last_seq_ = 0;    // host's
   std::atomic<bool> wanted_{false}, powered_{false}, lost_{false};
+  std::atomic<bool> doomed_{false};  // the process is dying: motors stay off
+  std::atomic<int> scheduler_thread_{0};
+  std::atomic<FramePart> frame_part_{FramePart::none};
   std::atomic<std::uint32_t> calibration_{HDEV_CAL_NEEDED};
   std::atomic<unsigned int> last_code_{HD_SUCCESS};
   // Vendor's thread:

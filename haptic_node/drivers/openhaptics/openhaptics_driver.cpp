@@ -2,6 +2,7 @@
 
 #include "haptic_node/drivers/kit/driver.h"
 #include "haptic_node/drivers/openhaptics/hd_device.h"
+#include "haptic_node/drivers/openhaptics/hd_emergency.h"
 
 namespace palpate::haptic {
 namespace {
@@ -13,6 +14,11 @@ const char* const first_device = "Default PHANToM";
 std::vector<std::string> list() {
   openhaptics::shared_hd("");
   return {first_device};
+}
+
+void rescue(const hdev_host&, const std::string& id, kit::Options& options) {
+  openhaptics::rescue_device(openhaptics::shared_hd(options.text("library", "")),
+                             id.empty() ? first_device : id);
 }
 
 std::unique_ptr<kit::OpenDevice> open(const hdev_host& host, const std::string& id, kit::Options& options) {
@@ -27,7 +33,7 @@ std::unique_ptr<kit::OpenDevice> open(const hdev_host& host, const std::string& 
 }  // namespace
 
 const kit::Driver& kit::this_driver() {
-  static const Driver driver{"openhaptics", "1.0", list, open};
+  static const Driver driver{"openhaptics", "1.0", list, open, rescue};
   return driver;
 }
 

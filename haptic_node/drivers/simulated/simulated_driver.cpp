@@ -219,11 +219,19 @@ hdev_status sim_stop(hdev* device) {
   return HDEV_OK;
 }
 
-const hdev_api api = {sizeof(hdev_api), HDEV_ABI_MAJOR, HDEV_ABI_MINOR,   0,
-                      "simulated",      "1.0",          sim_enumerate,    sim_open,
-                      sim_get_info,     sim_calibrate,  sim_enable_force, sim_close,
-                      sim_last_error,   sim_rt_attach,  sim_read,         sim_write,
-                      sim_stop};
+/// What moves this hand is computed in this process and ends with it.
+hdev_status sim_emergency_stop(hdev* device, std::uint32_t) { return sim_stop(device); }
+
+const hdev_api api = {sizeof(hdev_api), HDEV_ABI_MAJOR,
+                      HDEV_ABI_MINOR,   0,
+                      "simulated",      "1.0",
+                      sim_enumerate,    sim_open,
+                      sim_get_info,     sim_calibrate,
+                      sim_enable_force, sim_close,
+                      sim_last_error,   sim_rt_attach,
+                      sim_read,         sim_write,
+                      sim_stop,         sim_emergency_stop,
+                      nullptr};
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 #define SHORT_TABLE 4
 #define HOLE 5
 #define NULL_TABLE 6
+#define FIRST_TABLE 7 /* not wrong: of minor version 0, behind whose end lies what is no function */
 
 #if BROKEN == NO_SYMBOL
 int palpate_test_something_else(void);
@@ -40,6 +41,8 @@ static hdev_status t_write(hdev* d, const hdev_command* c) { return (void)d, (vo
 static const hdev_api table = {
 #if BROKEN == SHORT_TABLE
     16,
+#elif BROKEN == FIRST_TABLE
+    offsetof(hdev_api, emergency_stop),
 #else
     sizeof(hdev_api),
 #endif
@@ -63,9 +66,16 @@ static const hdev_api table = {
     t_read,
     t_write,
 #if BROKEN == HOLE
-    NULL
+    NULL,
 #else
-    t_plain
+    t_plain,
+#endif
+#if BROKEN == FIRST_TABLE
+    (hdev_status(*)(hdev*, uint32_t))1,
+    (hdev_status(*)(const hdev_host*, const char*, const char* const*, uint32_t))1
+#else
+    NULL,
+    NULL
 #endif
 };
 

@@ -59,13 +59,21 @@ TEST(DriverLibrary, NamesTheVendorFunctionThatIsMissing) {
 
 TEST(DriverLibrary, RefusesAnotherMajorVersion) {
   const std::string line = complaint("abi2");
-  EXPECT_TRUE(has(line, "palpate_driver_abi2.so speaks ABI 2.0, this palpate speaks 1.0")) << line;
+  EXPECT_TRUE(has(line, "palpate_driver_abi2.so speaks ABI 2.1, this palpate speaks 1.1")) << line;
 }
 
 TEST(DriverLibrary, RefusesATableThatIsTooShortOrHasHoles) {
   EXPECT_TRUE(has(complaint("short"), "hands out a table of 16 bytes"));
   EXPECT_TRUE(has(complaint("hole"), "leaves stop() null"));
-  EXPECT_TRUE(has(complaint("null"), "does not serve ABI 1.0"));
+  EXPECT_TRUE(has(complaint("null"), "does not serve ABI 1.1"));
+}
+
+TEST(DriverLibrary, TakesATableOfTheFirstVersionForOneWithoutTheRest) {
+  setenv("PALPATE_DRIVERS", PALPATE_BROKEN_DRIVERS, 1);
+  const DriverLibrary library = DriverLibrary::load("first");
+  EXPECT_NE(library.api().stop, nullptr);
+  EXPECT_EQ(library.api().emergency_stop, nullptr) << "what lies behind the end of the driver's table";
+  EXPECT_EQ(library.api().rescue, nullptr);
 }
 
 TEST(DriverLibrary, RefusesNamesThatLeaveTheFolder) {
