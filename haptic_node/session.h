@@ -68,6 +68,11 @@ class HapticSession {
     if (!lost_.load()) device_.stop();
   }
 
+  /// The process dies: motors off, from a signal handler on any thread. @return whether they are known to be off
+  bool emergency_stop(std::uint32_t within_us) noexcept {
+    return lost_.load() || device_.emergency_stop(within_us);
+  }
+
   /// The force ramps to zero within 20 ms of further ticks; then stopped() is true.
   void begin_stop() noexcept { controller_.begin_stop(); }
   bool stopped() const noexcept { return controller_.stopped() || state() == HapticState::fault; }
@@ -81,6 +86,7 @@ class HapticSession {
   const TraceSample& trace() const noexcept { return trace_; }
   const SessionCounts& counts() const noexcept { return counts_; }
   const hdev_info& device_info() const noexcept { return device_.info(); }
+  const Device& device() const noexcept { return device_; }
   /// Since the newest patch was accepted [s]; below 0: none yet.
   double patch_age() const noexcept;
   const Controller& controller() const noexcept { return controller_; }

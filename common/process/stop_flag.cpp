@@ -18,6 +18,13 @@ extern "C" void on_signal(int, siginfo_t* info, void*) {
   stop.store(true);
 }
 
+/// nohup and the like: who starts us has decided that this signal means nothing.
+bool is_ignored(int signal) noexcept {
+  struct sigaction now = {};
+  sigaction(signal, nullptr, &now);
+  return (now.sa_flags & SA_SIGINFO) == 0 && now.sa_handler == SIG_IGN;
+}
+
 }  // namespace
 
 void install_stop_handlers() noexcept {
@@ -27,7 +34,11 @@ void install_stop_handlers() noexcept {
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
-  std::signal(SIGPIPE, SIG_IGN);
+  for (const int signal : {SIGHUP, SIGPWR})  // the terminal has gone, the power is going
+    if (!is_ignored(signal)) sigaction(signal, &action, nullptr);
+  // A write that fails is trouble that somebody reports; one that stops or ends the process is not. SIGTTOU comes to who
+  // writes to a terminal from the background.
+  for (const int signal : {SIGPIPE, SIGXFSZ, SIGTTOU}) std::signal(signal, SIG_IGN);
 }
 
 std::string stopped_by() {

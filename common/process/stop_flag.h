@@ -1,14 +1,14 @@
 #pragma once
-// SIGINT and SIGTERM as a flag that loops look at. The handler only sets it.
+// SIGINT, SIGTERM, SIGHUP and SIGPWR as a flag that loops look at. The handler only sets it.
 
 #include <string>
 
 namespace palpate {
 
-/// Installs the handlers; call once from main().
+/// Installs the handlers, and has SIGPIPE, SIGXFSZ and SIGTTOU ignored; call once from main().
 void install_stop_handlers() noexcept;
 
-/// True after SIGINT, SIGTERM or request_stop().
+/// True after one of these signals or request_stop().
 bool stop_requested() noexcept;
 
 /// Name of the program that sent the last of these signals; empty if none did, or if it has gone.

@@ -52,7 +52,7 @@ HapticNode::HapticNode(const NodeOptions& options, const Scene& scene)
       return open_session(scene_, tool, options_.device, options_.domain);
     });
   }
-  crash_stop_ = std::make_unique<CrashStop>(channels_);
+  set_guard();
   reports_.resize(channels_.size());
   flights_.resize(channels_.size());
   wire_ = std::make_unique<Wire>(membership(options, scene, "haptic"), channels_);
@@ -72,6 +72,17 @@ void HapticNode::ask_for_rights() {
     if (!why.empty()) lacks.push_back(why);
   if (options_.require_rt && !lacks.empty()) throw InputError(lacks);
   for (const auto& why : lacks) log_warn("{}", why);
+}
+
+/// Before motors are on for the first time.
+void HapticNode::set_guard() {
+  std::vector<const RescueWords*> tools;
+  for (const auto& channel : channels_) {
+    const Device& device = channel->session.get()->device();
+    tools.push_back(device.can_be_rescued() ? &device.rescue_words() : nullptr);
+  }
+  guardian_ = std::make_unique<Guardian>(std::move(tools));
+  crash_stop_ = std::make_unique<CrashStop>(channels_, *guardian_);
 }
 
 /// Motors are switched on here, not in the real-time thread, as drivers may take their time.
@@ -202,6 +213,7 @@ int HapticNode::run() {
                                      [](const SessionReport& report) { return report.first_run_ns > 0; });
     publish_status(running ? NodePhase::running : NodePhase::ready);
     unwelcome_ = newcomer_->must_go();
+    guardian_->look_after();
   }
   return leave();
 }

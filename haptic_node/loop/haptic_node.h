@@ -7,6 +7,7 @@
 
 #include "common/message/messages.h"
 #include "common/process/node_main.h"
+#include "haptic_node/guardian/guardian.h"
 #include "haptic_node/loop/crash_stop.h"
 #include "haptic_node/loop/device_reset.h"
 #include "haptic_node/loop/realtime.h"
@@ -27,6 +28,7 @@ class HapticNode {
 
  private:
   void ask_for_rights();
+  void set_guard();
   void serve();
   void look_at_tools();
   void keep_flights();
@@ -42,6 +44,7 @@ class HapticNode {
       first_;  // joins before any driver that speaks DDS does, so that the session's reach counts
   double rate_Hz_;
   RealtimeRights rights_;
+  std::unique_ptr<Guardian> guardian_;  // goes after the devices
   std::vector<std::unique_ptr<ToolChannel>> channels_;
   std::vector<SessionReport> reports_;
   std::vector<DeviceReset> resets_;

@@ -129,6 +129,24 @@ TEST_F(HandFaults, CrashesAndExitsWithMotorsOff) {
   unsetenv("PALPATE_WATCHED_TROUBLE");
 }
 
+/// The watched driver is of version 1.0 of the contract: it has stop() and no more.
+TEST_F(HandFaults, EverySignalThatEndsTheNodeStopsTheMotorsOfAnOlderDriver) {
+  start_physics();
+  for (const int signal :
+       {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSYS, SIGTRAP, SIGQUIT, SIGALRM, SIGUSR1, SIGUSR2,
+        SIGVTALRM, SIGPROF, SIGXCPU, SIGPOLL, SIGSTKFLT, SIGRTMIN, SIGHUP, SIGPWR}) {
+    haptic = start(PALPATE_HAPTIC);
+    ASSERT_TRUE(until([this] { return device->powered == 1 && device->writes > 100; })) << log();
+    const int status = end(haptic, signal);
+    if (signal == SIGHUP || signal == SIGPWR)
+      EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << signal << ": " << status;
+    else
+      EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal) << signal << ": " << status;
+    EXPECT_EQ(device->powered, 0u) << signal;
+    new (&*device) WatchedDevice;
+  }
+}
+
 TEST_F(HandFaults, AnEmergencyStopIsLatchedKeptAsAFlightAndEndedByAPerson) {
   start_both();
   ASSERT_TRUE(presses()) << log();
