@@ -62,7 +62,7 @@ ChunkFate BodyPicture::take(const BodySurface& chunk) {
 
 void BodyPicture::begin_anew() noexcept {
   assembly_.begin_anew();
-  held_.clear();
+  let_go_of_held();
   held_revision_ = revision_ = 0;
 }
 
@@ -70,6 +70,9 @@ void BodyPicture::show(Surface surface) {
   surface_ = std::move(surface);
   revision_ = surface_.revision;
   const auto n = surface_.position.size();
+  shown_memory_.clear();
+  shown_memory_.add(n * sizeof(Array3f) +
+                    surface_.corners.size() * (sizeof(Corners) + sizeof(std::uint32_t)));
   flags_.assign(n, 0);
   is_moved_.assign(n, 0);
   packed_.assign(n, {});
@@ -88,22 +91,30 @@ void BodyPicture::show(Surface surface) {
       if (well_formed(block, n)) apply(block);
     }
   }
-  if (held_revision_ <= surface_.revision) held_.clear();
+  if (held_revision_ <= surface_.revision) let_go_of_held();
 }
 
 bool BodyPicture::take(const VertexBlock& block) {
   if (block.revision < revision_) return false;
-  if (block.revision > revision_) {
-    if (block.revision < held_revision_) return false;
-    if (block.revision > held_revision_) held_.clear();
-    held_revision_ = block.revision;
-    held_[block.block] = block;
-    return true;
-  }
+  if (block.revision > revision_) return hold(block);
   if (empty()) return false;
   if (!well_formed(block, surface_.position.size())) return false;
   apply(block);
   return true;
+}
+
+bool BodyPicture::hold(const VertexBlock& block) {
+  if (block.revision < held_revision_) return false;
+  if (block.revision > held_revision_) let_go_of_held();
+  held_revision_ = block.revision;
+  if (held_.count(block.block) == 0 && !held_memory_.add(sizeof block)) return false;
+  held_[block.block] = block;
+  return true;
+}
+
+void BodyPicture::let_go_of_held() noexcept {
+  held_.clear();
+  held_memory_.clear();
 }
 
 void BodyPicture::apply(const VertexBlock& block) {

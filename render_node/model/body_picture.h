@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <vector>
 
+#include "render_node/model/memory_budget.h"
 #include "render_node/model/surface.h"
 #include "render_node/model/surface_assembly.h"
 #include "render_node/model/surface_normals.h"
@@ -26,12 +28,15 @@ struct VertexRange {
 
 class BodyPicture {
  public:
+  explicit BodyPicture(std::shared_ptr<MemoryBudget> budget = std::make_shared<MemoryBudget>())
+      : assembly_(budget), held_memory_(budget), shown_memory_(budget) {}
+
   /// Takes a chunk; when it completes a newer revision, that becomes the picture.
   ChunkFate take(const BodySurface& chunk);
 
   /// Moves vertices of the revision shown. A block of a newer revision is held until that is whole (only changed blocks
   /// are sent, so it may not come again); blocks may overtake surfaces.
-  /// @return false: of another revision or not finite, ignored
+  /// @return false: of another revision or not finite, or no room is left to hold it: ignored
   bool take(const VertexBlock& block);
 
   /// Another physics sends from now on and numbers revisions anew. What is shown stays until its surface is whole.
@@ -62,6 +67,8 @@ class BodyPicture {
 
  private:
   static constexpr std::size_t page_vertices = 512;  // granularity of dirty ranges
+  bool hold(const VertexBlock& block);
+  void let_go_of_held() noexcept;
   void show(Surface surface);
   void apply(const VertexBlock& block);
   void touch(std::size_t vertex) { page_dirty_[vertex / page_vertices] = 1; }
@@ -70,6 +77,7 @@ class BodyPicture {
   SurfaceAssembly assembly_;
   std::map<std::uint32_t, VertexBlock> held_;  // newest of each block of held_revision_
   std::uint32_t held_revision_ = 0;
+  MemoryHold held_memory_, shown_memory_;
   std::uint32_t revision_ = 0;  // of the surface shown, as blocks number it; 0: its sender has gone
 
   Surface surface_;

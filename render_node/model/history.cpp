@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/message/messages.h"
+
 namespace palpate::render {
 
 void History::add(double t, double value) {
-  if (!std::isfinite(t) || !std::isfinite(value)) return;
+  if (!(std::abs(t) <= longest_time) || !std::isfinite(value)) return;
   if (t < newest_t_) buckets_.clear();
   newest_t_ = t;
   now_ = value;

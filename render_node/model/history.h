@@ -12,7 +12,7 @@ class History {
   static constexpr double span_s = 10.0;
   static constexpr double bucket_s = 0.01;
 
-  /// Takes a value at time t [s]. A time before the newest one starts the history anew (a reset).
+  /// Takes a value at time t [s]; one beyond longest_time is ignored. A time before the newest one starts the history anew (a reset).
   void add(double t, double value);
 
   struct Point {

@@ -9,8 +9,6 @@
 namespace palpate::render {
 namespace {
 
-constexpr std::uint32_t max_chunks = 1u << 15;  // 67 million vertices: more is a mistake, not a picture
-
 bool inside(std::uint32_t first, std::uint32_t n, std::uint32_t total) {
   return n <= total && first <= total - n;
 }
@@ -19,7 +17,7 @@ bool inside(std::uint32_t first, std::uint32_t n, std::uint32_t total) {
 
 bool SurfaceAssembly::well_formed(const BodySurface& chunk) noexcept {
   const std::uint64_t most = chunk.n_chunks;
-  if (chunk.revision == 0 || chunk.n_chunks == 0 || chunk.n_chunks > max_chunks) return false;
+  if (chunk.revision == 0 || chunk.n_chunks == 0 || chunk.n_chunks > max_surface_chunks) return false;
   if (chunk.chunk >= chunk.n_chunks) return false;
   if (chunk.n_vertices > max_surface_vertices || chunk.n_facets > max_surface_facets) return false;
   if (chunk.total_vertices > most * max_surface_vertices || chunk.total_facets > most * max_surface_facets) {
@@ -39,9 +37,8 @@ bool SurfaceAssembly::well_formed(const BodySurface& chunk) noexcept {
 }
 
 bool SurfaceAssembly::belongs(const BodySurface& chunk) const noexcept {
-  const Surface& surface = pending_->surface;
-  return chunk.n_chunks == pending_->has.size() && chunk.total_vertices == surface.position.size() &&
-         chunk.total_facets == surface.corners.size();
+  return chunk.n_chunks == pending_->n_chunks && chunk.total_vertices == pending_->n_vertices &&
+         chunk.total_facets == pending_->n_facets;
 }
 
 ChunkFate SurfaceAssembly::take(const BodySurface& chunk) {
@@ -49,34 +46,65 @@ ChunkFate SurfaceAssembly::take(const BodySurface& chunk) {
   if (chunk.revision <= shown_revision_ || chunk.revision < pending_revision()) return ChunkFate::stale;
   if (chunk.revision > pending_revision()) start(chunk);
   if (!belongs(chunk)) return ChunkFate::malformed;
-  copy(chunk);
-  return pending_->missing == 0 ? ChunkFate::completed : ChunkFate::kept;
+  if (!keep(chunk)) return ChunkFate::too_large;
+  if (pending_->parts.size() < pending_->n_chunks) return ChunkFate::kept;
+  if (join()) return ChunkFate::completed;
+  pending_.reset();
+  return ChunkFate::malformed;
 }
 
 void SurfaceAssembly::start(const BodySurface& chunk) {
-  Surface surface;
+  pending_.reset();
+  pending_.emplace(
+      Pending{{}, chunk.n_chunks, chunk.total_vertices, chunk.total_facets, {}, MemoryHold(budget_)});
+  Surface& surface = pending_->surface;
   surface.body = chunk.body;
   surface.revision = chunk.revision;
   surface.rigid = chunk.rigid != 0;
   surface.facets_hidden = chunk.facets_hidden;
-  surface.position.resize(chunk.total_vertices);
-  surface.corners.resize(chunk.total_facets);
-  surface.rgba.resize(chunk.total_facets);
-  pending_ = Pending{std::move(surface), std::vector<bool>(chunk.n_chunks, false), chunk.n_chunks};
 }
 
-void SurfaceAssembly::copy(const BodySurface& chunk) {
+/// @return false if there is no room for it
+bool SurfaceAssembly::keep(const BodySurface& chunk) {
+  const auto before = pending_->parts.find(chunk.chunk);
+  if (before == pending_->parts.end() &&
+      !pending_->memory.add(sizeof(Part) + chunk.n_vertices * sizeof(Array3f) +
+                            chunk.n_facets * (sizeof(Corners) + sizeof(std::uint32_t))))
+    return false;
+  if (before != pending_->parts.end()) return true;  // it comes twice
+  Part& part = pending_->parts[chunk.chunk];
+  part.first_vertex = chunk.first_vertex;
+  part.first_facet = chunk.first_facet;
+  part.position.assign(chunk.position.begin(), chunk.position.begin() + chunk.n_vertices);
+  part.corners.assign(chunk.corners.begin(), chunk.corners.begin() + chunk.n_facets);
+  part.rgba.assign(chunk.rgba.begin(), chunk.rgba.begin() + chunk.n_facets);
+  return true;
+}
+
+/// @return false if the parts leave gaps or lie over one another
+bool SurfaceAssembly::join() {
+  std::size_t vertices = 0, facets = 0;
+  for (const auto& [number, part] : pending_->parts) {
+    if (part.first_vertex != vertices || part.first_facet != facets) return false;
+    vertices += part.position.size();
+    facets += part.corners.size();
+  }
+  if (vertices != pending_->n_vertices || facets != pending_->n_facets) return false;
   Surface& surface = pending_->surface;
-  std::copy_n(chunk.position.begin(), chunk.n_vertices, surface.position.begin() + chunk.first_vertex);
-  std::copy_n(chunk.corners.begin(), chunk.n_facets, surface.corners.begin() + chunk.first_facet);
-  std::copy_n(chunk.rgba.begin(), chunk.n_facets, surface.rgba.begin() + chunk.first_facet);
-  if (pending_->has[chunk.chunk]) return;
-  pending_->has[chunk.chunk] = true;
-  --pending_->missing;
+  surface.position.reserve(vertices);
+  surface.corners.reserve(facets);
+  surface.rgba.reserve(facets);
+  for (const auto& [number, part] : pending_->parts) {
+    surface.position.insert(surface.position.end(), part.position.begin(), part.position.end());
+    surface.corners.insert(surface.corners.end(), part.corners.begin(), part.corners.end());
+    surface.rgba.insert(surface.rgba.end(), part.rgba.begin(), part.rgba.end());
+  }
+  return true;
 }
 
 Surface SurfaceAssembly::finished() {
-  PALPATE_CHECK(pending_ && pending_->missing == 0, "finished() before all chunks came");
+  PALPATE_CHECK(pending_ && pending_->parts.size() == pending_->n_chunks,
+                "finished() before all chunks came");
   Surface surface = std::move(pending_->surface);
   pending_.reset();
   shown_revision_ = surface.revision;

@@ -5,7 +5,10 @@
 #include "common/message/vec3.h"
 
 namespace palpate::render {
-ViewModel::ViewModel(const Scene& scene) : bodies_(scene.bodies.size()), tools_(scene.tools.size()) {}
+ViewModel::ViewModel(const Scene& scene) : tools_(scene.tools.size()) {
+  bodies_.reserve(scene.bodies.size());
+  for (std::size_t n = 0; n < scene.bodies.size(); ++n) bodies_.emplace_back(budget_);
+}
 
 void ViewModel::begin_anew() noexcept {
   for (auto& body : bodies_) body.begin_anew();
@@ -17,7 +20,7 @@ void ViewModel::take(const BodySurface& chunk) {
     return;
   }
   const auto fate = bodies_[chunk.body].take(chunk);
-  if (fate == ChunkFate::stale || fate == ChunkFate::malformed) ++ignored_;
+  if (fate != ChunkFate::kept && fate != ChunkFate::completed) ++ignored_;
 }
 
 void ViewModel::take(const VertexBlock& block) {

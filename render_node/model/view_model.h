@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -58,9 +59,12 @@ class ViewModel {
   std::size_t facets_total() const noexcept;
   std::uint64_t samples_ignored() const noexcept {
     return ignored_;
-  }  // stale, malformed or about nothing known
+  }  // stale, malformed, too large or about nothing known
+  /// How often something was not kept because it would have been too much (memory_budget.h).
+  std::uint64_t memory_refused() const noexcept { return budget_->refused; }
 
  private:
+  std::shared_ptr<MemoryBudget> budget_ = std::make_shared<MemoryBudget>();
   std::vector<BodyPicture> bodies_;  // as in the scene
   std::vector<ToolView> tools_;      // as in the scene
   std::array<std::optional<NodeStatus>, n_node_kinds> nodes_;

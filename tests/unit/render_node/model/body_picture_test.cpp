@@ -150,5 +150,20 @@ TEST(BodyPicture, GivesAVertexTheMeanColourOfItsFacets) {
     EXPECT_EQ(rgba, 0xff555555U);  // one facet of each at every corner
 }
 
+TEST(BodyPicture, HoldsBlocksThatWaitWithinItsBudget) {
+  const auto budget = std::make_shared<MemoryBudget>();
+  BodyPicture picture(budget);
+  VertexBlock block = block_of(cube, 0, 2, 0);
+  std::uint32_t held = 0;
+  while (held < max_surface_chunks && picture.take(block)) {
+    block.block = ++held;
+    block.first_vertex = held * max_block_vertices;
+  }
+  EXPECT_LT(held, max_surface_chunks);
+  EXPECT_LE(budget->used, MemoryBudget::most);
+  picture.begin_anew();
+  EXPECT_EQ(budget->used, 0U);
+}
+
 }  // namespace
 }  // namespace palpate::render

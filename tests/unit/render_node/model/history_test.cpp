@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "common/message/messages.h"
+
 namespace palpate::render {
 namespace {
 
@@ -44,6 +46,16 @@ TEST(History, StartsAnewWhenTimeGoesBack) {
   history.add(0.1, 1.0);
   EXPECT_EQ(history.points().size(), 1U);
   EXPECT_EQ(history.peak(), 1.0);
+}
+
+TEST(History, IgnoresATimeThatIsNone) {
+  History history;
+  history.add(1.0, 3.0);
+  for (const double t : {1e300, 1e17, -1e17, -1e300}) history.add(t, 9.0);
+  EXPECT_EQ(history.points().size(), 1U);
+  EXPECT_EQ(history.peak(), 3.0);
+  history.add(longest_time, 2.0);
+  EXPECT_EQ(history.points().size(), 1U) << "what is older than the span has gone";
 }
 
 }  // namespace

@@ -89,5 +89,51 @@ TEST(SurfaceAssembly, RefusesAChunkThatDisagreesWithItsFellows) {
   EXPECT_EQ(assembly.take(chunks[1]), ChunkFate::malformed);
 }
 
+/// A chunk of 65 kB that says it is the first of 16,384.
+TEST(SurfaceAssembly, TakesMemoryForWhatHasComeOnly) {
+  BodySurface chunk = chunks_of(cube, 0, 1)[0];
+  chunk.n_chunks = max_surface_chunks;
+  chunk.total_vertices = max_surface_chunks * max_surface_vertices;
+  chunk.total_facets = max_surface_chunks * max_surface_facets;
+  const auto budget = std::make_shared<MemoryBudget>();
+  SurfaceAssembly assembly(budget);
+  for (std::uint32_t revision = 1; revision < 100; ++revision) {
+    chunk.revision = revision;
+    ASSERT_EQ(assembly.take(chunk), ChunkFate::kept);
+    EXPECT_LE(budget->used, sizeof chunk + 100);
+  }
+  assembly.begin_anew();
+  EXPECT_EQ(budget->used, 0U);
+}
+
+TEST(SurfaceAssembly, StopsAtItsBudgetWhateverIsSaidToCome) {
+  BodySurface chunk = chunks_of(cube, 0, 1)[0];
+  chunk.n_chunks = max_surface_chunks;
+  chunk.total_vertices = max_surface_chunks * max_surface_vertices;
+  chunk.total_facets = max_surface_chunks * max_surface_facets;
+  const auto budget = std::make_shared<MemoryBudget>();
+  SurfaceAssembly one(budget), other(budget);
+  std::uint32_t kept = 0;
+  while (kept < chunk.n_chunks && one.take(chunk) == ChunkFate::kept) chunk.chunk = ++kept;
+  EXPECT_LT(kept, chunk.n_chunks);
+  EXPECT_EQ(one.take(chunk), ChunkFate::too_large);
+  EXPECT_LE(budget->used, MemoryBudget::most);
+  EXPECT_EQ(other.take(chunk), ChunkFate::too_large) << "all bodies share it";
+  one.begin_anew();
+  EXPECT_EQ(other.take(chunk), ChunkFate::kept);
+  EXPECT_GE(budget->refused, 2U);
+}
+
+TEST(SurfaceAssembly, RefusesChunksThatDoNotMakeAWhole) {
+  auto chunks = chunks_of(cube, 0, 1);
+  chunks[1].first_vertex = 0;
+  SurfaceAssembly assembly;
+  assembly.take(chunks[0]);
+  EXPECT_EQ(assembly.take(chunks[1]), ChunkFate::malformed);
+  chunks = chunks_of(cube, 0, 1);
+  assembly.take(chunks[0]);
+  EXPECT_EQ(assembly.take(chunks[1]), ChunkFate::completed) << "as if it had not been";
+}
+
 }  // namespace
 }  // namespace palpate::render
