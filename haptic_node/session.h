@@ -60,6 +60,9 @@ class HapticSession {
   /// @param newest, wrench  the newest known, which may be those of the last tick; null: none yet
   void tick(const ContactPatch* newest, const ToolWrench* wrench = nullptr) noexcept;
 
+  /// Another physics speaks from now on, and counts its ticks anew.
+  void listen_anew() noexcept { controller_.listen_anew(); }
+
   /// With Power::by_service: switches the motors on when a tick has asked for it. Not the ticking thread.
   void service() noexcept;
 

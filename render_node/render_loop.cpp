@@ -17,6 +17,7 @@
 #include "common/report/json_file.h"
 #include "common/report/log.h"
 #include "common/time/clock.h"
+#include "common/wire/heard_report.h"
 #include "render_node/frame_schedule.h"
 #include "render_node/image/frame_folder.h"
 #include "render_node/picture.h"
@@ -63,7 +64,7 @@ class Fare {
     wire.tell(status_);
   }
   /// @return exit code: nothing that was to be kept may be missing
-  int write_report(const std::string& out, const ViewModel& model) const {
+  int write_report(const std::string& out, const ViewModel& model, Wire& wire) const {
     const double seconds = seconds_from_ns(last_ns_ - first_ns_);
     const auto folder = std::filesystem::path(out) / "parts";
     std::error_code already;  // write_json says what is wrong with the folder
@@ -73,8 +74,10 @@ class Fare {
                              {"facets_total", model.facets_total()}};
     if (frames_ > 1 && seconds > 0) report["fps"] = static_cast<double>(frames_ - 1) / seconds;
     if (lost_ > 0) report["frames_lost"] = lost_;
+    nlohmann::json part = {{"render", report}};
+    part.merge_patch(heard_report("render", wire.heard()));
     try {
-      write_json((folder / "render.json").string(), {{"render", report}});
+      write_json((folder / "render.json").string(), part);
     } catch (const std::runtime_error& error) {
       log_error("{}", error.what());
       return exit_failed;
@@ -138,7 +141,7 @@ int run_headless(const NodeOptions& options, const Scene& scene) {
     fare.tell(wire, phase_of(picture.model()), schedule.skipped(), false);
   }
   fare.tell(wire, NodePhase::stopping, schedule.skipped(), true);
-  const int kept = fare.write_report(options.out, picture.model());
+  const int kept = fare.write_report(options.out, picture.model(), wire);
   return wire.unwelcome() ? exit_mistake : kept;
 }
 
@@ -184,7 +187,7 @@ int run_window(const NodeOptions& options, const Scene& scene) {
     if (rest_s > 0) std::this_thread::sleep_for(std::chrono::duration<double>(std::min(rest_s, 0.1)));
   }
   fare.tell(wire, NodePhase::stopping, 0, true);
-  const int kept = options.out.empty() ? exit_ok : fare.write_report(options.out, model);
+  const int kept = options.out.empty() ? exit_ok : fare.write_report(options.out, model, wire);
   return wire.unwelcome() ? exit_mistake : kept;
 }
 

@@ -1,5 +1,7 @@
 #include "render_node/wire.h"
 
+#include "common/report/log.h"
+
 namespace palpate::render {
 
 Wire::Wire(const Membership& membership) : participant_(membership) {}
@@ -14,13 +16,29 @@ bool Wire::drain(Reader<M>& reader, M& buffer, ViewModel& model) {
   return any;
 }
 
-/// Surfaces of a physics that was started again begin at revision 1, whatever was shown before.
-bool Wire::drain_surfaces(ViewModel& model) {
+/// A physics that was started again numbers its surfaces from revision 1 on, whatever was shown before. What it sent while
+/// nobody was sure of it was not taken: new readers get all of it again.
+void Wire::follow_physics(ViewModel& model) {
+  const std::uint64_t changes = physics_.changes();
+  if (changes == physics_changes_) return;
+  const bool another = physics_changes_ > 0;
+  physics_changes_ = changes;
+  if (!another) return;
+  model.begin_anew();
+  surfaces_before_ = sum(surfaces_before_, surfaces_->counts());
+  blocks_before_ = sum(blocks_before_, blocks_->counts());
+  surfaces_ = std::make_unique<Reader<BodySurface>>(participant_, &physics_);
+  blocks_ = std::make_unique<Reader<VertexBlock>>(participant_, &physics_);
+}
+
+/// Each node tells of itself.
+bool Wire::drain_statuses(ViewModel& model) {
   bool any = false;
-  while (surfaces_.take(buffers_->surface)) {
-    if (physics_ != 0 && surfaces_.sender() != physics_) model.begin_anew();
-    physics_ = surfaces_.sender();
-    model.take(buffers_->surface);
+  while (statuses_.take(buffers_->status)) {
+    const NodeKind node = buffers_->status.node;
+    if (node == NodeKind::physics && !statuses_.is_from(physics_)) continue;
+    if (node == NodeKind::haptic && !statuses_.is_from(hand_)) continue;
+    model.take(buffers_->status);
     any = true;
   }
   return any;
@@ -28,13 +46,19 @@ bool Wire::drain_surfaces(ViewModel& model) {
 
 Wire::News Wire::take_into(ViewModel& model) {
   News news;
-  news.anything |= drain_surfaces(model);
-  news.anything |= drain(blocks_, buffers_->block, model);
+  news.anything |= drain_statuses(model);
   news.anything |= drain(wrenches_, buffers_->wrench, model);
+  follow_physics(model);
+  news.anything |= drain(*surfaces_, buffers_->surface, model);
+  news.anything |= drain(*blocks_, buffers_->block, model);
   news.anything |= drain(traces_, buffers_->trace, model);
-  news.anything |= drain(statuses_, buffers_->status, model);
+  follow_physics(model);
+  if (model.memory_refused() > 0 && !memory_told_) {
+    memory_told_ = true;
+    log_warn("not all of the surfaces is shown: they would take more than {} MB", MemoryBudget::most >> 20U);
+  }
   Command command;
-  while (commands_.take(command)) {
+  for (int n = 0; n < most_commands && commands_.take(command); ++n) {
     switch (command.kind) {
       case CommandKind::stop:
         news.stop = true;
@@ -64,22 +88,21 @@ void Wire::command(CommandKind kind, double value) {
   command_.write(command);
 }
 
-template <class M>
-void Wire::count(Reader<M>& reader, NodeStatus& status) {
-  const ReaderCounts counts = reader.counts();
-  status.samples_received += counts.received;
-  status.samples_lost += counts.lost;
-  for (std::size_t i = 0; i < counts.rejected.size(); ++i) status.rejected[i] += counts.rejected[i];
+std::vector<Heard> Wire::heard() {
+  return {{"BodySurface", sum(surfaces_before_, surfaces_->counts())},
+          {"VertexBlock", sum(blocks_before_, blocks_->counts())},
+          {"ToolWrench", wrenches_.counts()},
+          {"HapticTrace", traces_.counts()},
+          {"NodeStatus", statuses_.counts()},
+          {"Command", commands_.counts()}};
 }
 
 void Wire::tell(NodeStatus status) {
-  count(surfaces_, status);
-  count(blocks_, status);
-  count(wrenches_, status);
-  count(traces_, status);
-  count(statuses_, status);
-  count(commands_, status);
+  clear_counts(status);
+  for (const Heard& one : heard()) add_counts(status, one.counts);
   status_.write(status);
+  for (Speaker* speaker : {&physics_, &hand_, &people_})
+    for (const auto& line : speaker->remarks()) log_warn("{}", line);
   unwelcome_ = unwelcome_ || newcomer_.must_go();
 }
 

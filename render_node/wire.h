@@ -1,13 +1,17 @@
 #pragma once
 // The eye's end of the wire: takes everything that can be seen, tells how it fares, and passes the hand's wishes on.
 
+#include <chrono>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "common/message/messages.h"
 #include "common/process/node_main.h"
 #include "common/wire/participant.h"
 #include "common/wire/reader.h"
+#include "common/wire/refusals.h"
+#include "common/wire/speaker.h"
 #include "common/wire/writer.h"
 #include "render_node/model/view_model.h"
 
@@ -28,31 +32,44 @@ class Wire {
 
   void command(CommandKind kind, double value = 0);
   void point(const Pointer& pointer) { pointer_.write(pointer); }
-  /// Fills in what the readers counted, and sends.
+  /// Fills in what the readers counted, and sends; says who is not heard.
   void tell(NodeStatus status);
+  /// What has come so far, by topic.
+  std::vector<Heard> heard();
   /// The session here is of another scene or version: the log says which. Looked at by tell().
   bool unwelcome() const noexcept { return unwelcome_; }
 
  private:
   template <class M>
   bool drain(Reader<M>& reader, M& buffer, ViewModel& model);
-  bool drain_surfaces(ViewModel& model);
-  template <class M>
-  void count(Reader<M>& reader, NodeStatus& status);
+  void follow_physics(ViewModel& model);
+  bool drain_statuses(ViewModel& model);
+
+  // Physics at rest says little more than its status, five times a second.
+  static constexpr std::chrono::seconds silence{1};
+  static constexpr int most_commands = 64;  // a picture; what is more waits
 
   Participant participant_;
   Newcomer newcomer_{participant_};
-  Reader<BodySurface> surfaces_{participant_};
-  Reader<VertexBlock> blocks_{participant_};
-  Reader<ToolWrench> wrenches_{participant_};
-  Reader<HapticTrace> traces_{participant_};
+  Speaker physics_{participant_, "physics", silence};
+  Speaker hand_{participant_, "haptic", silence};
+  Speaker people_{participant_, {"render", "supervisor"}};
+  // Both anew when another physics speaks: it then sends all that it has told so far.
+  std::unique_ptr<Reader<BodySurface>> surfaces_ =
+      std::make_unique<Reader<BodySurface>>(participant_, &physics_);
+  std::unique_ptr<Reader<VertexBlock>> blocks_ =
+      std::make_unique<Reader<VertexBlock>>(participant_, &physics_);
+  Reader<ToolWrench> wrenches_{participant_, &physics_};
+  Reader<HapticTrace> traces_{participant_, &hand_};
   Reader<NodeStatus> statuses_{participant_};
-  Reader<Command> commands_{participant_};
+  Reader<Command> commands_{participant_, &people_};
   Writer<NodeStatus> status_{participant_};
   Writer<Command> command_{participant_};
   Writer<Pointer> pointer_{participant_};
-  std::uint64_t physics_ = 0;  // who sent the last surface
+  std::uint64_t physics_changes_ = 0;  // how often another physics had taken over, at the last look
+  ReaderCounts surfaces_before_, blocks_before_;  // of the readers before those
   std::uint64_t last_command_ = 0;
+  bool memory_told_ = false;
   bool paused_ = false;
   bool unwelcome_ = false;
 

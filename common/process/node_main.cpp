@@ -1,11 +1,17 @@
 #include "common/process/node_main.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <exception>
+#include <thread>
 
 #include "common/error/error.h"
 #include "common/process/checked_option.h"
+#include "common/process/other_process.h"
 #include "common/process/stop_flag.h"
 #include "common/report/log.h"
 #include "common/scene/load_scene.h"
@@ -15,6 +21,10 @@ namespace palpate {
 namespace {
 
 constexpr std::int64_t newcomer_ns = 3'000'000'000;  // discovery repeats itself every second
+constexpr std::int64_t company_answers_ns =
+    30'000'000;  // who is there answers a newcomer at once, one after the other
+constexpr std::int64_t alone_ns = 200'000'000;
+constexpr std::size_t most_named = 20;
 
 }  // namespace
 
@@ -25,13 +35,53 @@ Membership membership(const NodeOptions& options, const Scene& scene, const std:
           .shared_memory = true};
 }
 
-Newcomer::Newcomer(Participant& participant) : companions_(participant), until_ns_(now_ns() + newcomer_ns) {}
+Newcomer::Newcomer(Participant& participant, const Identity& own)
+    : companions_(participant, own), own_(own), began_ns_(now_ns()) {}
+
+void Newcomer::settle() {
+  std::int64_t company_ns = 0;  // when somebody was seen first
+  while (!stop_requested()) {
+    const std::int64_t now = now_ns();
+    if (company_ns == 0 && !companions_.present().empty()) company_ns = now;
+    if (now - began_ns_ > alone_ns || (company_ns > 0 && now - company_ns > company_answers_ns)) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  const auto reasons = reasons_to_go();
+  if (!reasons.empty()) throw InputError(reasons);
+}
+
+/// Of two on one machine the one that was started first stays. Clocks of two machines are not compared: the newcomer goes.
+std::vector<std::string> Newcomer::reasons_to_go() {
+  std::vector<std::string> lines = companions_.differences(false);
+  for (const Identity& other : companions_.doubles()) {
+    if (other.host == own_.host && started_before(own_.pid, other.pid)) continue;
+    lines.push_back(fmt::format(
+        "{} is in this session already, on {} (pid {}); end it first, or give this one another --domain",
+        other.role, other.host, other.pid));
+  }
+  return lines;
+}
+
+void Newcomer::name_doubles() {
+  for (const Identity& other : companions_.doubles()) {
+    const bool known = std::any_of(named_.begin(), named_.end(), [&](const Identity& one) {
+      return one.pid == other.pid && one.host == other.host;
+    });
+    if (known || named_.size() >= most_named) continue;
+    named_.push_back(other);
+    log_warn("another {} has come, on {} (pid {}); this one was here first and stays", other.role, other.host,
+             other.pid);
+  }
+}
 
 bool Newcomer::must_go() {
-  if (now_ns() > until_ns_) return false;
-  const auto differences = companions_.differences(false);
-  for (const auto& line : differences) log_error("{}", line);
-  return !differences.empty();
+  if (now_ns() - began_ns_ <= newcomer_ns) {
+    const auto reasons = reasons_to_go();
+    for (const auto& line : reasons) log_error("{}", line);
+    if (!reasons.empty()) return true;
+  }
+  name_doubles();
+  return false;
 }
 
 int node_main(int argc, char** argv, const char* name,

@@ -16,34 +16,46 @@ namespace palpate {
 struct NodeOptions {
   std::string scene_path;
   std::vector<std::string> settings;
-  std::string out;         // folder for what this node leaves; empty: nothing is written
-  int domain = 0;          // DDS domain
-  Reach reach;             // which machines it talks to
-  double seconds = 0;      // stop after this much simulated time; 0: until told
-  std::string device;      // driver instead of the scene's; empty: the scene's
-  bool headless = false;   // render: frames to files, no window
-  bool require_rt = false; // haptic: no real-time rights is fatal
+  std::string out;          // folder for what this node leaves; empty: nothing is written
+  int domain = 0;           // DDS domain
+  Reach reach;              // which machines it talks to
+  double seconds = 0;       // stop after this much simulated time; 0: until told
+  std::string device;       // driver instead of the scene's; empty: the scene's
+  bool headless = false;    // render: frames to files, no window
+  bool require_rt = false;  // haptic: no real-time rights is fatal
 };
 
 /// How a node joins its session.
 Membership membership(const NodeOptions& options, const Scene& scene, const std::string& role);
 
-/// A node that comes to a session of another scene or version goes again, and says why: looks at its companions for
-/// the first seconds of its life. Who was there first stays.
+/// A node that comes to a session of another scene or version, or to one that has a node of its role already, goes again and
+/// says why: looks at its companions for the first seconds of its life. Who was there first stays, and says who has come.
 class Newcomer {
  public:
-  explicit Newcomer(Participant& participant);
+  /// @param own  who asks; may look before it is seen itself, through a participant that is nobody
+  Newcomer(Participant& participant, const Identity& own);
+  explicit Newcomer(Participant& participant) : Newcomer(participant, participant.identity()) {}
+
+  /// Before anything is said or opened: waits until discovery has had its time, some 30 ms in a session and 200 ms where
+  /// nobody is. @throws InputError, a line for each who does not fit
+  void settle();
   /// True if this node must go (exit_mistake); what there is to say has then been logged. Call it now and then, never
   /// from a real-time thread.
   bool must_go();
 
  private:
+  std::vector<std::string> reasons_to_go();
+  void name_doubles();
+
   Companions companions_;
-  std::int64_t until_ns_;
+  Identity own_;
+  std::int64_t began_ns_;
+  std::vector<Identity> named_;  // doubles that have been named
 };
 
 /// Reads the command line and the scene, calls `run`, and turns InputError into one line each on stderr and exit 2,
 /// any other exception into one line and exit 1.
-int node_main(int argc, char** argv, const char* name, const std::function<int(const NodeOptions&, const Scene&)>& run);
+int node_main(int argc, char** argv, const char* name,
+              const std::function<int(const NodeOptions&, const Scene&)>& run);
 
 }  // namespace palpate

@@ -3,6 +3,7 @@
 #include <dds/dds.h>
 
 #include <array>
+#include <utility>
 
 #include "common/wire/topic.h"
 
@@ -23,7 +24,9 @@ std::optional<Identity> identity_of(const dds_builtintopic_participant_t& partic
 
 }  // namespace
 
-Companions::Companions(Participant& participant) : own_(participant.identity()) {
+Companions::Companions(Participant& participant) : Companions(participant, participant.identity()) {}
+
+Companions::Companions(Participant& participant, Identity own) : own_(std::move(own)) {
   reader_ = made(dds_create_reader(participant.handle(), DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, nullptr, nullptr),
                  "reader of", "participants");
 }
@@ -55,6 +58,13 @@ std::vector<std::string> Companions::differences(bool with_supervisors) const {
     if (!line.empty()) lines.push_back(line);
   }
   return lines;
+}
+
+std::vector<Identity> Companions::doubles() const {
+  if (own_.role != "physics" && own_.role != "haptic") return {};
+  std::vector<Identity> found = present();
+  std::erase_if(found, [this](const Identity& other) { return other.role != own_.role; });
+  return found;
 }
 
 }  // namespace palpate

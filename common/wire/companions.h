@@ -13,6 +13,8 @@ class Companions {
  public:
   /// @throws std::runtime_error if DDS refuses
   explicit Companions(Participant& participant);
+  /// Looks through somebody else's eyes: `own` is who asks.
+  Companions(Participant& participant, Identity own);
   ~Companions();
   Companions(const Companions&) = delete;
   Companions& operator=(const Companions&) = delete;
@@ -24,8 +26,11 @@ class Companions {
   /// is in a session already need not mind that one looks in.
   std::vector<std::string> differences(bool with_supervisors) const;
 
+  /// Other processes of our own role, where a session has room for one only: physics and haptic.
+  std::vector<Identity> doubles() const;
+
  private:
-  const Identity& own_;
+  const Identity own_;
   std::int32_t reader_ = 0;
 };
 

@@ -9,21 +9,12 @@
 #include <optional>
 
 #include "common/message/messages.h"
+#include "common/wire/broken.h"
 #include "idl/palpate.h"
 
 namespace palpate {
 
-struct Broken {
-  RejectReason reason = RejectReason::other;
-  const char* field = "";  // as the IDL calls it
-  friend bool operator==(const Broken& broken, RejectReason reason) noexcept {
-    return broken.reason == reason;
-  }
-};
 using Verdict = std::optional<Broken>;  // nothing: the sample keeps all promises
-
-/// As in "out of range".
-const char* text_of(RejectReason reason) noexcept;
 
 Verdict judge(const palpate_wire_ToolState& wire) noexcept;
 Verdict judge(const palpate_wire_ContactPatch& wire) noexcept;

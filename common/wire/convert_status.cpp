@@ -5,28 +5,6 @@ namespace palpate {
 
 using namespace wire_parts;
 
-const char* text_of(RejectReason reason) noexcept {
-  switch (reason) {
-    case RejectReason::version:
-      return "of another version";
-    case RejectReason::count:
-      return "too many";
-    case RejectReason::unknown_id:
-      return "not known";
-    case RejectReason::not_finite:
-      return "not finite";
-    case RejectReason::not_unit:
-      return "not of length one";
-    case RejectReason::out_of_range:
-      return "out of range";
-    case RejectReason::text:
-      return "text without end";
-    case RejectReason::other:
-      return "out of order";
-  }
-  return "";
-}
-
 Verdict judge(const palpate_wire_Command& wire) noexcept {
   return Check(wire.version)
       .that(wire.kind < n_command_kinds, RejectReason::unknown_id, "kind")

@@ -1,5 +1,10 @@
 #include "common/wire/reader.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+
 #include "common/wire/convert.h"
 #include "common/wire/inbox.h"
 #include "common/wire/topic.h"
@@ -27,8 +32,15 @@ struct Reader<M>::Inner {
   typename Topic<M>::Wire wire{};     // what is being taken
   ReaderCounts counts;
   std::uint64_t sender = 0;
+  Speaker* speaker = nullptr;
+  std::atomic<std::uint64_t> kept_out{0};  // foreign samples that DDS was not to keep
 
   void open(Participant& participant);
+  /// DDS asks this before a sample takes the place of another one.
+  static bool let_in(const dds_sample_info_t* info, void* inner) noexcept;
+  bool is_foreign();
+  void reject(const Broken& broken) noexcept;
+  void note(std::string_view refusal) noexcept;
   /// Takes a sample into `wire`. @return false if none was left
   bool fetch(dds_time_t& sent) noexcept;
   /// Fetches samples until a good one has been written to `message`. @return false if none was left
@@ -41,6 +53,13 @@ void Reader<M>::Inner::open(Participant& participant) {
   const char* name = Topic<M>::name;
   const Qos qos = make_qos(Topic<M>::service);
   topic = made(dds_create_topic(owner, Topic<M>::descriptor(), name, qos.get(), nullptr), "topic", name);
+  if (speaker != nullptr) {
+    dds_topic_filter filter = {};
+    filter.mode = DDS_TOPIC_FILTER_SAMPLEINFO_ARG;
+    filter.f.sampleinfo_arg = &let_in;
+    filter.arg = this;
+    made(dds_set_topic_filter_extended(topic, &filter), "filter of", name);
+  }
   dds_listener_t* listener = nullptr;
   if constexpr (many_keys) {
     if (participant.shared_memory()) {
@@ -60,9 +79,39 @@ void Reader<M>::Inner::open(Participant& participant) {
 }
 
 template <class M>
+bool Reader<M>::Inner::let_in(const dds_sample_info_t* info, void* inner) noexcept {
+  auto& self = *static_cast<Inner*>(inner);
+  if (self.speaker->may_pass(info->publication_handle)) return true;
+  self.kept_out.fetch_add(1, std::memory_order_relaxed);
+  return false;
+}
+
+template <class M>
+bool Reader<M>::Inner::is_foreign() {
+  if (speaker == nullptr || speaker->admits(reader, Topic<M>::name, sender)) return false;
+  if (counts.foreign++ == 0) note(speaker->why_not());
+  return true;
+}
+
+template <class M>
+void Reader<M>::Inner::reject(const Broken& broken) noexcept {
+  const bool first =
+      std::all_of(counts.rejected.begin(), counts.rejected.end(), [](std::uint64_t n) { return n == 0; });
+  ++counts.rejected[static_cast<std::size_t>(broken.reason)];
+  if (first) note(fmt::format("{}: {} is {}", Topic<M>::name, broken.field, text_of(broken.reason)));
+}
+
+template <class M>
+void Reader<M>::Inner::note(std::string_view refusal) noexcept {
+  if (counts.first_refused[0] != '\0') return;
+  std::copy_n(refusal.begin(), std::min(refusal.size(), counts.first_refused.size() - 1),
+              counts.first_refused.begin());
+}
+
+template <class M>
 bool Reader<M>::Inner::fetch(dds_time_t& sent) noexcept {
   if constexpr (many_keys)
-    if (inbox) return inbox->pop(wire, sent);
+    if (inbox) return inbox->pop(wire, sent, sender);
   void* samples[1] = {&wire};
   dds_sample_info_t info = {};
   while (dds_take(reader, samples, &info, 1, 1) == 1) {
@@ -77,8 +126,9 @@ bool Reader<M>::Inner::fetch(dds_time_t& sent) noexcept {
 template <class M>
 bool Reader<M>::Inner::next(M& message, dds_time_t& sent) noexcept {
   while (fetch(sent)) {
+    if (is_foreign()) continue;
     if (const Verdict verdict = from_wire(wire, message)) {
-      ++counts.rejected[static_cast<std::size_t>(verdict->reason)];
+      reject(*verdict);
       continue;
     }
     ++counts.received;
@@ -88,7 +138,8 @@ bool Reader<M>::Inner::next(M& message, dds_time_t& sent) noexcept {
 }
 
 template <class M>
-Reader<M>::Reader(Participant& participant) : inner_(std::make_unique<Inner>()) {
+Reader<M>::Reader(Participant& participant, Speaker* speaker) : inner_(std::make_unique<Inner>()) {
+  inner_->speaker = speaker;
   inner_->open(participant);
 }
 
@@ -112,15 +163,23 @@ std::uint64_t Reader<M>::sender() const noexcept {
 }
 
 template <class M>
+bool Reader<M>::is_from(Speaker& speaker) {
+  if (speaker.admits(inner_->reader, Topic<M>::name, inner_->sender)) return true;
+  if (inner_->counts.foreign++ == 0) inner_->note(speaker.why_not());
+  return false;
+}
+
+template <class M>
 bool Reader<M>::take_newest(M& message) noexcept {
   dds_time_t newest = 0;
   if (!inner_->next(message, newest)) return false;
   std::uint64_t sender = inner_->sender;
   for (dds_time_t sent = 0; inner_->fetch(sent);) {
+    if (inner_->is_foreign()) continue;
     const bool newer = sent >= newest;
     const Verdict verdict = newer ? from_wire(inner_->wire, message) : judge(inner_->wire);
     if (verdict) {
-      ++inner_->counts.rejected[static_cast<std::size_t>(verdict->reason)];
+      inner_->reject(*verdict);
       continue;
     }
     ++inner_->counts.received;
@@ -149,7 +208,9 @@ ReaderCounts Reader<M>::counts() noexcept {
   dds_sample_lost_status_t status = {};
   if (dds_get_sample_lost_status(inner_->reader, &status) == DDS_RETCODE_OK)
     inner_->counts.lost = status.total_count;
-  return inner_->counts;
+  ReaderCounts counts = inner_->counts;
+  counts.foreign += inner_->kept_out.load(std::memory_order_relaxed);
+  return counts;
 }
 
 template class Reader<ToolState>;

@@ -9,7 +9,7 @@
 
 namespace palpate {
 
-/// {"wire": {NODE: {"shared_memory": whether, TOPIC: {"samples": n, "bytes": n}, ...}}}
+/// {"wire": {NODE: {"shared_memory": whether, TOPIC: {"samples": n, "bytes": n}, ...}}}; "broken": n where there were some
 template <class... Writers>
 nlohmann::json wire_report(const std::string& node, const Participant& participant,
                            const Writers&... writers) {
@@ -17,6 +17,7 @@ nlohmann::json wire_report(const std::string& node, const Participant& participa
   const auto add = [&report](const auto& writer) {
     const WriterCounts counts = writer.counts();
     report[writer.topic()] = {{"samples", counts.samples}, {"bytes", counts.bytes}};
+    if (counts.broken > 0) report[writer.topic()]["broken"] = counts.broken;
   };
   (add(writers), ...);
   return {{"wire", {{node, report}}}};

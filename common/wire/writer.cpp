@@ -13,6 +13,7 @@ struct Writer<M>::Inner {
   dds_entity_t writer = 0;
   typename Topic<M>::Wire wire{};  // what is being sent
   std::atomic<std::uint64_t> samples{0};
+  std::atomic<std::uint64_t> broken{0};
 };
 
 template <class M>
@@ -21,6 +22,11 @@ Writer<M>::Writer(Participant& participant) : inner_(std::make_unique<Inner>()) 
   inner_->topic =
       made(dds_create_topic(participant.handle(), Topic<M>::descriptor(), Topic<M>::name, qos.get(), nullptr),
            "topic", Topic<M>::name);
+  if (!participant.identity()
+           .role.empty()) {  // with each writer, so that a reader knows from the first sample whose it is
+    const std::string text = to_text(participant.identity());
+    dds_qset_userdata(qos.get(), text.data(), text.size());
+  }
   inner_->writer = made(dds_create_writer(participant.handle(), inner_->topic, qos.get(), nullptr),
                         "writer of", Topic<M>::name);
 }
@@ -34,7 +40,10 @@ Writer<M>::~Writer() {
 template <class M>
 bool Writer<M>::write(const M& message) noexcept {
   to_wire(message, inner_->wire);
-  if (judge(inner_->wire)) return false;
+  if (judge(inner_->wire)) {
+    inner_->broken.fetch_add(1, std::memory_order_relaxed);
+    return false;
+  }
   if (dds_write(inner_->writer, &inner_->wire) != DDS_RETCODE_OK) return false;
   inner_->samples.fetch_add(1, std::memory_order_relaxed);
   return true;
@@ -43,7 +52,7 @@ bool Writer<M>::write(const M& message) noexcept {
 template <class M>
 WriterCounts Writer<M>::counts() const noexcept {
   const std::uint64_t samples = inner_->samples.load(std::memory_order_relaxed);
-  return {samples, samples * sizeof inner_->wire};
+  return {samples, samples * sizeof inner_->wire, inner_->broken.load(std::memory_order_relaxed)};
 }
 
 template <class M>

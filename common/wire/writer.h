@@ -12,7 +12,8 @@ namespace palpate {
 /// What has been handed to DDS. On the network each sample also has the headers of RTPS, UDP and IP, once a datagram.
 struct WriterCounts {
   std::uint64_t samples = 0;
-  std::uint64_t bytes = 0;  // of the samples
+  std::uint64_t bytes = 0;   // of the samples
+  std::uint64_t broken = 0;  // messages that broke their own promises and were not sent
 };
 
 template <class M>

@@ -56,8 +56,13 @@ bool AnswerWatch<Answer>::accept(const Answer* answer, std::int64_t now_ns) noex
     ++rejected_;
     return false;
   }
-  const bool newer = !ever_ || answer->tick > tick_ || silence(now_ns) > patience();
-  if (!newer) return false;
+  const bool any_tick = !ever_ || anew_ || silence(now_ns) > patience();
+  if (!any_tick && answer->tick > tick_ && answer->tick - tick_ > most_ahead) {
+    ++rejected_;
+    return false;
+  }
+  if (!any_tick && answer->tick <= tick_) return false;
+  anew_ = false;
   if (ever_) {
     const double apart = std::clamp(silence(now_ns), 1e-4, 0.1);
     period_ += (apart > period_ ? 0.3 : 0.1) * (apart - period_);

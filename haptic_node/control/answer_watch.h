@@ -22,8 +22,12 @@ class AnswerWatch {
 
   /// Looks at the newest answer, which may be the one seen before, or null.
   /// @return true if it is sound and newer than the last. After a silence any other tick counts as newer: the sender
-  ///         has begun again.
+  ///         has begun again. A tick farther ahead than physics can have come is rejected: those that follow would be older.
   bool accept(const Answer* answer, std::int64_t now_ns) noexcept;
+
+  /// Somebody else answers from now on: whatever tick he gives next is newer.
+  void listen_anew() noexcept { anew_ = true; }
+  static constexpr std::uint64_t most_ahead = 10'000;  // frames within any patience, at 50 kHz
 
   bool ever() const noexcept { return ever_; }
   /// Measured time between answers [s], smoothed: slower ones are believed sooner than faster ones. Begins at 50 ms.
@@ -46,6 +50,7 @@ class AnswerWatch {
  private:
   std::uint32_t tool_;
   bool ever_ = false;
+  bool anew_ = false;
   std::uint64_t tick_ = 0;       // of the last accepted answer
   std::uint64_t seen_tick_ = 0;  // of the last one looked at, so that a bad one is counted once
   bool seen_ = false;

@@ -68,6 +68,12 @@ class Controller {
   ControllerOutput tick(std::int64_t now_ns, const DeviceSample& sample, const ContactPatch* patch,
                         const ToolWrench* wrench = nullptr) noexcept;
 
+  /// Another physics speaks from now on, and counts its ticks anew.
+  void listen_anew() noexcept {
+    patches_.listen_anew();
+    wrenches_.listen_anew();
+  }
+
   /// Forces ramp to zero within safe_ramp and stay there.
   void begin_stop() noexcept { stopping_ = true; }
   bool stopped() const noexcept { return stopping_ && stop_gain_ <= 0; }

@@ -11,6 +11,7 @@
 #include "common/process/stop_flag.h"
 #include "common/report/log.h"
 #include "common/time/clock.h"
+#include "common/wire/refusals.h"
 #include "haptic_node/loop/haptic_summary.h"
 
 namespace palpate::haptic {
@@ -42,6 +43,8 @@ HapticNode::HapticNode(const NodeOptions& options, const Scene& scene)
   Membership nobody = membership(options, scene, "haptic");
   nobody.identity = {};
   first_ = std::make_unique<Participant>(nobody);
+  newcomer_ = std::make_unique<Newcomer>(*first_, membership(options, scene, "haptic").identity);
+  newcomer_->settle();  // before a device is opened: it may be another hand's
   for (std::uint32_t tool = 0; tool < scene.tools.size(); ++tool) {
     channels_.push_back(std::make_unique<ToolChannel>(scene, tool, options.device, options.domain));
     const HapticSession& session = *channels_.back()->session.get();
@@ -56,7 +59,6 @@ HapticNode::HapticNode(const NodeOptions& options, const Scene& scene)
   reports_.resize(channels_.size());
   flights_.resize(channels_.size());
   wire_ = std::make_unique<Wire>(membership(options, scene, "haptic"), channels_);
-  newcomer_ = std::make_unique<Newcomer>(wire_->participant());
   loop_ = std::make_unique<RealtimeLoop>(channels_, rate_Hz_);
   status_.node = NodeKind::haptic;
   status_.pid = static_cast<std::uint32_t>(getpid());
@@ -178,10 +180,12 @@ void HapticNode::take_counts(std::int64_t now) {
   status_.safe_events = static_cast<std::uint32_t>(sum.safe_events);
   status_.faults = static_cast<std::uint32_t>(sum.faults);
   status_.warnings += status_.stale_events + status_.safe_events;
-  const ReaderCounts patches = wire_->patch_counts();
-  status_.samples_received = patches.received;
-  status_.samples_lost = patches.lost;
-  status_.rejected = patches.rejected;
+  const Wire::HeardCounts heard = wire_->heard();
+  clear_counts(status_);
+  for (const ReaderCounts& counts : {heard.patches, heard.wrenches, wire_->commands_heard()})
+    add_counts(status_, counts);
+  status_.samples_received = heard.patches.received;
+  status_.samples_lost = heard.patches.lost;
 }
 
 void HapticNode::publish_status(NodePhase phase) {
@@ -194,6 +198,7 @@ void HapticNode::publish_status(NodePhase phase) {
   status_.note.fill('\0');
   std::copy(text.begin(), text.end(), status_.note.begin());
   wire_->write_status(status_);
+  for (const auto& line : wire_->remarks()) log_warn("{}", line);
 }
 
 int HapticNode::run() {

@@ -6,6 +6,8 @@
 
 #include "common/report/json_file.h"
 #include "common/time/clock.h"
+#include "common/wire/heard_report.h"
+#include "common/wire/refusals.h"
 #include "common/wire/wire_report.h"
 
 namespace palpate::haptic {
@@ -69,6 +71,13 @@ void write_haptic_summary(const std::string& out, const LoopStats& stats,
   std::filesystem::create_directories(out + "/parts", already);
   auto part = haptic_summary(stats, tools, wire.trace_lost());
   part.update(wire_report("haptic", wire.participant(), wire.states(), wire.traces(), wire.status()));
+  const Wire::HeardCounts heard = wire.heard();
+  part["haptic"]["foreign_patches"] = heard.patches.foreign;
+  part["haptic"]["patches_rejected"] = part["haptic"]["patches_rejected"].get<std::uint64_t>() +
+                                       rejected(heard.patches) + rejected(heard.wrenches);
+  std::vector<Heard> topics = {{"ContactPatch", heard.patches}, {"Command", wire.commands_heard()}};
+  if (wire.feels_wrenches()) topics.push_back({"ToolWrench", heard.wrenches});
+  part.merge_patch(heard_report("haptic", topics));
   write_json(out + "/parts/haptic.json", part);
 }
 

@@ -47,8 +47,14 @@ void RealtimeLoop::tick_tool(ToolChannel& channel, HapticSession& session, std::
   const bool to_us = is_new && patch->answers > 0 && patch->answers <= session.counts().ticks &&
                      patch->answers_ns >= stats_.start_ns && patch->answers_ns <= woke_ns;
   if (to_us) stats_.loop_age.add(1e3 * seconds_from_ns(woke_ns - patch->answers_ns));
+  const ToolWrench* wrench = channel.wrenches.newest();
+  // Looked at after the answers: who spoke them has been written down before.
+  if (const auto physics = channel.physics.load(std::memory_order_acquire); physics != channel.physics_heard) {
+    channel.physics_heard = physics;
+    session.listen_anew();
+  }
   const HapticState before = session.state();
-  session.tick(patch, channel.wrenches.newest());
+  session.tick(patch, wrench);
   channel.states.write(session.tool_state());
   if (!channel.trace.push(session.trace())) channel.trace_lost.fetch_add(1);
   channel.flight.add({session.trace(), session.tool_state().q_WT, session.state(), session.counts().surplus,

@@ -47,6 +47,9 @@ struct ToolChannel {
   TripleBuffer<SessionReport> reports;       // real-time thread -> slow thread
   FlightRecorder flight;                     // real-time thread -> slow thread
   std::atomic<std::uint64_t> trace_lost{0};
+  // Which physics speaks; receive thread -> real-time thread, set before the first that it says.
+  std::atomic<std::uint64_t> physics{0};
+  std::uint64_t physics_heard = 0;  // the real-time thread's
   std::atomic<bool> reset_asked{false};  // by a person, to end a fault
   std::uint64_t attached = 0;            // generation of the session that the real-time thread has attached
 };

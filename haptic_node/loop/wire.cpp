@@ -1,6 +1,8 @@
 #include "haptic_node/loop/wire.h"
 
+#include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "common/time/ticker.h"
 
@@ -19,8 +21,10 @@ constexpr int most_refusals = 50;            // of one batch, a few seconds, bef
 Wire::Wire(const Membership& membership, std::vector<std::unique_ptr<ToolChannel>>& channels)
     : channels_(channels),
       participant_(membership),
-      patches_(participant_),
-      commands_(participant_),
+      physics_(participant_, "physics", physics_silence),
+      people_(participant_, {"render", "supervisor"}),
+      patches_(participant_, &physics_),
+      commands_(participant_, &people_),
       states_(participant_),
       traces_(participant_),
       status_(participant_),
@@ -28,7 +32,7 @@ Wire::Wire(const Membership& membership, std::vector<std::unique_ptr<ToolChannel
       last_patch_(channels.size(), 0) {
   for (const auto& channel : channels_)
     if (channel->session.get()->controller().needs_wrench() && !wrenches_)
-      wrenches_ = std::make_unique<Reader<ToolWrench>>(participant_);
+      wrenches_ = std::make_unique<Reader<ToolWrench>>(participant_, &physics_);
 }
 
 void Wire::start() {
@@ -47,8 +51,17 @@ void Wire::finish() {
 /// smaller tick is a physics that has begun again.
 void Wire::count_gap(const ContactPatch& patch) noexcept {
   std::uint64_t& last = last_patch_[patch.tool];
-  if (last > 0 && patch.tick > last + 1) patches_lost_ += patch.tick - last - 1;
+  const bool gap = last > 0 && patch.tick > last + 1 && patch.tick - last <= PatchWatch::most_ahead;
+  if (gap) patches_lost_ += patch.tick - last - 1;
   last = patch.tick;
+}
+
+/// Before what the new one says is passed on: the real-time thread then knows that its ticks are others.
+void Wire::follow_physics() noexcept {
+  const std::uint64_t changes = physics_.changes();
+  if (channels_.empty() || channels_.front()->physics.load(std::memory_order_relaxed) == changes) return;
+  for (const auto& channel : channels_) channel->physics.store(changes, std::memory_order_release);
+  std::fill(last_patch_.begin(), last_patch_.end(), 0);
 }
 
 void Wire::receive() noexcept {
@@ -57,18 +70,20 @@ void Wire::receive() noexcept {
   while (!end_.load()) {
     patches_.wait(20ms);
     // A wrench is sent just before the patch of the same frame.
-    while (wrenches_ && wrenches_->take(wrench))
+    while (wrenches_ && wrenches_->take(wrench)) {
+      follow_physics();
       if (wrench.tool < channels_.size()) channels_[wrench.tool]->wrenches.write(wrench);
-    bool any = false;
+    }
     while (patches_.take(patch)) {
-      any = true;
+      follow_physics();
       if (patch.tool >= channels_.size()) continue;
       count_gap(patch);
       channels_[patch.tool]->patches.write(patch);
     }
-    if (!any) continue;
-    ReaderCounts counts = patches_.counts();
-    counts.lost = patches_lost_;
+    HeardCounts counts;
+    counts.patches = patches_.counts();
+    counts.patches.lost = patches_lost_;
+    if (wrenches_) counts.wrenches = wrenches_->counts();
     counts_.write(counts);
   }
 }
@@ -116,6 +131,7 @@ void Wire::listen() noexcept {
     for (const auto& channel : channels_)
       if (channel->name == command.name.data()) channel->reset_asked.store(true);
   }
+  command_counts_.write(commands_.counts());
 }
 
 void Wire::trace_and_listen() noexcept {
@@ -127,9 +143,20 @@ void Wire::trace_and_listen() noexcept {
   for (std::uint32_t tool = 0; tool < channels_.size(); ++tool) drain(tool, true);
 }
 
-ReaderCounts Wire::patch_counts() const noexcept {
-  const ReaderCounts* counts = counts_.newest();
+Wire::HeardCounts Wire::heard() const noexcept {
+  const HeardCounts* counts = counts_.newest();
+  return counts == nullptr ? HeardCounts{} : *counts;
+}
+
+ReaderCounts Wire::commands_heard() const noexcept {
+  const ReaderCounts* counts = command_counts_.newest();
   return counts == nullptr ? ReaderCounts{} : *counts;
+}
+
+std::vector<std::string> Wire::remarks() {
+  auto lines = physics_.remarks();
+  for (auto& line : people_.remarks()) lines.push_back(std::move(line));
+  return lines;
 }
 
 std::uint64_t Wire::trace_lost() const noexcept {

@@ -4,7 +4,9 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <memory>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -34,7 +36,14 @@ class Wire {
 
   /// Of the slow thread that calls them: status out, patches in so far.
   bool write_status(const NodeStatus& status) noexcept { return status_.write(status); }
-  ReaderCounts patch_counts() const noexcept;
+  struct HeardCounts {
+    ReaderCounts patches, wrenches;
+  };
+  HeardCounts heard() const noexcept;
+  ReaderCounts commands_heard() const noexcept;
+  /// What there is to say about who speaks; each line once.
+  std::vector<std::string> remarks();
+  bool feels_wrenches() const noexcept { return wrenches_ != nullptr; }
   std::uint64_t trace_lost() const noexcept;
   const Participant& participant() const noexcept { return participant_; }
   const Writer<ToolState>& states() const noexcept { return states_; }
@@ -48,6 +57,7 @@ class Wire {
   };
 
   void receive() noexcept;
+  void follow_physics() noexcept;
   void count_gap(const ContactPatch& patch) noexcept;
   void publish() noexcept;
   void trace_and_listen() noexcept;
@@ -56,6 +66,10 @@ class Wire {
 
   std::vector<std::unique_ptr<ToolChannel>>& channels_;
   Participant participant_;
+  // As long as a hand is patient at most: after that the next physics may speak.
+  static constexpr std::chrono::milliseconds physics_silence{200};
+  Speaker physics_;
+  Speaker people_;
   Reader<ContactPatch> patches_;
   std::unique_ptr<Reader<ToolWrench>> wrenches_;  // null: no tool feels them
   Reader<Command> commands_;
@@ -69,7 +83,8 @@ class Wire {
   std::atomic<bool> end_{false};
   std::atomic<bool> stop_commanded_{false};
   std::atomic<std::uint64_t> trace_refused_{0};  // samples
-  mutable TripleBuffer<ReaderCounts> counts_;
+  mutable TripleBuffer<HeardCounts> counts_;
+  mutable TripleBuffer<ReaderCounts> command_counts_;
 };
 
 }  // namespace palpate::haptic

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 
 #include "common/error/error.h"
@@ -12,6 +13,8 @@
 #include "common/time/clock.h"
 #include "common/time/histogram.h"
 #include "common/time/ticker.h"
+#include "common/wire/heard_report.h"
+#include "common/wire/refusals.h"
 #include "common/wire/wire_report.h"
 #include "physics_node/record/earlier_record.h"
 #include "physics_node/report/physics_summary.h"
@@ -19,7 +22,10 @@
 namespace palpate::physics {
 namespace {
 
-constexpr std::int64_t hand_silence_ns = 50'000'000;  // after which a hand's force no longer counts
+constexpr std::int64_t hand_silence_ns = std::chrono::nanoseconds(Wire::hand_silence).count();
+// No hand makes so many ticks within that silence: a tick farther ahead is none, and would shut out those that follow.
+constexpr std::uint64_t most_ahead = 10'000;
+constexpr int most_commands = 64;  // a frame; what is more waits
 // Where frames and hand have one rate, frames are led to begin just after the hand has spoken, so that nothing waits for a
 // frame: a little earlier each time it had, later when it had not. One frame in 21 then begins too early.
 constexpr std::int64_t earlier_ns = 1'000;
@@ -44,6 +50,8 @@ PhysicsLoop::PhysicsLoop(const NodeOptions& options, const Scene& scene)
   const std::int64_t begin = now_ns();
   world_ = std::make_unique<World>(scene_);
   appearance_ = std::make_unique<Appearance>(*world_, scene_.render.threshold, Remake::beside);
+  newcomer_
+      .settle();  // before an earlier record is set aside, and before the hand and the eye are told anything
   if (!options_.out.empty()) {
     std::filesystem::create_directories(options_.out + "/parts");
     if (const auto aside = set_earlier_record_aside(options_.out))
@@ -62,18 +70,34 @@ PhysicsLoop::PhysicsLoop(const NodeOptions& options, const Scene& scene)
   }
 }
 
+/// @return true if `state` is of the hand that is there now, and newer than what it said before
+bool PhysicsLoop::is_news(Hand& hand, const ToolState& state) {
+  const std::int64_t now = now_ns();
+  const bool silent = now - hand.came_ns > hand_silence_ns;
+  // By ticks alone: another hand may take over with another clock. Who comes after a silence has begun anew.
+  if (!hand.newest || silent) return true;
+  if (state.tick <= hand.newest->tick) return false;
+  const std::uint64_t ahead = state.tick - hand.newest->tick;
+  if (ahead > most_ahead) {
+    ++ticks_rejected_;
+    return false;
+  }
+  samples_lost_ += ahead - 1;
+  return true;
+}
+
 /// @return true if the hand has spoken since the last frame
 bool PhysicsLoop::take_tools() {
   ToolState state;
   bool any = false;
   while (wire_.tool_states.take(state)) {
+    if (const auto changes = wire_.hand.changes(); changes != hand_changes_) {
+      hand_changes_ = changes;
+      for (Hand& hand : hands_) hand.newest.reset();
+    }
     if (state.tool >= hands_.size()) continue;
     Hand& hand = hands_[state.tool];
-    // By ticks alone: another hand may take over with another clock. Who comes after a silence has begun anew.
-    if (hand.newest && state.tick <= hand.newest->tick && now_ns() - hand.came_ns <= hand_silence_ns)
-      continue;
-    if (hand.newest && state.tick > hand.newest->tick + 1)
-      status_.samples_lost += state.tick - hand.newest->tick - 1;
+    if (!is_news(hand, state)) continue;
     hand.newest = state;
     hand.came_ns = now_ns();
     any = true;
@@ -85,9 +109,12 @@ bool PhysicsLoop::take_tools() {
   return any;
 }
 
+/// What was asked for several times is done once: whoever asks without end shall not hold up the tissue.
 void PhysicsLoop::take_commands() {
   Command command;
-  while (wire_.commands.take(command)) {
+  bool reset = false;
+  std::optional<double> threshold;
+  for (int n = 0; n < most_commands && wire_.commands.take(command); ++n) {
     if (recorder_) recorder_->command(*world_, command);
     switch (command.kind) {
       case CommandKind::pause:
@@ -97,22 +124,25 @@ void PhysicsLoop::take_commands() {
         paused_ = false;
         break;
       case CommandKind::reset:
-        world_->reset();
+        reset = true;
         break;
       case CommandKind::threshold:
-        appearance_->set_threshold(command.value);
+        threshold = command.value;
         break;
       case CommandKind::stop:
         stop_ = true;
         break;
       case CommandKind::record:
       case CommandKind::material:
-        log_warn("a command that this version does not carry out was ignored");
+        if (!unheeded_) log_warn("a command that this version does not carry out was ignored");
+        unheeded_ = true;
         break;
       case CommandKind::device:
         break;  // the hand's
     }
   }
+  if (reset) world_->reset();
+  if (threshold) appearance_->set_threshold(*threshold);
 }
 
 void PhysicsLoop::publish_hand() {
@@ -169,12 +199,16 @@ void PhysicsLoop::publish_status(NodePhase phase) {
       status_.real_time_factor = (world_->t() - last_status_t_) / wall;
     }
     tell_warnings();
-    const ReaderCounts tools = wire_.tool_states.counts();
-    status_.samples_received = tools.received;
-    status_.rejected = tools.rejected;
     last_status_t_ = world_->t();
     last_status_frames_ = world_->report().frames;
   }
+  clear_counts(status_);
+  add_counts(status_, wire_.tool_states.counts());
+  add_counts(status_, wire_.commands.counts());
+  status_.samples_lost = samples_lost_;
+  status_.rejected[static_cast<std::size_t>(RejectReason::out_of_range)] += ticks_rejected_;
+  for (Speaker* speaker : {&wire_.hand, &wire_.people})
+    for (const auto& line : speaker->remarks()) log_warn("{}", line);
   last_status_ns_ = now;
   if (recorder_) recorder_->status(status_);
   wire_.status.write(status_);
@@ -241,6 +275,8 @@ bool PhysicsLoop::leave() {
   auto part = physics_summary(*world_, recorder_.get(), wall);
   part.update(wire_report("physics", wire_.participant, wire_.patches, wire_.wrenches, wire_.status,
                           wire_.eye.surfaces(), wire_.eye.blocks()));
+  part.merge_patch(heard_report(
+      "physics", {{"ToolState", wire_.tool_states.counts()}, {"Command", wire_.commands.counts()}}));
   try_to([&] { write_json(options_.out + "/parts/physics.json", part); });
   return left;
 }

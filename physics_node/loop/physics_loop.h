@@ -22,7 +22,13 @@ class PhysicsLoop {
   int run();
 
  private:
+  struct Hand {
+    std::optional<ToolState> newest;
+    std::int64_t came_ns = 0;
+  };
+
   bool take_tools();
+  bool is_news(Hand& hand, const ToolState& state);
   void take_commands();
   void publish_hand();
   void publish_eye();
@@ -39,18 +45,18 @@ class PhysicsLoop {
   std::unique_ptr<Appearance> appearance_;
   std::unique_ptr<Recorder> recorder_;
 
-  struct Hand {
-    std::optional<ToolState> newest;
-    std::int64_t came_ns = 0;
-  };
   std::vector<Hand> hands_;
+  std::uint64_t hand_changes_ = 0;  // how often another hand had taken over, at the last look
+  std::uint64_t samples_lost_ = 0;
+  std::uint64_t ticks_rejected_ = 0;
   std::vector<std::optional<ToolState>> fresh_;  // what the frame gets
   ContactPatch patch_{};
   ToolWrench wrench_{};
   bool paused_ = false;
+  bool unheeded_ = false;  // a command that cannot be carried out has been named
   bool stop_ = false;
-  bool unwelcome_ = false;  // in a session of another scene or version
-  bool record_failed_ = false;  // said so
+  bool unwelcome_ = false;           // in a session of another scene or version
+  bool record_failed_ = false;       // said so
   std::uint64_t watchers_ever_ = 0;  // of vertex blocks, at the last look
   std::int64_t start_ns_ = 0;
 

@@ -16,7 +16,8 @@ MouseDevice::MouseDevice(const hdev_host& host, const Settings& settings)
     : OpenDevice(host),
       settings_(settings),
       participant_(settings.domain),
-      pointers_(participant_),
+      speaker_(participant_, "render", std::chrono::nanoseconds(silence_ns)),
+      pointers_(participant_, &speaker_),
       follower_(settings.speed / settings.scale) {
   listener_ = std::thread([this] { listen(); });
 }

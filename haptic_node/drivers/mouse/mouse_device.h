@@ -56,6 +56,7 @@ class MouseDevice final : public kit::OpenDevice {
 
   Settings settings_;
   Participant participant_;
+  Speaker speaker_;  // one window moves the hand
   Reader<Pointer> pointers_;
   TripleBuffer<Heard> heard_;  // listener -> host's thread
   std::atomic<bool> leaving_{false}, window_{false}, powered_{false};

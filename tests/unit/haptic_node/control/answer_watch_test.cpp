@@ -34,5 +34,53 @@ TEST(AnswerWatch, BelievesNoWrenchThatBreaksAPromise) {
   }
 }
 
+ContactPatch patch_of(std::uint64_t tick) {
+  ContactPatch patch;
+  patch.tick = tick;
+  return patch;
+}
+
+constexpr std::int64_t ms = 1'000'000;
+
+/// A tick that physics cannot have come to is counted and counts for nothing: those that follow are not older.
+TEST(AnswerWatch, IsNotShutByATickThatLiesInTheFuture) {
+  PatchWatch watch(0);
+  std::int64_t now = 1'000 * ms;
+  std::uint64_t taken = 0;
+  for (std::uint64_t tick = 1; tick <= 2000; ++tick, now += ms) {
+    const ContactPatch patch = patch_of(tick), huge = patch_of(~0ULL - tick);
+    if (tick > 1 && tick % 91 == 0) {
+      EXPECT_FALSE(watch.accept(&huge, now));
+    }
+    taken += watch.accept(&patch, now);
+  }
+  EXPECT_EQ(taken, 2000U);
+  EXPECT_EQ(watch.rejected(), 21U);
+}
+
+TEST(AnswerWatch, RecoversFromAFirstTickThatLiesInTheFuture) {
+  PatchWatch watch(0);
+  std::int64_t now = 1'000 * ms;
+  const ContactPatch huge = patch_of(~0ULL);
+  EXPECT_TRUE(watch.accept(&huge, now));
+  std::uint64_t taken = 0;
+  for (std::uint64_t tick = 1; tick <= 1000; ++tick) {
+    const ContactPatch patch = patch_of(tick);
+    taken += watch.accept(&patch, now += ms);
+  }
+  EXPECT_GE(taken, 800U) << "after the patience for a silence";
+}
+
+TEST(AnswerWatch, TakesAnyTickOfSomebodyElse) {
+  PatchWatch watch(0);
+  const ContactPatch late = patch_of(5'000'000), early = patch_of(3), earlier = patch_of(2);
+  EXPECT_TRUE(watch.accept(&late, 1000 * ms));
+  EXPECT_FALSE(watch.accept(&early, 1001 * ms)) << "older";
+  watch.listen_anew();
+  EXPECT_FALSE(watch.accept(&early, 1002 * ms)) << "it was looked at before";
+  EXPECT_TRUE(watch.accept(&earlier, 1003 * ms));
+  EXPECT_TRUE(watch.accept(&early, 1004 * ms));
+}
+
 }  // namespace
 }  // namespace palpate::haptic

@@ -1,0 +1,18 @@
+#include "common/wire/heard_report.h"
+
+namespace palpate {
+
+nlohmann::json heard_report(const std::string& node, const std::vector<Heard>& topics) {
+  nlohmann::json report = nlohmann::json::object();
+  for (const auto& [topic, counts] : topics) {
+    nlohmann::json& one = report[topic];
+    one = {{"received", counts.received}, {"lost", counts.lost}, {"foreign", counts.foreign}};
+    one["rejected"] = nlohmann::json::object();
+    for (std::size_t i = 0; i < counts.rejected.size(); ++i)
+      if (counts.rejected[i] > 0) one["rejected"][key_of(static_cast<RejectReason>(i))] = counts.rejected[i];
+    if (counts.first_refused[0] != '\0') one["first_refused"] = counts.first_refused.data();
+  }
+  return {{"wire", {{node, {{"heard", report}}}}}};
+}
+
+}  // namespace palpate
