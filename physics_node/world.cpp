@@ -14,8 +14,7 @@
 namespace palpate::physics {
 namespace {
 
-constexpr Index masses_worth_a_team =
-    15000;  // below, waking a second thread brings little (palpate bench kernel)
+constexpr Index masses_worth_a_team = 15000;  // below, a second thread brings little (palpate bench team)
 constexpr std::int64_t frames_between_saves = 50;
 // Kinetic and elastic energy over what was ever put in. A sound step lets them swing: with symplectic Euler by
 // 1 / (1 - w dt / 2), more than this only for waves of a few cells at steps near the stable one.
@@ -26,22 +25,27 @@ constexpr double negligible_energy = 1e-12;  // [J]
 constexpr int most_substeps = 256;           // of a frame in which something fast is near
 constexpr int most_recoveries = 6;           // each halves the step
 
-int choose_threads(const Scene& scene, Index n_masses) {
-  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  if (scene.physics.threads > 0) return scene.physics.threads;
-  return n_masses >= masses_worth_a_team ? cores : 1;
+/// @param n_chunks  of the body that has most: more threads than that would have nothing to do
+TeamChoice choose_threads(const Scene& scene, int spare_cores, Index n_masses, std::size_t n_chunks) {
+  if (scene.physics.threads > 0) return TeamChoice::always(scene.physics.threads);
+  if (n_masses < masses_worth_a_team || scene.physics.integrator == Integrator::backward_euler)
+    return TeamChoice::always(1);
+  const int cores = static_cast<int>(std::thread::hardware_concurrency()) - spare_cores;
+  return TeamChoice::up_to(std::clamp(cores, 1, std::max(1, static_cast<int>(n_chunks))));
 }
 
 }  // namespace
 
-World::World(const Scene& scene) : scene_(scene) {
+World::World(const Scene& scene, int spare_cores) : scene_(scene) {
   const Integrator integrator = scene.physics.integrator;
   Index n_masses = 0;
+  std::size_t n_chunks = 0;
   stable_dt_ = std::numeric_limits<double>::infinity();
   for (const BodySpec& spec : scene.bodies) {
     Body body = build_body(spec, scene.materials);
     stable_dt_ = std::min(stable_dt_, stable_step(stiffest_mode(body), integrator));
     n_masses += body.lattice.n_masses();
+    n_chunks = std::max(n_chunks, body.lattice.chunks.size());
     any_yields_ = any_yields_ || any_yields(body);
     const Lattice& lattice = body.lattice;
     const double bucket = 4 * lattice.spacing();
@@ -58,7 +62,8 @@ World::World(const Scene& scene) : scene_(scene) {
   if (scene.floor || !scene.walls.empty())
     for (auto& body : bodies_) body->prepare_contact();
   for (const WallSpec& wall : scene.walls) planes_.push_back({wall.normal, wall.normal.dot(wall.point)});
-  threads_ = choose_threads(scene, n_masses);
+  choice_ = choose_threads(scene, spare_cores, n_masses, n_chunks);
+  if (choice_.most() > 1) team_ = std::make_unique<Team>(choice_.most());
   gathered_.reserve(tools_.size() * ToolCoupling::most_forces);
 
   frame_dt_ = 1.0 / scene.physics.frame_Hz;
@@ -132,7 +137,7 @@ EnergyLedger World::watched_ledger() const noexcept {
 
 void World::move_bodies_implicitly(double dt, bool watch) noexcept {
   const StageTimer timer(report_, Stage::integrate);
-  const ExplicitStep how{dt, scene_.gravity, threads_, false, watch};
+  const ExplicitStep how{.dt = dt, .gravity = scene_.gravity, .watch = watch};
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const ImplicitReport solved = bodies_[b]->implicit_step(how, gathered(b));
     book_work(solved.work);
@@ -172,10 +177,18 @@ std::span<const NodalForce> World::gathered(std::size_t body) noexcept {
 }
 
 void World::move_bodies(double dt, bool watch) noexcept {
-  const ExplicitStep how{dt, scene_.gravity, threads_,
-                         scene_.physics.integrator == Integrator::velocity_verlet, watch};
-  const StageTimer timer(report_, Stage::element_forces);
-  for (auto& body : bodies_) report_.broken += body->element_forces_and_integrate(how);
+  const ExplicitStep how{.dt = dt,
+                         .gravity = scene_.gravity,
+                         .team = team_.get(),
+                         .threads = choice_.threads(),
+                         .verlet = scene_.physics.integrator == Integrator::velocity_verlet,
+                         .watch = watch};
+  const std::int64_t before = report_[Stage::element_forces].total_ns;
+  {
+    const StageTimer timer(report_, Stage::element_forces);
+    for (auto& body : bodies_) report_.broken += body->element_forces_and_integrate(how);
+  }
+  choice_.took(report_[Stage::element_forces].total_ns - before);
   ++report_[Stage::integrate].skipped;  // fused with the forces
 }
 

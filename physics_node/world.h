@@ -18,13 +18,16 @@
 #include "physics_node/step/energy_account.h"
 #include "physics_node/step/moving_body.h"
 #include "physics_node/step/step_report.h"
+#include "physics_node/step/team.h"
+#include "physics_node/step/team_choice.h"
 
 namespace palpate::physics {
 
 class World {
  public:
-  /// Loads all bodies. @throws InputError
-  explicit World(const Scene& scene);
+  /// Loads all bodies. @param spare_cores  that the team leaves to others where there are more; a scene that gives `threads`
+  /// gets these. @throws InputError
+  explicit World(const Scene& scene, int spare_cores = 0);
 
   /// One frame of 1 / frame_Hz simulated seconds.
   /// @param tools  newest state per tool, absent where nothing fresh has come (n_tools)
@@ -37,7 +40,8 @@ class World {
   double t() const { return t_; }
   double frame_seconds() const { return frame_dt_; }
   double step_seconds() const { return dt_; }
-  int threads() const { return threads_; }
+  int threads() const { return choice_.most(); }  // at most; the same bits with any number
+  const TeamChoice& team_choice() const { return choice_; }
   double stable_step_seconds() const { return stable_dt_; }
   std::size_t n_bodies() const { return bodies_.size(); }
   const MovingBody& body(std::size_t b) const { return *bodies_[b]; }
@@ -102,7 +106,8 @@ class World {
   double dt_ = 0;  // of a step; frame_dt_ / n_substeps_
   double stable_dt_ = 0;
   int n_substeps_ = 1;
-  int threads_ = 1;
+  std::unique_ptr<Team> team_;  // null: one thread
+  TeamChoice choice_ = TeamChoice::always(1);
   bool any_yields_ = false;
   bool near_ = false;  // bodies or fragments may touch in this frame
   int recoveries_ = 0;                   // since the step was last chosen

@@ -7,6 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "physics_node/step/team.h"
+
 namespace palpate::bench {
 namespace {
 
@@ -71,6 +73,8 @@ double triad_bytes_per_s(std::size_t bytes, int threads) {
   std::vector<float> a(n, 0.0F), b(n, 1.0F), c(n, 2.0F);
   const double moved = 3.0 * sizeof(float) * static_cast<double>(n);
   const int repeats = static_cast<int>(std::clamp(2e7 / moved, 1.0, 1e5));
+  physics::Team team(threads);
+  const auto pieces = static_cast<std::size_t>(threads);
   double least = std::numeric_limits<double>::infinity();
   for (int pass = 0; pass < 7; ++pass) {
     const double start = seconds_now();
@@ -78,8 +82,9 @@ double triad_bytes_per_s(std::size_t bytes, int threads) {
       float* const __restrict to = a.data();
       const float* const from = b.data();
       const float* const scaled = c.data();
-#pragma omp parallel for simd num_threads(threads) schedule(static) if (threads > 1)
-      for (std::size_t i = 0; i < n; ++i) to[i] = from[i] + 0.5F * scaled[i];
+      team.each(pieces, threads, [=](std::size_t p) {
+        for (std::size_t i = p * n / pieces; i < (p + 1) * n / pieces; ++i) to[i] = from[i] + 0.5F * scaled[i];
+      });
       asm volatile("" : : "r"(to) : "memory");
     }
     least = std::min(least, (seconds_now() - start) / repeats);

@@ -61,6 +61,7 @@ Cube make_cube(const CubeKind& kind) {
 
 void set_moving(const CubeKind& kind, Cube& cube, int threads) {
   cube.body->reset();
+  if (threads > (cube.team ? cube.team->threads() : 1)) cube.team = std::make_unique<physics::Team>(threads);
   std::mt19937_64 engine(1);
   const auto dice = [&engine] { return static_cast<double>(engine() >> 11) * 0x1p-52 - 1; };
   constexpr double expansion = 0.02;  // [1/s]: 1 % of a millimetre in a hundred steps

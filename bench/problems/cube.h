@@ -31,6 +31,7 @@ struct Cube {
   std::unique_ptr<physics::MovingBody> body;
   double stable_step = 0;  // [s]
   double step = 0;         // half of that [s]
+  std::unique_ptr<physics::Team> team;  // made for the most threads that it was set moving for
 };
 
 Cube make_cube(const CubeKind& kind);
@@ -41,7 +42,7 @@ void set_moving(const CubeKind& kind, Cube& cube, int threads);
 
 /// All that a step of a body without contact does, without weight.
 inline void step(Cube& cube, int threads) noexcept {
-  cube.body->element_forces_and_integrate({.dt = cube.step, .threads = threads});
+  cube.body->element_forces_and_integrate({.dt = cube.step, .team = cube.team.get(), .threads = threads});
 }
 
 }  // namespace palpate::bench

@@ -30,6 +30,7 @@ constexpr int most_commands = 64;  // a frame; what is more waits
 // frame: a little earlier each time it had, later when it had not. One frame in 21 then begins too early.
 constexpr std::int64_t earlier_ns = 1'000;
 constexpr std::int64_t later_ns = 20'000;
+constexpr int cores_of_the_hand = 1;                    // that the team leaves, where the scene has a tool
 constexpr std::int64_t eye_period_ns = 33'000'000;      // vertex blocks at 30 Hz
 constexpr std::int64_t status_period_ns = 200'000'000;  // 5 Hz
 
@@ -48,7 +49,7 @@ PhysicsLoop::PhysicsLoop(const NodeOptions& options, const Scene& scene)
   publish_status(NodePhase::loading);
 
   const std::int64_t begin = now_ns();
-  world_ = std::make_unique<World>(scene_);
+  world_ = std::make_unique<World>(scene_, scene_.tools.empty() ? 0 : cores_of_the_hand);
   appearance_ = std::make_unique<Appearance>(*world_, scene_.render.threshold, Remake::beside);
   newcomer_
       .settle();  // before an earlier record is set aside, and before the hand and the eye are told anything
@@ -61,7 +62,7 @@ PhysicsLoop::PhysicsLoop(const NodeOptions& options, const Scene& scene)
   }
   Index masses = 0;
   for (std::size_t b = 0; b < world_->n_bodies(); ++b) masses += world_->body(b).body().lattice.n_masses();
-  log_info("{} masses, step {:.3f} ms of at most {:.3f}, {} thread(s), {} visible facets, loaded in {:.2f} s",
+  log_info("{} masses, step {:.3f} ms of at most {:.3f}, {} thread(s) at most, {} visible facets, loaded in {:.2f} s",
            masses, 1e3 * world_->step_seconds(), 1e3 * world_->stable_step_seconds(), world_->threads(),
            appearance_->facets_visible(), seconds_from_ns(now_ns() - begin));
   for (const auto& remark : world_->remarks()) {

@@ -80,6 +80,11 @@ nlohmann::json energy_part(const EnergyLedger& ledger) {
           {"balance_error", ledger.balance_error()}};
 }
 
+/// Depends on the machine and on what else it does; nothing else here but times does.
+nlohmann::json team_part(const TeamChoice& choice) {
+  return {{"mean_threads", choice.mean_threads()}, {"trials", choice.trials()}, {"changes", choice.changes()}};
+}
+
 nlohmann::json stages_part(const StepReport& report) {
   nlohmann::json part;
   for (std::size_t s = 0; s < n_stages; ++s) {
@@ -110,6 +115,7 @@ nlohmann::json physics_summary(const World& world, const Recorder* recorder, dou
                          {"commit", commit()},
                          {"seed", scene.seed},
                          {"threads", world.threads()},
+                         {"team", team_part(world.team_choice())},
                          {"precision", precision_name(scene.physics.precision)},
                          {"integrator", integrator_name(scene.physics.integrator)},
                          {"simulated_s", world.t()},

@@ -107,13 +107,14 @@ std::int64_t element_step(const Body& body, LatticeState<Real>& state, const Exp
   const std::vector<Chunk>& chunks = body.lattice.chunks;
   const std::size_t n = chunks.size();
   const std::size_t n_cuts = n > 0 ? n - 1 : 0;
-#pragma omp parallel num_threads(step.threads) if (step.threads > 1 && n > 1)
-  {
-#pragma omp for schedule(static)
-    for (std::size_t cut = 0; cut < n_cuts; ++cut)
-      kernel(m, chunks[cut].top_row, chunks[cut].last_row, Sweep::up);
-#pragma omp for schedule(static)
-    for (std::size_t c = 0; c < n; ++c) sweep_chunk(kernel, m, chunks, c);
+  const auto cut = [&](std::size_t c) { kernel(m, chunks[c].top_row, chunks[c].last_row, Sweep::up); };
+  const auto chunk = [&](std::size_t c) { sweep_chunk(kernel, m, chunks, c); };
+  if (step.team != nullptr) {
+    step.team->each(n_cuts, step.threads, cut);
+    step.team->each(n, step.threads, chunk);
+  } else {
+    for (std::size_t c = 0; c < n_cuts; ++c) cut(c);
+    for (std::size_t c = 0; c < n; ++c) chunk(c);
   }
   state.v_half_known = step.verlet;
   return any_yields(body) ? mirror_breaks(body, state) : 0;

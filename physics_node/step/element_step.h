@@ -2,13 +2,15 @@
 // The hot kernel: forces of all elements, and the step of every mass, in one pass over memory.
 
 #include "physics_node/step/state.h"
+#include "physics_node/step/team.h"
 
 namespace palpate::physics {
 
 struct ExplicitStep {
   double dt = 0;               // [s]
   Vec3 gravity = Vec3::Zero(); // [m/s^2]
-  int threads = 1;             // 1: no team
+  Team* team = nullptr;        // null: no team
+  int threads = 1;             // of the team that this step may use
   bool verlet = false;         // velocity_verlet; else symplectic Euler
   bool watch = false;          // note the speeds and accelerations of rows in state.ledger
 };
@@ -23,7 +25,7 @@ struct ExplicitStep {
 /// Yield and break are committed where the force is computed, from the static force, once per step.
 /// An element is computed once, from the end that comes first in storage; when the sweep reaches a mass, all elements
 /// before it have added their share, so it moves at once and no second copy of the state is needed. Chunks are swept
-/// by different threads; the elements between chunks are computed before, so every sum has one order whatever the
+/// by whichever thread comes first; the elements between chunks are computed before, so every sum has one order whatever the
 /// number of threads. Displacements, not positions, are stored, so that in single precision the stretch of an element
 /// is as exact as the displacements are.
 /// Source: Wakamatsu & Honma 2011, eqs. (1), (2); Takada & Abe, "Euler method".

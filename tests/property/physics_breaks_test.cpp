@@ -79,8 +79,9 @@ TEST(FreshBreaks, ComeInOneOrderForAnyNumberOfThreads) {
     ASSERT_GT(moving->body().lattice.chunks.size(), 1u);
     shake(*moving, 2, 4);
     std::vector<Ends> all;
+    Team team(threads);
     for (int n = 0; n < 30; ++n) {
-      moving->element_forces_and_integrate({.dt = 2e-4, .threads = threads});
+      moving->element_forces_and_integrate({.dt = 2e-4, .team = &team, .threads = threads});
       for (const Break& one : moving->fresh_breaks()) all.emplace_back(one.first, one.other, one.half);
     }
     lists.push_back(all);

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <thread>
+
 #include "common/error/error.h"
 #include "tests/support/physics/pressed_world.h"
 
@@ -156,6 +159,27 @@ TEST(World, TakesWholeFramesOfStiffTissueByBackwardEuler) {
   EXPECT_GT(ledger.numerical, 0);
   // At rest where an explicit integrator comes to rest: half of the weight's work is stored.
   EXPECT_NEAR(ledger.elastic / -ledger.gravitational, 0.5, 1e-3);
+}
+
+TEST(World, LeavesCoresToOthersUnlessAPersonChoseTheThreads) {
+  Recipe recipe;
+  recipe.lattice = "voxel";
+  recipe.shape = Recipe::box(270, 270, 270);
+  recipe.precision = "single";
+  const Scene scene = scene_of(recipe);  // 28^3 masses: five chunks
+  const auto cores = static_cast<int>(std::thread::hardware_concurrency());
+  const World all(scene), but_one(scene, 1), none(scene, 1000);
+  ASSERT_GT(all.body(0).body().lattice.n_masses(), 15000);
+  const auto chunks = static_cast<int>(all.body(0).body().lattice.chunks.size());
+  ASSERT_GE(chunks, 2);
+  EXPECT_EQ(all.threads(), std::clamp(cores, 1, chunks));
+  EXPECT_EQ(but_one.threads(), std::clamp(cores - 1, 1, chunks));
+  EXPECT_EQ(none.threads(), 1);
+  EXPECT_EQ(all.team_choice().threads(), 1) << "it begins with one, and measures";
+  recipe.physics = "threads = 3";
+  const World chosen(scene_of(recipe), 1000);
+  EXPECT_EQ(chosen.threads(), 3);
+  EXPECT_EQ(chosen.team_choice().threads(), 3);
 }
 
 TEST(World, LeavesContactOutWhereNothingCouldTouch) {

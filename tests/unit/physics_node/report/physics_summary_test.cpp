@@ -49,6 +49,8 @@ TEST(PhysicsSummary, HasTheKeysPromised) {
   EXPECT_FALSE(summary.at("bodies").at("body").contains("fragments")) << "it cannot break";
   EXPECT_EQ(summary.at("bodies").at("body").at("outcome"), "restitution");
   EXPECT_FALSE(summary.at("momentum").contains("linear_error")) << "it is held";
+  expect_keys(summary.at("team"), {"mean_threads", "trials", "changes"}, "team");
+  EXPECT_EQ(summary.at("team").at("mean_threads"), 1) << "a small body";
   expect_keys(summary.at("energy"),
               {"kinetic", "elastic", "gravitational", "dissipated", "plastic", "numerical", "broken", "guard",
                "tool_work", "exchanged", "balance_error"},
