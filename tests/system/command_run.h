@@ -11,6 +11,8 @@
 #include <iterator>
 #include <string>
 
+#include "tests/system/shell.h"
+
 namespace palpate {
 
 class CommandRun : public testing::Test {
@@ -26,7 +28,7 @@ class CommandRun : public testing::Test {
   int palpate(const std::string& words) {
     const std::filesystem::path file = folder / "log";
     const int status =
-        std::system((std::string(PALPATE) + " " + words + " >" + file.string() + " 2>&1").c_str());
+        std::system((test::quoted(PALPATE) + " " + words + " >" + test::quoted(file) + " 2>&1").c_str());
     std::ifstream in(file);
     log.assign(std::istreambuf_iterator<char>(in), {});
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;

@@ -9,6 +9,8 @@
 #include <string>
 #include <utility>
 
+#include "tests/system/shell.h"
+
 namespace palpate {
 namespace {
 
@@ -21,7 +23,7 @@ struct Answer {
 
 Answer palpate_says(const std::string& arguments) {
   Answer answer;
-  std::FILE* pipe = popen((std::string(PALPATE) + " " + arguments + " 2>&1").c_str(), "r");
+  std::FILE* pipe = popen((test::quoted(PALPATE) + " " + arguments + " 2>&1").c_str(), "r");
   for (int letter = std::fgetc(pipe); letter != EOF; letter = std::fgetc(pipe)) {
     answer.text += static_cast<char>(letter);
   }

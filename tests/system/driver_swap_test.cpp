@@ -20,6 +20,7 @@
 #include "common/report/json_file.h"
 #include "common/wire/writer.h"
 #include "tests/system/dds_domain.h"
+#include "tests/system/shell.h"
 
 namespace palpate {
 namespace {
@@ -38,9 +39,9 @@ class DriverSwap : public testing::Test {
 
   /// `palpate WORDS scenes/box_press.toml --out folder/NAME MORE`. @return exit code
   int palpate(const std::string& words, const std::string& name, const std::string& more) const {
-    const std::string command = std::string(PALPATE) + " " + words + " " + SCENES + "/box_press.toml --out " +
-                                (folder / name).string() + " " + more + " >" +
-                                (folder / (name + ".log")).string() + " 2>&1";
+    const std::string command = test::quoted(PALPATE) + " " + words + " " + test::quoted(SCENES "/box_press.toml") + " --out " +
+                                test::quoted(folder / name) + " " + more + " >" +
+                                test::quoted(folder / (name + ".log")) + " 2>&1";
     const int status = std::system(command.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
@@ -92,7 +93,8 @@ TEST_F(DriverSwap, PressesThroughThreeProcessesWithAVendorsLibrary) {
   setenv("STUB_HD_PRESSES", "5", 1);  // 5 mm, of which 3 are in the tissue
   const int exit_code = palpate("run", "live",
                                 "--headless --seconds 3 --domain " + std::to_string(test::own_domain()) +
-                                    " --set device.hand.driver=openhaptics --set device.hand.library=" STUB_HD
+                                    " --set device.hand.driver=openhaptics --set " +
+                                    test::quoted("device.hand.library=" STUB_HD) +
                                     " --set 'device.hand.offset_mm=[0,0,22]'");
   unsetenv("STUB_HD_PRESSES");
   ASSERT_EQ(exit_code, 0) << said("live");
@@ -151,10 +153,9 @@ TEST_F(DriverSwap, LeavesTheKeysOfTheScenesOwnDriverOut) {
   to.close();
   std::ofstream(folder / "path.csv") << "t_s,x_mm,y_mm,z_mm\n0,0,0,30\n9,0,0,30\n";
   const std::string command =
-      std::string(PALPATE) + " simulate " + scene.string() + " --no-frames --seconds 0.05 --out " +
-      (folder / "own").string() +
-      " --set device.hand.driver=replay --set device.hand.file=" + (folder / "path.csv").string() + " >" +
-      (folder / "own.log").string() + " 2>&1";
+      test::quoted(PALPATE) + " simulate " + test::quoted(scene) + " --no-frames --seconds 0.05 --out " +
+      test::quoted(folder / "own") + " --set device.hand.driver=replay --set " +
+      test::quoted("device.hand.file=" + (folder / "path.csv").string()) + " >" + test::quoted(folder / "own.log") + " 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0) << said("own");
 }
 

@@ -7,6 +7,7 @@
 #include "common/report/json_file.h"
 #include "tests/system/command_run.h"
 #include "tests/system/dds_domain.h"
+#include "tests/system/shell.h"
 
 namespace palpate::test {
 namespace {
@@ -18,8 +19,8 @@ class FullDisk : public CommandRun {
   void SetUp() override {
     CommandRun::SetUp();
     as_user = geteuid() == 0 ? "" : "--user --map-root-user ";
-    const std::string attempt = fmt::format("unshare {}--mount mount -t tmpfs none {} 2>{}/why", as_user,
-                                            folder.string(), folder.string());
+    const std::string attempt = fmt::format("unshare {}--mount mount -t tmpfs none {} 2>{}", as_user,
+                                            test::quoted(folder), test::quoted(folder / "why"));
     if (std::system(attempt.c_str()) != 0) GTEST_SKIP() << "no disks of our own here";
   }
 
@@ -28,13 +29,13 @@ class FullDisk : public CommandRun {
     std::filesystem::create_directories(folder / "disk");
     std::filesystem::create_directories(folder / "kept");
     const std::string run =
-        fmt::format("{} run {}/box_press.toml --headless --seconds 6 --domain {} --out disk/out", PALPATE,
-                    SCENES, own_domain());
+        fmt::format("{} run {} --headless --seconds 6 --domain {} --out disk/out", test::quoted(PALPATE),
+                    test::quoted(SCENES "/box_press.toml"), own_domain());
     const std::string line = fmt::format(
-        "cd {} && unshare {}--mount sh -c 'mount -t tmpfs -o size={}k none disk && {}; code=$?; df disk; rm "
-        "-f "
-        "disk/out/record.h5; cp -r disk/out kept; exit $code' >log 2>&1",
-        folder.string(), as_user, kB, run);
+        "cd {} && unshare {}--mount sh -c {} >log 2>&1", test::quoted(folder), as_user,
+        test::quoted(fmt::format("mount -t tmpfs -o size={}k none disk && {}; code=$?; df disk; rm -f disk/out/record.h5; "
+                                 "cp -r disk/out kept; exit $code",
+                                 kB, run)));
     const int status = std::system(line.c_str());
     std::ifstream in(folder / "log");
     log.assign(std::istreambuf_iterator<char>(in), {});

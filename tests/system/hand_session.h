@@ -23,6 +23,7 @@
 #include "tests/support/devices/watched_device.h"
 #include "tests/system/block_scene.h"
 #include "tests/system/dds_domain.h"
+#include "tests/system/patience.h"
 
 namespace palpate::test {
 
@@ -75,13 +76,14 @@ class HandSession : public testing::Test {
     return end(copy, signal);
   }
 
-  /// Waits until `done`, 20 s at most: this machine may be busy.
+  /// Waits until `done`, as long as there is patience.
   static bool until(const std::function<bool()>& done) {
-    for (int i = 0; i < 10'000; ++i) {
-      if (done()) return true;
+    const auto end = std::chrono::steady_clock::now() + patience;
+    while (!done()) {
+      if (std::chrono::steady_clock::now() > end) return false;
       std::this_thread::sleep_for(2ms);
     }
-    return false;
+    return true;
   }
   double force_now() const { return device->writes == 0 ? 0.0 : device->at(device->writes - 1).norm; }
   /// In contact, the hand at rest: 4 mm deep.

@@ -10,6 +10,8 @@
 #include <regex>
 #include <string>
 
+#include "tests/system/shell.h"
+
 namespace palpate {
 namespace {
 
@@ -43,7 +45,7 @@ struct Count {
 Count count(const Kernel& kernel, int n_steps) {
   const std::string command =
       std::string("PALPATE_ISA=") + kernel.isa +
-      " " VALGRIND " --tool=callgrind --callgrind-out-file=/dev/null " KERNEL_STEPS " " + kernel.lattice +
+      " " VALGRIND " --tool=callgrind --callgrind-out-file=/dev/null " + test::quoted(KERNEL_STEPS) + " " + kernel.lattice +
       " " + kernel.precision + " " + kernel.work + " " + std::to_string(n_steps) + " 2>&1";
   std::string out;
   std::FILE* pipe = popen(command.c_str(), "r");

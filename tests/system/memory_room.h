@@ -22,6 +22,8 @@
 #include <thread>
 #include <vector>
 
+#include "tests/system/patience.h"
+
 namespace palpate::test {
 
 inline bool write_file(const std::string& path, const std::string& text) {
@@ -101,9 +103,9 @@ class Process {
   Process& operator=(const Process&) = delete;
 
   void tell(int signal) const { kill(pid_, signal); }
-  /// Exit code; minus the signal that ended it; -1000 if it does not end within a minute.
+  /// Exit code; minus the signal that ended it; -1000 if it does not end while there is patience.
   int wait() {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    const auto end = std::chrono::steady_clock::now() + patience;
     int status = 0;
     while (waitpid(pid_, &status, WNOHANG) != pid_) {
       if (std::chrono::steady_clock::now() > end) return -1000;
@@ -120,11 +122,12 @@ class Process {
   }
   /// Waits until its output has a place like `form`. @return false if that takes too long
   bool said(const std::string& form) const {
-    for (int i = 0; i < 8000; ++i) {
-      if (std::regex_search(text(), std::regex(form))) return true;
+    const auto end = std::chrono::steady_clock::now() + patience;
+    while (!std::regex_search(text(), std::regex(form))) {
+      if (std::chrono::steady_clock::now() > end) return false;
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
-    return false;
+    return true;
   }
 
  private:

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <optional>
 #include <regex>
 #include <thread>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "common/report/json_file.h"
 #include "tests/system/command_run.h"
 #include "tests/system/dds_domain.h"
+#include "tests/system/shell.h"
 
 namespace palpate {
 namespace {
@@ -24,8 +26,8 @@ class ReplayTest : public CommandRun {
 
   /// `palpate run` of a shipped scene.
   int run(const std::string& scene, const std::string& more, const std::string& name = "live") {
-    return palpate("run " + std::string(SCENES) + "/" + scene + " --headless --domain " +
-                   std::to_string(test::own_domain()) + " --out " + out(name) + " " + more);
+    return palpate("run " + test::quoted(SCENES "/" + scene) + " --headless --domain " +
+                   std::to_string(test::own_domain()) + " --out " + test::quoted(out(name)) + " " + more);
   }
 
   /// The record of a session alone, in another folder.
@@ -34,6 +36,18 @@ class ReplayTest : public CommandRun {
     const std::string path = out("elsewhere/copied.h5");
     fs::copy_file(out(name) + "/record.h5", path, fs::copy_options::overwrite_existing);
     return path;
+  }
+
+  /// The physics node whose command line has our folder.
+  std::optional<pid_t> node_of_this_session() const {
+    for (const auto& entry : fs::directory_iterator("/proc")) {
+      std::ifstream line(entry.path() / "cmdline");
+      const std::string words{std::istreambuf_iterator<char>(line), {}};
+      const std::string program = words.substr(0, words.find('\0'));
+      if (fs::path(program).filename() == "palpate-physics" && words.find(out("live")) != std::string::npos)
+        return std::stoi(entry.path().filename().string());
+    }
+    return std::nullopt;
   }
 
   /// Seconds run again, as palpate replay says.
@@ -49,7 +63,7 @@ TEST_F(ReplayTest, RunsALiveSessionWithBreaksAgain) {
   const std::string record = taken_away();
   fs::remove_all(out("live"));
   for (const char* threads : {"1", "2"}) {
-    ASSERT_EQ(palpate("replay " + record + " --threads " + threads + " --out " + out("again")), 0) << log;
+    ASSERT_EQ(palpate("replay " + test::quoted(record) + " --threads " + threads + " --out " + test::quoted(out("again"))), 0) << log;
     EXPECT_NE(log.find("all as recorded"), std::string::npos) << log;
     EXPECT_NEAR(seconds_said(), live["simulated_s"], 1e-3);
     const auto again = read_json(out("again/summary.json"));
@@ -59,23 +73,23 @@ TEST_F(ReplayTest, RunsALiveSessionWithBreaksAgain) {
               0)
         << "the test is about what breaks";
   }
-  ASSERT_EQ(palpate("replay " + record + " --until 0.1"), 0) << log;
+  ASSERT_EQ(palpate("replay " + test::quoted(record) + " --until 0.1"), 0) << log;
   EXPECT_NEAR(seconds_said(), 0.1, 1e-9);
-  EXPECT_EQ(palpate("replay " + out("again/record.h5") + " --out " + out("again")), 2)
+  EXPECT_EQ(palpate("replay " + test::quoted(out("again/record.h5")) + " --out " + test::quoted(out("again"))), 2)
       << "would write over what it reads";
-  EXPECT_EQ(palpate("replay " + out("again/record.h5")), 0)
+  EXPECT_EQ(palpate("replay " + test::quoted(out("again/record.h5"))), 0)
       << "what is run again leaves a record of its own: " << log;
 }
 
 TEST_F(ReplayTest, RunsASceneWithoutAHandAgain) {
   ASSERT_EQ(run("fall_crush.toml", "--seconds 1"), 0) << log;
-  ASSERT_EQ(palpate("replay " + taken_away()), 0) << log;
+  ASSERT_EQ(palpate("replay " + test::quoted(taken_away())), 0) << log;
   EXPECT_GT(seconds_said(), 0.1) << log;
 }
 
 TEST_F(ReplayTest, NamesAFlippedByte) {
-  ASSERT_EQ(palpate("simulate " + std::string(SCENES) + "/box_press.toml --no-frames --seconds 1 --out " +
-                    out("live")),
+  ASSERT_EQ(palpate("simulate " + test::quoted(SCENES "/box_press.toml") + " --no-frames --seconds 1 --out " +
+                    test::quoted(out("live"))),
             0)
       << log;
   const std::string record = taken_away();
@@ -86,7 +100,7 @@ TEST_F(ReplayTest, NamesAFlippedByte) {
   file.seekp(static_cast<std::streamoff>(at));
   file.put('n');
   file.close();
-  EXPECT_EQ(palpate("replay " + record), 2);
+  EXPECT_EQ(palpate("replay " + test::quoted(record)), 2);
   EXPECT_NE(log.find("copied.h5: damaged or truncated in dataset /scene/text"), std::string::npos) << log;
 }
 
@@ -95,15 +109,15 @@ TEST_F(ReplayTest, HoldsWhatWasFlushedWhenPhysicsIsKilled) {
     const fs::path record = folder / "live" / "record.h5";
     while (!fs::exists(record)) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     std::this_thread::sleep_for(std::chrono::milliseconds(3500));
-    // The physics node of this session and no other: the one whose command line has our folder.
-    std::system(("pkill -9 -f 'palpate-physics .*--out " + out("live") + "'").c_str());
+    const auto node = node_of_this_session();
+    if (node) kill(*node, SIGKILL);
   });
   EXPECT_EQ(run("box_press.toml", "--seconds 30"), 1) << log;
   killer.join();
   EXPECT_NE(log.find("was cut short"), std::string::npos) << log;
-  ASSERT_EQ(palpate("replay " + taken_away()), 0) << log;
+  ASSERT_EQ(palpate("replay " + test::quoted(taken_away())), 0) << log;
   EXPECT_GT(seconds_said(), 0.5) << log;
-  EXPECT_EQ(palpate("info " + out("live/record.h5")), 0);
+  EXPECT_EQ(palpate("info " + test::quoted(out("live/record.h5"))), 0);
   EXPECT_EQ(log.find("cut short"), std::string::npos) << "palpate run has mended it: " << log;
 }
 

@@ -13,6 +13,7 @@
 #include "common/scene/load_scene.h"
 #include "physics_node/world.h"
 #include "tests/system/command_run.h"
+#include "tests/system/shell.h"
 
 namespace palpate {
 namespace {
@@ -23,7 +24,7 @@ class ShippedScenes : public CommandRun {
  protected:
   nlohmann::json simulate(const std::string& scene, const std::string& more) {
     const fs::path out = folder / scene;
-    EXPECT_EQ(palpate("simulate " + std::string(SCENES) + "/" + scene + ".toml --no-frames --out " +
+    EXPECT_EQ(palpate("simulate " + test::quoted(SCENES "/" + std::string(scene) + ".toml") + " --no-frames --out " +
                       out.string() + " " + more),
               0)
         << log;
@@ -51,7 +52,7 @@ TEST_F(ShippedScenes, VesselPushedAsideReturns) {
 
 TEST_F(ShippedScenes, AneurysmOfAMadeAngiogramIsPressed) {
   const std::string file = (folder / "angiogram.h5").string();
-  ASSERT_EQ(palpate("import --phantom aneurysm --out " + file), 0) << log;
+  ASSERT_EQ(palpate("import --phantom aneurysm --out " + test::quoted(file)), 0) << log;
   const auto summary = simulate("aneurysm", "--seconds 0.7 --set body.vessels.file=" + file);
   EXPECT_GT(summary["tools"]["tip"]["force_peak"].get<double>(), 0.01);
   EXPECT_LT(summary["bodies"]["vessels"]["masses"].get<int>(), 10000);
@@ -111,7 +112,7 @@ TEST_F(ShippedScenes, ALumpIsFelt) {
 
 TEST_F(ShippedScenes, WithAStepFarTooLongEndWithADiagnosis) {
   const fs::path out = folder / "out";
-  EXPECT_EQ(palpate("simulate " + std::string(SCENES) + "/box_press.toml --no-frames --out " + out.string() +
+  EXPECT_EQ(palpate("simulate " + test::quoted(SCENES "/box_press.toml") + " --no-frames --out " + test::quoted(out) +
                     " --set physics.step_ms=1 --set material.soft.modulus_kPa=1e8"),
             1);
   EXPECT_NE(log.find("expect the guard to act"), std::string::npos) << log;

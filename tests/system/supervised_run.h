@@ -17,6 +17,7 @@
 
 #include "common/report/json_file.h"
 #include "tests/system/dds_domain.h"
+#include "tests/system/patience.h"
 
 namespace palpate::test {
 
@@ -58,6 +59,7 @@ class SupervisedRun {
     argv.push_back(nullptr);
     const std::string out_file = (folder / "stdout").string();
     const std::string err_file = (folder / "stderr").string();
+    for (const auto& file : {out_file, err_file}) std::filesystem::remove(file);  // of a start before
     pid = fork();
     if (pid != 0) return;
     for (const auto& [name, value] : whims) setenv(name.c_str(), value.c_str(), 1);
@@ -70,7 +72,7 @@ class SupervisedRun {
 
   /// Exit code, or -1 if a signal ended it or it does not end.
   int wait() {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    const auto end = std::chrono::steady_clock::now() + patience;
     int status = 0;
     while (waitpid(pid, &status, WNOHANG) != pid) {
       if (std::chrono::steady_clock::now() > end) return -1;
@@ -89,11 +91,12 @@ class SupervisedRun {
 
   /// Waits until the status line says so. @return false if that takes too long
   bool said(const std::string& words) const {
-    for (int i = 0; i < 2000; ++i) {
-      if (text("stdout").find(words) != std::string::npos) return true;
+    const auto end = std::chrono::steady_clock::now() + patience;
+    while (text("stdout").find(words) == std::string::npos) {
+      if (std::chrono::steady_clock::now() > end) return false;
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
-    return false;
+    return true;
   }
 
   /// Process ids of the nodes: the children of the running palpate, by program name.

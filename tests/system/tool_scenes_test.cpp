@@ -7,6 +7,7 @@
 
 #include "common/report/json_file.h"
 #include "tests/system/command_run.h"
+#include "tests/system/shell.h"
 
 namespace palpate {
 namespace {
@@ -52,7 +53,7 @@ class ToolScenes : public CommandRun {
  protected:
   /// Runs a scene and looks after its books. @return its summary
   nlohmann::json simulate(const std::string& scene, const std::string& more) {
-    EXPECT_EQ(palpate("simulate " + std::string(SCENES) + "/" + scene + ".toml --no-frames --out " +
+    EXPECT_EQ(palpate("simulate " + test::quoted(SCENES "/" + std::string(scene) + ".toml") + " --no-frames --out " +
                       (folder / scene).string() + " " + more),
               0)
         << log;
@@ -83,7 +84,7 @@ TEST_F(ToolScenes, RapidPunctureFluctuatesMoreThanSlow) {
 }
 
 TEST_F(ToolScenes, InclinedKnivesTurnTheHandAboutTheAxisThatTheyAreInclinedTo) {
-  ASSERT_EQ(palpate("import --phantom brain --out " + (folder / "brain").string()), 0) << log;
+  ASSERT_EQ(palpate("import --phantom brain --out " + test::quoted(folder / "brain")), 0) << log;
   const std::string brain = " --set body.brain.files=" + (folder / "brain/slice_*.png").string();
   for (const char* scene : {"brain_cut_slow", "brain_cut_inclined_x", "brain_cut_inclined_y"}) {
     const auto summary = simulate(scene, "--seconds 0.5" + brain);
@@ -96,7 +97,7 @@ TEST_F(ToolScenes, InclinedKnivesTurnTheHandAboutTheAxisThatTheyAreInclinedTo) {
 }
 
 TEST_F(ToolScenes, ABrainIsCutRapidlyAndATooHardBlockBreaksTheKnife) {
-  ASSERT_EQ(palpate("import --phantom brain --out " + (folder / "brain").string()), 0) << log;
+  ASSERT_EQ(palpate("import --phantom brain --out " + test::quoted(folder / "brain")), 0) << log;
   const auto cut = simulate(
       "brain_cut_rapid", "--seconds 0.18 --set body.brain.files=" + (folder / "brain/slice_*.png").string());
   EXPECT_GT(broken(cut, "brain"), 0.005);

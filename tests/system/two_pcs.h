@@ -14,6 +14,7 @@
 #include <string>
 
 #include "common/report/json_file.h"
+#include "tests/system/shell.h"
 
 namespace palpate::test {
 
@@ -23,7 +24,7 @@ class TwoPcs : public testing::Test {
  protected:
   void SetUp() override {
     const char* as_user = geteuid() == 0 ? "" : "--user --map-root-user ";
-    const std::string attempt = fmt::format("unshare {}--net true 2>{}/why", as_user, folder.string());
+    const std::string attempt = fmt::format("unshare {}--net true 2>{}", as_user, quoted(folder / "why"));
     fs::create_directories(folder);
     if (std::system(attempt.c_str()) != 0) GTEST_SKIP() << "no network namespaces here: " << text("why");
   }
@@ -31,8 +32,8 @@ class TwoPcs : public testing::Test {
 
   /// @return exit code of the lab
   int lab(const std::string& words) const {
-    const std::string line = fmt::format("{} {} --bin-dir {} --out {}/out >{}/said 2>&1", LAB, words, BIN,
-                                         folder.string(), folder.string());
+    const std::string line = fmt::format("{} {} --bin-dir {} --out {} >{} 2>&1", quoted(LAB), words, quoted(BIN),
+                                         quoted(folder / "out"), quoted(folder / "said"));
     const int status = std::system(line.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
@@ -46,7 +47,7 @@ class TwoPcs : public testing::Test {
     return read_json((folder / "out" / pc / "summary.json").string());
   }
   static std::string palpate(const std::string& scene, const std::string& words) {
-    return fmt::format("{}/palpate run {}/{}.toml --headless {}", BIN, SCENES, scene, words);
+    return fmt::format("{} run {} --headless {}", quoted(BIN "/palpate"), quoted(fs::path(SCENES) / (scene + ".toml")), words);
   }
 
   fs::path folder = fs::temp_directory_path() / fmt::format("palpate_two_pcs_{}", getpid());

@@ -28,7 +28,7 @@ class TwoPcsFaults : public TwoPcs {
   ~TwoPcsFaults() override { unsetenv("PALPATE_DRIVERS"); }
 
   int session(const std::string& deployment, const std::string& options) const {
-    return lab(fmt::format("run {} {}/press.toml {}", deployment, folder.string(), options));
+    return lab(fmt::format("run {} {} {}", deployment, quoted(folder / "press.toml"), options));
   }
   /// When the cable was pulled and put back, by the clock of the PC that is so much ahead [ns].
   void read_cut(double ahead_s) {

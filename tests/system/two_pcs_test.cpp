@@ -24,14 +24,14 @@ void expect_a_felt_press(const nlohmann::json& hand, const nlohmann::json& tissu
 }
 
 TEST_F(TwoPcs, RenderHereFeelThere) {
-  ASSERT_EQ(lab(fmt::format("run p2 {}/box_press.toml --seconds 3", SCENES)), 0) << text("said");
+  ASSERT_EQ(lab(fmt::format("run p2 {} --seconds 3", quoted(SCENES "/box_press.toml"))), 0) << text("said");
   expect_a_felt_press(summary("pc2"), summary("pc2"), summary("pc1"));
   EXPECT_FALSE(summary("pc1")["nodes"].contains("haptic")) << "each side tells of its own nodes";
   EXPECT_THAT(text("out/pc1.txt"), HasSubstr("palpate: haptic is there, on "));
 }
 
 TEST_F(TwoPcs, DeformHereFeelThereOverABadCable) {
-  ASSERT_EQ(lab(fmt::format("run p3 {}/box_press.toml --seconds 3 --delay 5 --jitter 5 --loss 10", SCENES)),
+  ASSERT_EQ(lab(fmt::format("run p3 {} --seconds 3 --delay 5 --jitter 5 --loss 10", quoted(SCENES "/box_press.toml"))),
             0)
       << text("said");
   expect_a_felt_press(summary("pc2"), summary("pc1"), summary("pc1"));
@@ -40,10 +40,10 @@ TEST_F(TwoPcs, DeformHereFeelThereOverABadCable) {
 
 TEST_F(TwoPcs, RefuseAnotherSceneInWords) {
   const std::string first = palpate(
-      "box_press", "--nodes physics --peers 192.168.77.2 --seconds 1 --out " + (folder / "a").string());
+      "box_press", "--nodes physics --peers 192.168.77.2 --seconds 1 --out " + quoted(folder / "a"));
   const std::string second = palpate(
-      "inclusion", "--nodes haptic --peers 192.168.77.1 --seconds 1 --out " + (folder / "b").string());
-  EXPECT_NE(lab(fmt::format("try 'timeout 7 {}; true' 'sleep 3; {}'", first, second)), 0);
+      "inclusion", "--nodes haptic --peers 192.168.77.1 --seconds 1 --out " + quoted(folder / "b"));
+  EXPECT_NE(lab(fmt::format("try {} {}", quoted("timeout 7 " + first + "; true"), quoted("sleep 3; " + second))), 0);
   EXPECT_THAT(text("said"), HasSubstr("runs the scene box_press, this PC inclusion"));
   EXPECT_THAT(text("said"), Not(HasSubstr("this PC box_press"))) << "who was there first stays";
   EXPECT_FALSE(fs::exists(folder / "b" / "summary.json"));
@@ -52,20 +52,20 @@ TEST_F(TwoPcs, RefuseAnotherSceneInWords) {
 TEST_F(TwoPcs, RefuseANodeThatIsThereAlready) {
   const std::string first =
       palpate("box_press",
-              "--nodes physics,haptic --peers 192.168.77.2 --seconds 1 --out " + (folder / "a").string());
+              "--nodes physics,haptic --peers 192.168.77.2 --seconds 1 --out " + quoted(folder / "a"));
   const std::string second = palpate(
-      "box_press", "--nodes haptic,render --peers 192.168.77.1 --seconds 1 --out " + (folder / "b").string());
-  EXPECT_NE(lab(fmt::format("try 'timeout 7 {}; true' 'sleep 3; {}'", first, second)), 0);
+      "box_press", "--nodes haptic,render --peers 192.168.77.1 --seconds 1 --out " + quoted(folder / "b"));
+  EXPECT_NE(lab(fmt::format("try {} {}", quoted("timeout 7 " + first + "; true"), quoted("sleep 3; " + second))), 0);
   EXPECT_THAT(text("said"), HasSubstr("haptic is in this session already"));
 }
 
 // Without --peers the PCs behind one interface find each other.
 TEST_F(TwoPcs, FindEachOtherByMulticast) {
   const std::string first =
-      palpate("box_press", "--nodes physics --interface eth0 --seconds 2 --out " + (folder / "a").string());
+      palpate("box_press", "--nodes physics --interface eth0 --seconds 2 --out " + quoted(folder / "a"));
   const std::string second = palpate(
-      "box_press", "--nodes haptic,render --interface eth0 --seconds 2 --out " + (folder / "b").string());
-  ASSERT_EQ(lab(fmt::format("try '{}' '{}'", first, second)), 0) << text("said");
+      "box_press", "--nodes haptic,render --interface eth0 --seconds 2 --out " + quoted(folder / "b"));
+  ASSERT_EQ(lab(fmt::format("try {} {}", quoted(first), quoted(second))), 0) << text("said");
   EXPECT_THAT(text("said"), HasSubstr("physics is there, on "));
   EXPECT_GT(read_json((folder / "b" / "summary.json").string())["haptic"]["patches"].get<int>(), 100);
 }
@@ -73,19 +73,19 @@ TEST_F(TwoPcs, FindEachOtherByMulticast) {
 // PC 1 has named a third machine as its peer; PC 2 knocks all the same.
 TEST_F(TwoPcs, ASecondMachineIsNotHeardUnlessNamed) {
   const std::string first =
-      palpate("box_press", "--nodes physics,render --peers 192.168.77.9 --out " + (folder / "a").string());
+      palpate("box_press", "--nodes physics,render --peers 192.168.77.9 --out " + quoted(folder / "a"));
   const std::string second =
-      palpate("box_press", "--nodes haptic --peers 192.168.77.1 --out " + (folder / "b").string());
-  lab(fmt::format("try 'timeout 6 {}; true' 'timeout 6 {}; true'", first, second));
+      palpate("box_press", "--nodes haptic --peers 192.168.77.1 --out " + quoted(folder / "b"));
+  lab(fmt::format("try {} {}", quoted("timeout 6 " + first + "; true"), quoted("timeout 6 " + second + "; true")));
   EXPECT_THAT(text("said"), HasSubstr("haptic awaited"));
   EXPECT_THAT(text("said"), Not(HasSubstr("is there")));
 }
 
 TEST_F(TwoPcs, AloneASessionListensToItsOwnMachineOnly) {
-  const std::string session = palpate("box_press", "--seconds 3 --out " + (folder / "a").string());
+  const std::string session = palpate("box_press", "--seconds 3 --out " + quoted(folder / "a"));
   const std::string list =
-      "sleep 1.5; ss --no-header --udp --listening --numeric >" + (folder / "sockets").string();
-  ASSERT_EQ(lab(fmt::format("try '({}) & {}; wait' true", list, session)), 0) << text("said");
+      "sleep 1.5; ss --no-header --udp --listening --numeric >" + quoted(folder / "sockets");
+  ASSERT_EQ(lab(fmt::format("try {} true", quoted(fmt::format("({}) & {}; wait", list, session)))), 0) << text("said");
   std::ifstream sockets(folder / "sockets");
   int n = 0;
   for (std::string line; std::getline(sockets, line); ++n)
@@ -96,9 +96,9 @@ TEST_F(TwoPcs, AloneASessionListensToItsOwnMachineOnly) {
 // 3,000 datagrams here; the same program threw 100,000 by hand.
 TEST_F(TwoPcs, MalformedDatagramsCrashNobody) {
   const unsigned seed = std::random_device()();
-  const std::string session = palpate("box_press", "--domain 3 --seconds 4 --out " + (folder / "a").string());
-  const std::string storm = fmt::format("sleep 2; {} 3 3000 {} >{}/storm", STORM, seed, folder.string());
-  ASSERT_EQ(lab(fmt::format("try '({}) & {}; code=$?; wait; exit $code' true", storm, session)), 0)
+  const std::string session = palpate("box_press", "--domain 3 --seconds 4 --out " + quoted(folder / "a"));
+  const std::string storm = fmt::format("sleep 2; {} 3 3000 {} >{}", quoted(STORM), seed, quoted(folder / "storm"));
+  ASSERT_EQ(lab(fmt::format("try {} true", quoted(fmt::format("({}) & {}; code=$?; wait; exit $code", storm, session)))), 0)
       << text("said") << "seed " << seed;
   EXPECT_THAT(text("storm"), HasSubstr("sent 3000")) << "seed " << seed;
   const auto summary = read_json((folder / "a" / "summary.json").string());

@@ -13,6 +13,7 @@
 #include "common/wire/topic.h"
 #include "common/wire/writer.h"
 #include "tests/system/dds_domain.h"
+#include "tests/system/patience.h"
 #include "tests/unit/common/wire/sample_messages.h"
 
 namespace palpate {
@@ -22,12 +23,10 @@ using namespace std::chrono_literals;
 using test::random_message;
 using test::same;
 
-constexpr auto long_enough = 10s;  // a bound for a broken run, not a measurement
-
 /// Calls `done` every millisecond until it is true. @return false if that takes too long
 template <class Done>
 bool eventually(Done done) {
-  const auto end = std::chrono::steady_clock::now() + long_enough;
+  const auto end = std::chrono::steady_clock::now() + test::patience;
   while (!done()) {
     if (std::chrono::steady_clock::now() > end) return false;
     std::this_thread::sleep_for(1ms);
@@ -63,7 +62,7 @@ TYPED_TEST(Wire, CarriesAMessageFromWriterToReader) {
   const auto got = std::make_unique<TypeParam>();
   EXPECT_FALSE(reader.take(*got));
   ASSERT_TRUE(writer.write(*sent));
-  ASSERT_TRUE(reader.wait(long_enough));
+  ASSERT_TRUE(reader.wait(test::patience));
   ASSERT_TRUE(reader.take(*got));
   EXPECT_TRUE(same(*sent, *got));
   EXPECT_FALSE(reader.take(*got));

@@ -82,6 +82,13 @@ Footprint footprint(pid_t pid) {
   return found;
 }
 
+bool lies_in(const std::vector<fs::path>& folders, const std::string& path) {
+  return std::any_of(folders.begin(), folders.end(), [&](const fs::path& folder) {
+    const std::string inside = (fs::weakly_canonical(folder) / "").string();
+    return fs::weakly_canonical(path).string().starts_with(inside);
+  });
+}
+
 void Growth::look(pid_t pid) {
   looks_[pid].push_back(footprint(pid));
   shared_.merge(looks_[pid].back().shared);

@@ -20,6 +20,10 @@ struct Footprint {
 };
 Footprint footprint(pid_t pid);
 
+/// Whether a path lies in one of these folders. The clone and its build may lie under /tmp: what nodes open there is theirs to
+/// read, and no leftover.
+bool lies_in(const std::vector<std::filesystem::path>& folders, const std::string& path);
+
 /// Whether a process that goes on living grows while others come and go. It is looked at when all is calm.
 class Growth {
  public:
