@@ -11,7 +11,8 @@ int main(int argc, char** argv) {
   using namespace palpate;
   constexpr std::array subcommands = {deploy::add_run,    deploy::add_simulate, deploy::add_replay,
                                       deploy::add_import, deploy::add_info,     deploy::add_plot,
-                                      deploy::add_doctor, deploy::add_bench,    deploy::add_reset};
+                                      deploy::add_doctor, deploy::add_bench,    deploy::add_reset,
+                                      deploy::add_export};
   int exit_code = exit_ok;
   CLI::App app{"palpate: feel soft tissue through a haptic device"};
   app.require_subcommand(0, 1);  // none: said below, so that an unknown word is named

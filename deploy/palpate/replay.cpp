@@ -19,7 +19,9 @@
 #include "deploy/palpate/out_folder.h"
 #include "deploy/palpate/plotter.h"
 #include "deploy/palpate/progress.h"
+#include "deploy/palpate/scratch_folder.h"
 #include "deploy/palpate/subcommands.h"
+#include "deploy/palpate/viewers.h"
 #include "deploy/palpate/virtual_eye.h"
 #include "physics_node/record/recorder.h"
 #include "physics_node/record/replay.h"
@@ -36,27 +38,6 @@ struct ReplayOptions {
   double until = std::numeric_limits<double>::infinity();
   int threads = -1;
   bool pictures = false;
-};
-
-/// A folder for the files of the scene, gone at the end.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = (fs::temp_directory_path() / "palpate_replay_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr)
-      throw InputError(name + ": no folder can be made there; give another place by the variable TMPDIR");
-    path_ = name;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  std::string path() const { return path_.string(); }
-
- private:
-  fs::path path_;
 };
 
 /// What the eye draws of a hand, from what physics heard of it.
@@ -119,6 +100,7 @@ class Rerun {
     write_json((out / "summary.json").string(), summary);
     fs::remove(out / "parts");  // the nodes' folder, empty here
     draw_plots(out);
+    export_for_viewers(out, world_->scene());
     fmt::print("summary  {}\n", (out / "summary.json").string());
     for (const std::string& text : warnings_of(summary)) fmt::print(stderr, "palpate: {}\n", text);
   }

@@ -23,6 +23,7 @@
 #include "deploy/palpate/session.h"
 #include "deploy/palpate/subcommands.h"
 #include "deploy/palpate/summary.h"
+#include "deploy/palpate/viewers.h"
 #include "haptic_node/device/driver_library.h"
 #include "physics_node/record/mend_record.h"
 
@@ -161,6 +162,7 @@ int run(const RunOptions& options) {
   }
   const bool plotted = !result.interrupted && draw_plots(out);
   say_where(out, summary, plotted);
+  if (!result.interrupted) export_for_viewers(out, scene);
   if (result.interrupted) std::printf("plot     palpate plot %s draws it\n", out.c_str());
   return result.exit_code;
 }

@@ -15,6 +15,7 @@
 #include "deploy/palpate/plotter.h"
 #include "deploy/palpate/progress.h"
 #include "deploy/palpate/subcommands.h"
+#include "deploy/palpate/viewers.h"
 #include "deploy/palpate/virtual_session.h"
 
 namespace palpate::deploy {
@@ -52,6 +53,7 @@ int simulate(SimulateOptions options) {
              summary["real_time_factor"].get<double>(), summary["state_hash"].get<std::string>());
   fmt::print("summary  {}\n", (out / "summary.json").string());
   if (std::filesystem::exists(out / "force.png")) fmt::print("plot     {}\n", (out / "force.png").string());
+  export_for_viewers(out, scene);
   if (!options.no_pictures) fmt::print("pictures {}\n", (out / "frames").string());
   for (const std::string& text : warnings_of(summary))
     if (std::find(known.begin(), known.end(), text) == known.end()) fmt::print(stderr, "palpate: {}\n", text);

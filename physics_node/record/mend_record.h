@@ -5,8 +5,7 @@
 
 namespace palpate::physics {
 
-/// Takes the mark "open for writing" off a record that was not closed, and writes the record.xdmf beside it anew, if there are
-/// positions. Leaves a record that was closed as it is.
+/// Takes the mark "open for writing" off a record that was not closed. Leaves a record that was closed as it is.
 /// @return true if there was something to mend
 /// @throws InputError: no record, may not be written, damaged
 bool mend_record(const std::string& path);

@@ -9,7 +9,6 @@
 #include "common/math/hash.h"
 #include "common/report/commit.h"
 #include "physics_node/record/recorder.h"
-#include "physics_node/record/xdmf.h"
 
 namespace palpate::physics {
 namespace {
@@ -65,14 +64,15 @@ void Recorder::make_files(const World& world, const SceneSource& source) {
       for (int a = 0; a < 3; ++a)
         rest.push_back(static_cast<float>(moving.body().lattice.rest_position(cell)[a]));
     body_names_.push_back(moving.body().name);
-    body_masses_.push_back(rest.size() / 3);
-    body_facets_.push_back(facets.size() / 4);
     hdf5_->write<float>(base + "/rest", {rest.size() / 3, 3}, rest.data());
     hdf5_->write<std::uint32_t>(base + "/facets", {facets.size() / 4, 4}, facets.data());
     if (!spec_.positions) continue;
     hdf5_->make_series<double>(base + "/time", {1});
     hdf5_->make_series<float>(base + "/position", {rest.size() / 3, 3});
     hdf5_->make_series<std::uint8_t>(base + "/flags", {rest.size() / 3});
+    if (!any_yields(moving.body())) continue;
+    hdf5_->make_series<std::uint8_t>(base + "/yielded", {rest.size() / 3});
+    hdf5_->make_series<std::uint32_t>(base + "/live", {rest.size() / 3});
   }
   for (const auto& name : tool_names_)
     hdf5_->make_series<double>("/tools/" + name + "/t_p_force_moment", {10});
@@ -112,8 +112,10 @@ void Recorder::write_snapshots() {
       hdf5_->append<double>(base + "/time", &snapshot.t);
       hdf5_->append<float>(base + "/position", snapshot.position[b].data());
       hdf5_->append<std::uint8_t>(base + "/flags", snapshot.flags[b].data());
+      if (snapshot.live[b].empty()) continue;
+      hdf5_->append<std::uint8_t>(base + "/yielded", snapshot.yielded[b].data());
+      hdf5_->append<std::uint32_t>(base + "/live", snapshot.live[b].data());
     }
-    times_.push_back(snapshot.t);
     snapshot.full = false;
     next_written_ = (next_written_ + 1) % n_snapshots;
   }
@@ -124,11 +126,6 @@ void Recorder::flush() {
   for (std::size_t n = 0; n < csv_.size(); ++n) {
     if (std::fflush(csv_[n]) != 0) throw std::runtime_error(csv_names_[n] + ": " + std::strerror(errno));
   }
-  // Rarely enough for a long session to cost no more than a few times its last picture of itself.
-  const bool shown_is_old = times_.size() > times_shown_ + times_shown_ / 4;
-  if (!shown_is_old && !(stop_ && times_.size() > times_shown_)) return;
-  write_xdmf();
-  times_shown_ = times_.size();
 }
 
 void Recorder::work() noexcept {
@@ -161,13 +158,6 @@ void Recorder::finish(const World& world) {
   thread_.join();
   if (failed_) throw std::runtime_error(failure_);
   hdf5_->close();
-}
-
-void Recorder::write_xdmf() const {
-  std::vector<XdmfBody> bodies;
-  for (std::size_t b = 0; b < body_names_.size(); ++b)
-    bodies.push_back({body_names_[b], body_masses_[b], body_facets_[b], times_.size()});
-  palpate::physics::write_xdmf(folder_ + "/record.xdmf", "record.h5", bodies, times_);
 }
 
 }  // namespace palpate::physics

@@ -24,6 +24,9 @@ Recorder::Recorder(const World& world, const SceneSource& source, const std::str
         const auto n = static_cast<std::size_t>(world.body(b).body().lattice.n_masses());
         snapshot->position.emplace_back(3 * n);
         snapshot->flags.emplace_back(n);
+        const std::size_t n_yielding = any_yields(world.body(b).body()) ? n : 0;
+        snapshot->yielded.emplace_back(n_yielding);
+        snapshot->live.emplace_back(n_yielding);
       }
       snapshots_.push_back(std::move(snapshot));
     }
@@ -108,6 +111,10 @@ void Recorder::note_positions(const World& world) noexcept {
       const Vec3 p = world.body(b).position(cell);
       for (int a = 0; a < 3; ++a)
         snapshot.position[b][3 * n + static_cast<std::size_t>(a)] = static_cast<float>(p[a]);
+      if (!snapshot.live[b].empty()) {
+        snapshot.live[b][n] = world.body(b).mask(cell);
+        snapshot.yielded[b][n] = static_cast<std::uint8_t>(255 * world.body(b).yielded_share(cell) + 0.5);
+      }
       snapshot.flags[b][n++] = world.body(b).flags(cell);
     }
   }

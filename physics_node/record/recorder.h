@@ -1,6 +1,7 @@
 #pragma once
-// Leaves a run behind: a CSV per tool, energy.csv, record.h5 with positions, tools and all that is needed to run it again,
-// record.xdmf for viewers. Killed at any moment, it leaves files that are whole up to one second ago. frame() only copies what is due into buffers taken at the start; a thread of its own writes the files.
+// Leaves a run behind: a CSV per tool, energy.csv, and record.h5 with positions, tools and all that is needed to run it
+// again. Killed at any moment, it leaves files that are whole up to one second ago. frame() only copies what is due into
+// buffers taken at the start; a thread of its own writes the files.
 
 #include <atomic>
 #include <cstdint>
@@ -22,7 +23,7 @@ class Recorder {
   enum class WhenBehind { drop, wait };  // a live run drops and counts; simulated time waits
 
   /// @param source  what the scene was read from
-  /// @param folder  must exist; tool_NAME.csv, energy.csv, record.h5 and record.xdmf are made in it
+  /// @param folder  must exist; tool_NAME.csv, energy.csv and record.h5 are made in it
   /// @throws InputError or std::runtime_error where files cannot be made
   Recorder(const World& world, const SceneSource& source, const std::string& folder, WhenBehind when_behind);
   ~Recorder();
@@ -40,7 +41,7 @@ class Recorder {
   /// The disk took no more: what came since is lost, and finish() will say so.
   bool failed() const noexcept { return failed_; }
 
-  /// Writes what is left, closes the files and writes record.xdmf. @throws std::runtime_error: disk full
+  /// Writes what is left and closes the files. @throws std::runtime_error: disk full
   void finish(const World& world);
 
   /// CSV of a tool, relative to the folder.
@@ -73,6 +74,9 @@ class Recorder {
     double t = 0;
     std::vector<std::vector<float>> position;      // per body (n_masses x 3)
     std::vector<std::vector<std::uint8_t>> flags;  // per body (n_masses)
+    // Of the bodies that may yield; else EMPTY:
+    std::vector<std::vector<std::uint8_t>> yielded;  // yielded share, 255: all (n_masses)
+    std::vector<std::vector<Mask>> live;             // live elements (n_masses)
   };
   static constexpr std::size_t n_snapshots = 8;
 
@@ -90,15 +94,12 @@ class Recorder {
   void write_snapshots();
   void flush();
   void work() noexcept;
-  void write_xdmf() const;
 
   std::string folder_;
   WhenBehind when_behind_;
   RecordSpec spec_;
   std::vector<std::string> tool_names_;
   std::vector<std::string> body_names_;
-  std::vector<std::uint64_t> body_masses_;
-  std::vector<std::uint64_t> body_facets_;
   std::vector<Tally> tallies_;
   std::vector<std::FILE*> csv_;         // of the tools, then of the energy
   std::vector<std::string> csv_names_;  // their paths
@@ -110,8 +111,6 @@ class Recorder {
   std::vector<std::unique_ptr<Snapshot>> snapshots_;
   std::size_t next_snapshot_ = 0;  // frame()'s
   std::size_t next_written_ = 0;   // the thread's
-  std::vector<double> times_;      // of the snapshots written
-  std::size_t times_shown_ = 0;    // in record.xdmf
   std::int64_t snapshots_due_ = 0;
   std::int64_t energies_due_ = 0;
   std::uint64_t dropped_ = 0;

@@ -11,6 +11,11 @@ void LiveElements::copy(const MovingBody& moving) {
     mask_[static_cast<std::size_t>(cell)] = moving.mask(cell);
 }
 
+void LiveElements::copy(const Body& body, std::span<const Mask> masks) {
+  for (std::size_t n = 0; n < body.lattice.masses.size(); ++n)
+    mask_[static_cast<std::size_t>(body.lattice.masses[n])] = masks[n];
+}
+
 LiveNet::LiveNet(const Lattice& lattice, const LiveElements& live) : lattice_(lattice), live_(live) {
   direction_.fill(-1);
   const auto directions = all_directions(lattice.kind);

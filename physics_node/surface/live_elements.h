@@ -3,6 +3,7 @@
 // the body moves on.
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "physics_node/body/body.h"
@@ -16,6 +17,8 @@ class LiveElements {
   /// Copies the masks of all masses. Cost: one virtual call per mass.
   explicit LiveElements(const MovingBody& moving);
   void copy(const MovingBody& moving);
+  /// From the masks of all masses, in storage order, as a record holds them.
+  void copy(const Body& body, std::span<const Mask> masks);
 
   /// Bit d: the element in direction d lives.
   Mask mask(Index cell) const { return mask_[static_cast<std::size_t>(cell)]; }

@@ -6,7 +6,6 @@
 
 #include "tests/support/image/scratch_folder.h"
 #include "tests/support/physics/pressed_world.h"
-#include "tests/unit/physics_node/record/viewer.h"
 
 namespace palpate::physics {
 namespace {
@@ -100,10 +99,6 @@ TEST_F(Recording, KeepsPositionsAtTheRateAskedFor) {
     lowest = std::min(lowest, positions[5 * rest.size() + n + 2] - rest[n + 2]);
   EXPECT_LT(lowest, -0.0005F);
   for (const auto corner : file.read<std::uint32_t>("/bodies/body/facets")) ASSERT_LT(corner, n_masses_);
-}
-
-TEST_F(Recording, OpensInAViewer) {
-  EXPECT_TRUE(opens_in_viewer(folder_ / "record.xdmf", 6, n_masses_, "slab"));
 }
 
 TEST(Recorder, SaysWhereItCannotWrite) {

@@ -1,0 +1,279 @@
+#include "physics_node/record/export_vtk.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <regex>
+
+#include "common/error/error.h"
+#include "common/record/hdf5_file.h"
+#include "physics_node/appearance/colours.h"
+#include "physics_node/record/vtp_file.h"
+#include "physics_node/surface/surface.h"
+
+namespace palpate::physics {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One body of the record: its series, and the mesh that they give.
+class ExportedBody {
+ public:
+  ExportedBody(const Hdf5File& file, const Scene& scene, std::size_t b)
+      : file_(file),
+        base_("/bodies/" + scene.bodies[b].name),
+        rgba_(body_colour(scene, b)),
+        threshold_(scene.render.threshold),
+        moving_(make_moving_body(build_body(scene.bodies[b], scene.materials), Precision::single_)),
+        live_(*moving_),
+        number_(static_cast<std::size_t>(body().lattice.n_cells())) {
+    if (file.shape(base_ + "/rest").at(0) != body().lattice.masses.size())
+      throw InputError(fmt::format("{}: the record and the scene do not have the same masses", base_));
+    std::uint32_t next = 0;
+    for (const Index cell : body().lattice.masses) number_[static_cast<std::size_t>(cell)] = next++;
+    follows_breaks_ = file.has(base_ + "/live");
+    look();
+  }
+
+  const std::string& name() const { return body().name; }
+  std::vector<double> times() const { return file_.read<double>(base_ + "/time"); }
+
+  /// The mesh of one recorded time.
+  VtpMesh mesh(std::uint64_t row) {
+    if (follows_breaks_) follow(row);
+    const auto position = file_.read_rows<float>(base_ + "/position", row, 1);
+    VtpMesh mesh;
+    VtpArray displacement{"displacement", 3, {}};
+    for (std::size_t v = 0; v < surface_.n_vertices(); ++v) {
+      const bool moves = v < surface_.n_moving();
+      const std::size_t n = moves ? number_[static_cast<std::size_t>(surface_.cell[v])] : 0;
+      for (int a = 0; a < 3; ++a) {
+        const auto rest = static_cast<float>(surface_.rest[v][a]);
+        const float now = moves ? position[3 * n + static_cast<std::size_t>(a)] : rest;
+        mesh.points.push_back(now);
+        displacement.values.push_back(now - rest);
+      }
+    }
+    add_facets(mesh, true);
+    mesh.on_points.push_back(std::move(displacement));
+    if (follows_breaks_) mesh.on_points.push_back(yielded_share(row));
+    return mesh;
+  }
+
+  /// What does not move. No polygons: there is none.
+  VtpMesh scenery() const {
+    VtpMesh mesh;
+    add_facets(mesh, false);
+    if (mesh.ends.empty()) return mesh;
+    for (const Vec3& rest : surface_.rest)
+      for (int a = 0; a < 3; ++a) mesh.points.push_back(static_cast<float>(rest[a]));
+    return mesh;
+  }
+
+ private:
+  const Body& body() const { return moving_->body(); }
+  void look() { surface_ = make_surface(body(), live_, threshold_, rgba_); }
+
+  void follow(std::uint64_t row) {
+    auto masks = file_.read_rows<Mask>(base_ + "/live", row, 1);
+    if (masks == masks_) return;
+    masks_ = std::move(masks);
+    live_.copy(body(), masks_);
+    look();
+  }
+
+  VtpArray yielded_share(std::uint64_t row) const {
+    const auto shares = file_.read_rows<std::uint8_t>(base_ + "/yielded", row, 1);
+    VtpArray array{"yielded_share", 1, {}};
+    for (std::size_t v = 0; v < surface_.n_vertices(); ++v)
+      array.values.push_back(v < surface_.n_moving()
+                                 ? static_cast<float>(shares[number_[static_cast<std::size_t>(surface_.cell[v])]]) / 255.0F
+                                 : 0.0F);
+    return array;
+  }
+
+  void add_facets(VtpMesh& mesh, bool moving) const {
+    for (std::size_t f = 0; f < surface_.facets.size(); ++f) {
+      const auto& facet = surface_.facets[f];
+      const bool moves =
+          std::any_of(facet.begin(), facet.end(), [&](std::uint32_t corner) { return corner < surface_.n_moving(); });
+      if (moves != moving) continue;
+      const std::size_t corners = facet[3] == facet[2] ? 3 : 4;
+      for (std::size_t c = 0; c < corners; ++c) mesh.corners.push_back(static_cast<std::int32_t>(facet[c]));
+      mesh.ends.push_back(static_cast<std::int32_t>(mesh.corners.size()));
+      for (int byte = 0; byte < 4; ++byte)
+        mesh.rgba.push_back(static_cast<std::uint8_t>(surface_.rgba[f] >> (8 * byte) & 0xff));
+    }
+  }
+
+  const Hdf5File& file_;
+  std::string base_;
+  std::uint32_t rgba_;
+  std::optional<double> threshold_;
+  std::unique_ptr<MovingBody> moving_;
+  LiveElements live_;
+  std::vector<std::uint32_t> number_;  // of the mass in a storage cell, as the record counts
+  std::vector<Mask> masks_;
+  Surface surface_;
+  bool follows_breaks_ = false;
+};
+
+/// The rows of t_p_force_moment of one tool, by time.
+class ExportedTool {
+ public:
+  ExportedTool(const Hdf5File& file, const std::string& name)
+      : file_(file), path_("/tools/" + name + "/t_p_force_moment"), n_(file.has(path_) ? file.shape(path_).at(0) : 0) {}
+
+  /// The last row not after t; nothing where there is none.
+  std::optional<std::vector<double>> at(double t) const {
+    std::uint64_t first = 0, last = n_;  // rows before `first` are not after t, those from `last` on are
+    while (first < last) {
+      const std::uint64_t middle = first + (last - first) / 2;
+      (file_.read_rows<double>(path_, middle, 1).at(0) <= t + 1e-9 ? first = middle + 1 : last = middle);
+    }
+    if (first == 0) return std::nullopt;
+    return file_.read_rows<double>(path_, first - 1, 1);
+  }
+
+ private:
+  const Hdf5File& file_;
+  std::string path_;
+  std::uint64_t n_;
+};
+
+VtpMesh tools_at(const std::vector<ExportedTool>& tools, double t) {
+  VtpMesh mesh;
+  VtpArray force{"force", 3, {}}, moment{"moment", 3, {}}, number{"tool", 1, {}};
+  for (std::size_t n = 0; n < tools.size(); ++n) {
+    const auto row = tools[n].at(t);
+    if (!row) continue;
+    for (std::size_t a = 0; a < 3; ++a) {
+      mesh.points.push_back(static_cast<float>((*row)[1 + a]));
+      force.values.push_back(static_cast<float>((*row)[4 + a]));
+      moment.values.push_back(static_cast<float>((*row)[7 + a]));
+    }
+    number.values.push_back(static_cast<float>(n));
+  }
+  mesh.on_points = {std::move(force), std::move(moment), std::move(number)};
+  return mesh;
+}
+
+/// Rows at which `rate_Hz` a second are due.
+std::vector<std::uint64_t> rows_due(const std::vector<double>& times, double rate_Hz) {
+  std::vector<std::uint64_t> rows;
+  double next = times.empty() ? 0 : times.front();
+  for (std::size_t n = 0; n < times.size(); ++n) {
+    if (times[n] + 1e-9 < next) continue;
+    rows.push_back(n);
+    next = std::max(next + 1 / rate_Hz, times[n]);
+  }
+  return rows;
+}
+
+/// Is it one of the files of an earlier export? A person's own in that folder stay.
+bool is_ours(const fs::path& path) {
+  static const std::regex form("(body_.+_[0-9]{5,}|scenery_.+|tools_[0-9]{5,})\\.vtp");
+  return std::regex_match(path.filename().string(), form);
+}
+
+/// The parts of an export, and the file that ties them together.
+class Series {
+ public:
+  Series(fs::path folder, fs::perms rights) : folder_(std::move(folder)), rights_(rights) {
+    fs::create_directories(folder_ / "vtk");
+    fs::permissions(folder_ / "vtk", with_search(rights_));
+    for (const auto& entry : fs::directory_iterator(folder_ / "vtk"))
+      if (is_ours(entry.path())) fs::remove(entry.path());
+  }
+
+  /// A part of one time. @param file  without ending
+  void add(const std::string& file, int part, double t, VtpMesh mesh) {
+    mesh.t = t;
+    const std::string name = "vtk/" + file + ".vtp";
+    bytes_ += write_vtp((folder_ / name).string(), mesh);
+    fs::permissions(folder_ / name, rights_);
+    parts_.push_back({t, part, name});
+  }
+  /// The same file again.
+  void repeat(const std::string& file, int part, double t) { parts_.push_back({t, part, "vtk/" + file + ".vtp"}); }
+
+  fs::path close() {
+    const fs::path path = folder_ / "record.pvd";
+    write_pvd(path.string(), parts_);
+    fs::permissions(path, rights_);
+    return path;
+  }
+  std::uint64_t bytes() const { return bytes_; }
+
+ private:
+  /// Who may read the files may look into their folder.
+  static fs::perms with_search(fs::perms rights) {
+    using enum fs::perms;
+    fs::perms folder = (rights & (owner_all | group_all | others_all)) | owner_all;
+    if ((rights & group_read) != none) folder |= group_exec;
+    if ((rights & others_read) != none) folder |= others_exec;
+    return folder;
+  }
+
+  fs::path folder_;
+  fs::perms rights_;
+  std::vector<PvdPart> parts_;
+  std::uint64_t bytes_ = 0;
+};
+
+}  // namespace
+
+VtkExport export_vtk(const std::string& record, const Scene& scene, const VtkWish& wish) {
+  const Hdf5File file(record, Hdf5File::Mode::read);
+  VtkExport done;
+  if (scene.bodies.empty() || !file.has("/bodies/" + scene.bodies.front().name + "/position")) return done;
+  std::vector<ExportedBody> bodies;
+  bodies.reserve(scene.bodies.size());
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) bodies.emplace_back(file, scene, b);
+  std::vector<ExportedTool> tools;
+  for (const ToolSpec& tool : scene.tools) tools.emplace_back(file, tool.name);
+
+  std::vector<double> times = bodies.front().times();
+  for (const auto& body : bodies) times.resize(std::min(times.size(), body.times().size()));  // a record cut short
+  std::vector<std::uint64_t> rows = rows_due(times, wish.rate_Hz);
+  if (rows.empty()) return done;
+  Series series(wish.folder, fs::status(record).permissions());
+  const auto scenery_file = [&](std::size_t b) { return "scenery_" + bodies[b].name(); };
+  std::vector<bool> has_scenery;
+  for (const auto& body : bodies) {
+    VtpMesh scenery = body.scenery();
+    has_scenery.push_back(!scenery.ends.empty());
+    const auto part = static_cast<int>(bodies.size() + has_scenery.size());
+    if (has_scenery.back()) series.add(scenery_file(has_scenery.size() - 1), part, times[rows.front()], std::move(scenery));
+  }
+  const std::uint64_t fixed_bytes = series.bytes();
+  std::size_t stride = 1;
+  double last_t = 0;
+  for (std::size_t n = 0; n < rows.size(); n += stride) {
+    const double t = times[rows[n]];
+    last_t = t;
+    ++done.times;
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      series.add(fmt::format("body_{}_{:05}", bodies[b].name(), done.times), static_cast<int>(b), t,
+                 bodies[b].mesh(rows[n]));
+      const auto part = static_cast<int>(bodies.size() + b + 1);
+      if (has_scenery[b] && n > 0) series.repeat(scenery_file(b), part, t);
+    }
+    VtpMesh tips = tools_at(tools, t);
+    if (tips.n_points() > 0)
+      series.add(fmt::format("tools_{:05}", done.times), static_cast<int>(bodies.size()), t, std::move(tips));
+    if (n > 0) continue;
+    const std::uint64_t each = std::max<std::uint64_t>(series.bytes() - fixed_bytes, 1);
+    const std::uint64_t room = wish.most_bytes > fixed_bytes ? (wish.most_bytes - fixed_bytes) / each : 1;
+    const std::size_t most = std::max<std::uint64_t>(room, 1);
+    stride = (rows.size() + most - 1) / most;
+  }
+  done.thinned = stride > 1;
+  done.every_s = done.times > 1 ? (last_t - times[rows.front()]) / static_cast<double>(done.times - 1) : 0;
+  done.bytes = series.bytes();
+  done.collection = series.close();
+  return done;
+}
+
+}  // namespace palpate::physics
