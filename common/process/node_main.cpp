@@ -10,11 +10,13 @@
 #include <thread>
 
 #include "common/error/error.h"
+#include "common/file/privacy.h"
 #include "common/process/checked_option.h"
 #include "common/process/other_process.h"
 #include "common/process/stop_flag.h"
 #include "common/report/log.h"
 #include "common/scene/load_scene.h"
+#include "common/scene/scene_source.h"
 #include "common/time/clock.h"
 
 namespace palpate {
@@ -110,7 +112,9 @@ int node_main(int argc, char** argv, const char* name,
   try {
     options.reach.peers = comma_list(peers);
     install_stop_handlers();
-    const int code = run(options, load_scene(options.scene_path, options.settings));
+    const Scene scene = load_scene(options.scene_path, options.settings);
+    keep_as_private_as(files_of(scene));
+    const int code = run(options, scene);
     if (stopped_by() == "iox-roudi")
       log_warn("RouDi was stopped, and has told the programs that use its memory to end");
     return code;

@@ -1,10 +1,13 @@
 #include "common/record/hdf5_file.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <stdexcept>
 
 #include "common/error/error.h"
+#include "common/file/new_file.h"
 #include "common/record/hdf5_handle.h"
 
 namespace palpate {
@@ -22,7 +25,9 @@ Hdf5File::Hdf5File(const std::string& path, Mode mode) : path_(path), mode_(mode
   const Handle access = hdf5::file_access();
   if (mode == Mode::record)
     checked(H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110), "HDF5 cannot be set up");
-  file_ = checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), "cannot be created");
+  // A new file, never what a link points to: HDF5 would follow it.
+  if (!make_way(path)) fail(std::string("cannot be replaced (") + std::strerror(errno) + ")");
+  file_ = checked(H5Fcreate(path.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, access.get()), "cannot be created");
 }
 
 Hdf5File::~Hdf5File() {

@@ -16,7 +16,7 @@ namespace palpate {
 
 class Hdf5File {
  public:
-  enum class Mode { read, create, record };  // create, record: an existing file is emptied
+  enum class Mode { read, create, record };  // create, record: a new file instead of what is there
   Hdf5File(const std::string& path, Mode mode);
   ~Hdf5File();
   Hdf5File(const Hdf5File&) = delete;

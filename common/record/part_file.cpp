@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "common/error/error.h"
+#include "common/file/new_file.h"
 
 namespace palpate {
 namespace {
@@ -25,7 +26,7 @@ std::string part_beside(const std::string& path) {
 }  // namespace
 
 PartFile::PartFile(std::string path) : path_(std::move(path)), part_(part_beside(path_)) {
-  std::FILE* file = std::fopen(part_.c_str(), "wb");
+  std::FILE* file = open_new(part_);
   if (file == nullptr)
     throw InputError(path_ + ": cannot be written (" + std::strerror(errno) + "); name a place that can");
   std::fclose(file);

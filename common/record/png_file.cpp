@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "common/error/error.h"
+#include "common/file/new_file.h"
 
 namespace palpate {
 namespace {
@@ -151,7 +152,7 @@ void write_grey_png(const GreyPicture& picture, const std::string& path) {
   bool written = false;
   std::string why = "disk full?";
   {
-    const File file(std::fopen(beside.c_str(), "wb"));
+    const File file(open_new(beside));
     if (!file) why = std::strerror(errno);
     written = file && encode(file.get(), picture, row.data()) && std::fflush(file.get()) == 0;
   }

@@ -10,13 +10,14 @@
 #include <stdexcept>
 
 #include "common/error/error.h"
+#include "common/file/new_file.h"
 
 namespace palpate {
 
 void write_json(const std::string& path, const nlohmann::json& value) {
   const std::string beside = fmt::format("{}.{}.part", path, getpid());
   const std::string text = value.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-  std::FILE* file = std::fopen(beside.c_str(), "w");
+  std::FILE* file = open_new(beside);
   if (file == nullptr) {
     throw InputError(fmt::format("{}: cannot be written ({}); give a folder that you may write to", path,
                                  std::strerror(errno)));

@@ -9,6 +9,17 @@
 
 namespace palpate {
 
+std::vector<std::string> files_of(const Scene& scene) {
+  std::vector<std::string> files = {scene.path};
+  for (const BodySpec& body : scene.bodies) {
+    const auto* volume = std::get_if<VolumeShape>(&body.shape);
+    if (volume == nullptr) continue;
+    if (volume->slices) files.insert(files.end(), volume->slices->files.begin(), volume->slices->files.end());
+    if (!volume->slices) files.push_back(volume->file);
+  }
+  return files;
+}
+
 SceneSource source_of(const Scene& scene, const std::vector<std::string>& settings) {
   SceneSource source{.text = text_of_file(scene.path), .settings = settings, .files = {}};
   if (scene_checksum(source.text, settings) != scene.checksum)

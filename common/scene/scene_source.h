@@ -19,6 +19,9 @@ struct SceneSource {
   std::vector<File> files;            // images; of a stack of slices in order
 };
 
+/// The scene file and the images it names, as far as paths go.
+std::vector<std::string> files_of(const Scene& scene);
+
 /// @param settings  those that the scene was loaded with
 /// @throws InputError if the file has changed since
 SceneSource source_of(const Scene& scene, const std::vector<std::string>& settings);

@@ -12,7 +12,8 @@
 namespace palpate::deploy {
 
 DiskReserve::DiskReserve(const std::filesystem::path& folder) : file_(folder / "parts" / "reserve") {
-  const int file = open(file_.c_str(), O_CREAT | O_WRONLY | O_TRUNC | O_CLOEXEC, 0600);
+  release();  // of a session that was killed
+  const int file = open(file_.c_str(), O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY | O_CLOEXEC, 0600);
   const int error = file < 0 ? errno : posix_fallocate(file, 0, bytes);
   if (file >= 0) close(file);
   if (error == 0) return;

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "common/error/error.h"
+#include "common/file/privacy.h"
 #include "deploy/palpate/subcommands.h"
 #include "physics_node/record/mend_record.h"
 
@@ -36,6 +37,7 @@ void add_info(CLI::App& app, int& exit_code) {
   command->add_option("file", *path, "volume or record (.h5), or scene (.toml)")->required();
   command->add_flag("--mend", *mend, "let other programs open a record whose session was killed");
   command->callback([path, mend, &exit_code] {
+    keep_as_private_as({*path});
     if (*mend) physics::mend_record(*path);
     std::fputs(info(*path).c_str(), stdout);
     exit_code = exit_ok;

@@ -4,12 +4,28 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <system_error>
+#include <vector>
 
 #include "common/error/error.h"
+#include "common/file/privacy.h"
 #include "deploy/palpate/plotter.h"
 #include "deploy/palpate/subcommands.h"
 
 namespace palpate::deploy {
+
+namespace {
+
+std::vector<std::string> files_in(const std::string& folder) {
+  std::vector<std::string> files;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
+    if (entry.is_regular_file(ignored)) files.push_back(entry.path().string());
+  return files;
+}
+
+}  // namespace
 
 void add_plot(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("plot", "draw force, moment and energy of a session as pictures");
@@ -20,6 +36,7 @@ void add_plot(CLI::App& app, int& exit_code) {
       throw InputError(fmt::format(
           "{}: has no summary.json; give the folder that palpate run or simulate wrote", *folder));
     }
+    keep_as_private_as(files_in(*folder));
     exit_code = draw_plots(*folder) ? exit_ok : exit_failed;
   });
 }

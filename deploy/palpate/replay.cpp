@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "common/error/error.h"
+#include "common/file/privacy.h"
 #include "common/math/hash.h"
 #include "common/process/checked_option.h"
 #include "common/process/stop_flag.h"
@@ -66,7 +67,7 @@ class Rerun {
     prepare_out(options.out);
     recorder_ = std::make_unique<physics::Recorder>(*world_, source, options.out,
                                                     physics::Recorder::WhenBehind::wait);
-    if (eye_) eye_->leave_in(fs::path(options.out) / "frames");
+    if (eye_) eye_->leave_in(options.out);
   }
 
   /// @return exit code
@@ -139,6 +140,7 @@ int replay(ReplayOptions options) {
   if (!options.out.empty() && fs::equivalent(fs::path(options.out) / "record.h5", options.record, ignored))
     throw InputError(options.out +
                      ": holds the record that is to be run again; give another folder with --out");
+  keep_as_private_as({options.record});
   install_stop_handlers();
   return Rerun(options).run();
 }

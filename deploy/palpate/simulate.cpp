@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "common/error/error.h"
+#include "common/file/privacy.h"
 #include "common/process/checked_option.h"
 #include "common/process/stop_flag.h"
 #include "common/report/json_file.h"
@@ -34,6 +35,7 @@ struct SimulateOptions {
 int simulate(SimulateOptions options) {
   if (options.threads >= 0) options.settings.push_back(fmt::format("physics.threads={}", options.threads));
   const Scene scene = load_scene(options.scene, options.settings);
+  keep_as_private_as(files_of(scene));
   const std::filesystem::path out =
       options.out.empty() ? default_out(options.scene) : std::filesystem::path(options.out);
   const double seconds = options.seconds > 0 ? options.seconds : scene.natural_seconds();
@@ -57,7 +59,9 @@ int simulate(SimulateOptions options) {
   if (!options.no_pictures) fmt::print("pictures {}\n", (out / "frames").string());
   for (const std::string& text : warnings_of(summary))
     if (std::find(known.begin(), known.end(), text) == known.end()) fmt::print(stderr, "palpate: {}\n", text);
-  if (!summary["guard"].contains("stopped")) return exit_ok;
+  const bool lost =
+      summary.contains("render") && summary["render"].contains("frames_lost");  // said as it happened
+  if (!summary["guard"].contains("stopped")) return lost ? exit_failed : exit_ok;
   fmt::print(stderr, "palpate: {}\n", summary["guard"]["stopped"].get<std::string>());
   return exit_failed;
 }

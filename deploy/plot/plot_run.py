@@ -95,6 +95,13 @@ def draw_position(axes, columns):
         axes.plot(columns["t_s"], [1000 * (p - origin) for p in columns[f"{axis}_m"]], linewidth=0.9, label=axis)
 
 
+def save(figure, path):
+    """A new file: never what a link points to, nor with the rights of an older one."""
+    if os.path.lexists(path):
+        os.unlink(path)
+    figure.savefig(path, dpi=120)
+
+
 def draw_tool(plt, name, columns, path):
     moments = any(abs(m) > 1e-12 for axis in "xyz" for raw in ("", "raw_") for m in columns.get(f"{raw}m{axis}_Nm", []))
     rows = 3 if moments else 2
@@ -108,7 +115,7 @@ def draw_tool(plt, name, columns, path):
         label(axes[2], "moment [N m]")
     axes[-1].set_xlabel("simulated time [s]")
     axes[0].set_title(f"tool: {name}", loc="left")
-    figure.savefig(path, dpi=120)
+    save(figure, path)
     plt.close(figure)
 
 
@@ -119,7 +126,7 @@ def draw_energy(plt, columns, path):
         axes.plot(columns[time], columns[heading], linewidth=1.0, label=heading.removesuffix("_J").replace("_", " "))
     label(axes, "energy [J]")
     axes.set_xlabel("simulated time [s]")
-    figure.savefig(path, dpi=120)
+    save(figure, path)
     plt.close(figure)
 
 

@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "common/error/error.h"
+#include "common/file/new_file.h"
 
 namespace palpate::haptic {
 
@@ -52,7 +53,7 @@ bool FlightRecorder::write_kept(const std::string& path) {
   const auto refuse = [&] {
     throw InputError(fmt::format("{}: cannot be written ({})", path, std::strerror(errno)));
   };
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "w"), &std::fclose);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(open_new(path), &std::fclose);
   if (file == nullptr) {
     const int error = errno;
     kept_.store(-1, std::memory_order_release);

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "common/file/new_file.h"
 #include "common/math/hash.h"
 #include "common/report/commit.h"
 #include "physics_node/record/recorder.h"
@@ -33,7 +34,7 @@ std::vector<std::uint32_t> mass_facets(const MovingBody& moving) {
 
 std::FILE* Recorder::make_csv(const std::string& name, const char* heading) {
   const std::string path = folder_ + "/" + name;
-  std::FILE* file = std::fopen(path.c_str(), "w");
+  std::FILE* file = open_new(path);
   if (file == nullptr) throw std::runtime_error(path + ": " + std::strerror(errno));
   csv_.push_back(file);
   csv_names_.push_back(path);
