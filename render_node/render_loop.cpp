@@ -64,7 +64,7 @@ class Fare {
     wire.tell(status_);
   }
   /// @return exit code: nothing that was to be kept may be missing
-  int write_report(const std::string& out, const ViewModel& model, Wire& wire) const {
+  int write_report(const std::string& out, const ViewModel& model, Wire& wire, const FrameFolder* frames) const {
     const double seconds = seconds_from_ns(last_ns_ - first_ns_);
     const auto folder = std::filesystem::path(out) / "parts";
     std::error_code already;  // write_json says what is wrong with the folder
@@ -73,7 +73,12 @@ class Fare {
                              {"facets_visible", model.facets_visible()},
                              {"facets_total", model.facets_total()}};
     if (frames_ > 1 && seconds > 0) report["fps"] = static_cast<double>(frames_ - 1) / seconds;
-    if (lost_ > 0) report["frames_lost"] = lost_;
+    if (frames != nullptr) {
+      report["frames"] = frames->kept();
+      if (frames->lost() > 0) report["frames_lost"] = frames->lost();
+      if (frames->every() > 1)
+        report.update({{"frames_left_out", frames->left_out()}, {"frames_every", frames->every()}});
+    }
     nlohmann::json part = {{"render", report}};
     part.merge_patch(heard_report("render", wire.heard()));
     try {
@@ -111,7 +116,7 @@ std::vector<std::uint32_t> pointed_tools(const NodeOptions& options, const Scene
 }
 
 int run_headless(const NodeOptions& options, const Scene& scene) {
-  FrameFolder frames(options.out);
+  FrameFolder frames(options.out, scene.render);
   const bool few_cores = std::thread::hardware_concurrency() <= 2;
   if (few_cores) setenv("LP_NUM_THREADS", "1", 0);  // Mesa's software renderer takes every core otherwise
   Wire wire(membership(options, scene, "render"));
@@ -129,7 +134,7 @@ int run_headless(const NodeOptions& options, const Scene& scene) {
     if (news.threshold) picture.set_threshold(*news.threshold);
     // 2. draw when simulated time has come to the next frame
     const double t = picture.model().t();
-    if (picture.model().anything_to_see() && schedule.due(t)) {
+    if (picture.model().anything_to_see() && schedule.due(t) && frames.wants_next()) {
       picture.draw(t);
       fare.drew(t);
       frames.keep(picture.image());
@@ -141,7 +146,7 @@ int run_headless(const NodeOptions& options, const Scene& scene) {
     fare.tell(wire, phase_of(picture.model()), schedule.skipped(), false);
   }
   fare.tell(wire, NodePhase::stopping, schedule.skipped(), true);
-  const int kept = fare.write_report(options.out, picture.model(), wire);
+  const int kept = fare.write_report(options.out, picture.model(), wire, &frames);
   return wire.unwelcome() ? exit_mistake : kept;
 }
 
@@ -187,7 +192,7 @@ int run_window(const NodeOptions& options, const Scene& scene) {
     if (rest_s > 0) std::this_thread::sleep_for(std::chrono::duration<double>(std::min(rest_s, 0.1)));
   }
   fare.tell(wire, NodePhase::stopping, 0, true);
-  const int kept = options.out.empty() ? exit_ok : fare.write_report(options.out, model, wire);
+  const int kept = options.out.empty() ? exit_ok : fare.write_report(options.out, model, wire, nullptr);
   return wire.unwelcome() ? exit_mistake : kept;
 }
 

@@ -1,7 +1,5 @@
 #include "deploy/palpate/virtual_eye.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 namespace palpate::deploy {
@@ -10,15 +8,13 @@ VirtualEye::VirtualEye(const Scene& scene, const physics::World& world)
     : appearance_(world, scene.render.threshold),
       picture_(scene),
       traces_(scene.tools.size()),
+      spec_(scene.render),
       every_(std::max<std::int64_t>(
           1, static_cast<std::int64_t>(1 / (scene.render.rate_Hz * world.frame_seconds()) + 0.5))) {
   for (std::uint32_t n = 0; n < traces_.size(); ++n) traces_[n].tool = n;
 }
 
-void VirtualEye::leave_in(const std::filesystem::path& folder) {
-  folder_ = folder;
-  std::filesystem::create_directories(folder);
-}
+void VirtualEye::leave_in(const std::filesystem::path& out) { folder_.emplace(out, spec_); }
 
 void VirtualEye::take(std::uint32_t tool, const TraceSample& sample) {
   HapticTrace& trace = traces_[tool];
@@ -33,7 +29,7 @@ void VirtualEye::pass(HapticTrace& trace) {
 }
 
 void VirtualEye::frame(physics::World& world, std::int64_t now_ns) {
-  if (seen_++ % every_ == 0) draw(world, now_ns);
+  if (seen_++ % every_ == 0 && (!folder_ || folder_->wants_next())) draw(world, now_ns);
 }
 
 void VirtualEye::draw(physics::World& world, std::int64_t now_ns) {
@@ -47,14 +43,21 @@ void VirtualEye::draw(physics::World& world, std::int64_t now_ns) {
     picture_.take(wrench);
   }
   picture_.draw(world.t());
-  if (!folder_.empty()) picture_.save_png((folder_ / fmt::format("frame_{:05}.png", ++frames_)).string());
+  ++drawn_;
+  if (folder_) folder_->keep(picture_.image());
 }
 
 nlohmann::json VirtualEye::summary(double wall_s) const {
-  return {{"frames", frames_},
-          {"fps", wall_s > 0 ? frames_ / wall_s : 0.0},
-          {"facets_visible", picture_.facets_visible()},
-          {"facets_total", picture_.facets_total()}};
+  nlohmann::json summary = {{"frames", drawn_},
+                            {"fps", wall_s > 0 ? drawn_ / wall_s : 0.0},
+                            {"facets_visible", picture_.facets_visible()},
+                            {"facets_total", picture_.facets_total()}};
+  if (!folder_) return summary;
+  summary["frames"] = folder_->kept();
+  if (folder_->lost() > 0) summary["frames_lost"] = folder_->lost();
+  if (folder_->every() > 1)
+    summary.update({{"frames_left_out", folder_->left_out()}, {"frames_every", folder_->every()}});
+  return summary;
 }
 
 }  // namespace palpate::deploy

@@ -3,11 +3,13 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <vector>
 
 #include "common/scene/scene.h"
 #include "physics_node/appearance/appearance.h"
 #include "physics_node/world.h"
+#include "render_node/image/frame_folder.h"
 #include "render_node/picture.h"
 
 namespace palpate::deploy {
@@ -16,8 +18,8 @@ class VirtualEye {
  public:
   VirtualEye(const Scene& scene, const physics::World& world);
 
-  /// From now on pictures go to `folder`, which is made.
-  void leave_in(const std::filesystem::path& folder);
+  /// From now on pictures go to OUT/frames. @throws InputError as FrameFolder does
+  void leave_in(const std::filesystem::path& out);
 
   /// What a hand did in one of its ticks.
   void take(std::uint32_t tool, const TraceSample& sample);
@@ -34,10 +36,11 @@ class VirtualEye {
   physics::Appearance appearance_;
   render::Picture picture_;
   std::vector<HapticTrace> traces_;
-  std::filesystem::path folder_;
+  RenderSpec spec_;
+  std::optional<render::FrameFolder> folder_;
   std::int64_t every_ = 1;  // frames of the world from picture to picture
   std::int64_t seen_ = 0;
-  int frames_ = 0;
+  int drawn_ = 0;
 };
 
 }  // namespace palpate::deploy

@@ -25,7 +25,7 @@ VirtualSession::VirtualSession(const Scene& scene, const VirtualOptions& options
 void VirtualSession::leave_in(const std::filesystem::path& out, const SceneSource& source) {
   recorder_ =
       std::make_unique<physics::Recorder>(world_, source, out.string(), physics::Recorder::WhenBehind::wait);
-  if (eye_) eye_->leave_in(out / "frames");
+  if (eye_) eye_->leave_in(out);
 }
 
 void VirtualSession::tick_hands(std::int64_t until_ns) {

@@ -1,9 +1,7 @@
 #include "render_node/image/frame_folder.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cstdio>
+#include <numeric>
 
 #include "common/error/error.h"
 #include "common/report/log.h"
@@ -11,18 +9,59 @@
 namespace palpate::render {
 namespace fs = std::filesystem;
 
-FrameFolder::FrameFolder(const std::string& out) {
+FrameFolder::FrameFolder(const fs::path& out, const RenderSpec& spec)
+    : folder_(out / "frames"),
+      most_(static_cast<std::size_t>(spec.most_frames)),
+      most_bytes_(spec.most_frame_bytes) {
   if (out.empty()) throw InputError("nowhere to put frames; give --out DIR, or a display for a window");
-  folder_ = fs::path(out) / "frames";
   std::error_code error;
+  if (fs::is_symlink(folder_, error))
+    throw InputError(folder_.string() + ": is a link; remove it, or choose another --out");
   fs::create_directories(folder_, error);
   if (error)
     throw InputError(folder_.string() + ": cannot be made (" + error.message() + "); choose another --out");
-  for (const auto& entry : fs::directory_iterator(folder_, error)) {
-    int number = 0;
-    if (std::sscanf(entry.path().filename().c_str(), "frame_%d.png", &number) == 1)
-      last_ = std::max(last_, number);
+  for (const auto& entry : fs::directory_iterator(folder_, error))
+    last_ = std::max(last_, frame_number(entry.path().filename().string()).value_or(0));
+  kept_ = own_pictures(folder_);
+}
+
+bool FrameFolder::wants_next() {
+  const std::uint64_t n = offered_++;
+  const auto bytes = [](double sum, const OwnPicture& picture) {
+    return sum + static_cast<double>(picture.bytes);
+  };
+  if (n % every_ == 0 &&
+      (kept_.size() >= most_ || std::accumulate(kept_.begin(), kept_.end(), 0.0, bytes) >= most_bytes_))
+    thin();
+  const bool wanted = n % every_ == 0;
+  left_out_ += wanted ? 0 : 1;
+  return wanted;
+}
+
+void FrameFolder::thin() {
+  if (every_ == 1)
+    log_warn(
+        "frames: {} pictures of {:.0f} MB may lie there (most_frames, most_frames_MB of [render]); every "
+        "second one goes, and "
+        "half as many come from here on",
+        most_, 1e-6 * most_bytes_);
+  every_ *= 2;
+  std::vector<OwnPicture> left;
+  for (std::size_t i = 0; i < kept_.size(); ++i) {
+    std::error_code error;
+    const fs::path picture = folder_ / frame_name(kept_[i].number);
+    if (i % 2 != 0) {
+      fs::remove(picture, error);
+      ++left_out_;
+      continue;
+    }
+    // The place is one that has just become free, of a picture of ours.
+    const int number = kept_[left.size()].number;
+    if (number != kept_[i].number) fs::rename(picture, folder_ / frame_name(number), error);
+    left.push_back({error ? kept_[i].number : number, kept_[i].bytes});
   }
+  if (!kept_.empty() && last_ == kept_.back().number) last_ = left.back().number;
+  kept_ = std::move(left);
 }
 
 void FrameFolder::keep(const Image& image) {
@@ -30,9 +69,13 @@ void FrameFolder::keep(const Image& image) {
     ++lost_;
     return;
   }
+  const fs::path path = folder_ / frame_name(last_ + 1);
   try {
-    write_png(image, folder_ / fmt::format("frame_{:05}.png", last_ + 1));
+    write_png(image, path);
     ++last_;
+    std::error_code unknown;
+    const auto bytes = fs::file_size(path, unknown);
+    kept_.push_back({last_, unknown ? 0 : bytes});
   } catch (const InputError& error) {
     ++lost_;
     why_ = error.what();

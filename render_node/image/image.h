@@ -18,7 +18,8 @@ struct Image {
   }
 };
 
-/// Writes beside, then renames: `path` is either complete or untouched.
+/// Writes beside, then renames: `path` is either complete or untouched. It bears the mark that
+/// is_own_picture() knows.
 /// @throws InputError if the file cannot be written
 void write_png(const Image& image, const std::string& path);
 

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "common/error/error.h"
+#include "common/file/new_file.h"
 #include "render_node/image/image.h"
 
 namespace palpate::render {
@@ -28,6 +29,11 @@ void ignore(png_structp, png_const_charp) {}
 
 // libpng reports through longjmp, so nothing with a destructor lives in here. @return false: failed
 bool encode(std::FILE* file, const Image& image) {
+  static char key[] = "Software", maker[] = "palpate";  // is_own_picture() looks for it
+  png_text mark = {};
+  mark.compression = PNG_TEXT_COMPRESSION_NONE;
+  mark.key = key;
+  mark.text = maker;
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, &give_up, &ignore);
   if (png == nullptr) return false;
   png_infop info = png_create_info_struct(png);
@@ -40,6 +46,7 @@ bool encode(std::FILE* file, const Image& image) {
   png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
                PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_text(png, info, &mark, 1);
   png_write_info(png, info);
   for (int y = 0; y < image.height; ++y) png_write_row(png, image.at(0, y));
   png_write_end(png, info);
@@ -55,7 +62,7 @@ void write_png(const Image& image, const std::string& path) {
   bool written = false;
   int why = 0;
   {
-    const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(beside.c_str(), "wb"));
+    const std::unique_ptr<std::FILE, CloseFile> file(open_new(beside));
     if (!file) complain(path, std::strerror(errno));
     errno = 0;
     written = encode(file.get(), image) && std::fflush(file.get()) == 0;

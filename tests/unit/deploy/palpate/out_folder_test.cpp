@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/error/error.h"
+#include "render_node/image/image.h"
 #include "tests/unit/deploy/palpate/temporary_folder.h"
 
 namespace palpate::deploy {
@@ -19,17 +20,40 @@ TEST(OutFolder, IsMadeAndFreedOfAnEarlierSession) {
   prepare_out(out);
   EXPECT_TRUE(fs::is_directory(out / "parts"));
   fs::create_directories(out / "frames");
-  for (const char* name : {"summary.json", "force.png", "frames/0001.png", "parts/physics.json"}) {
+  for (const char* name : {"summary.json", "force.png", "parts/physics.json"})
     folder.write(std::string("a/b/") + name, "old");
-  }
+  render::write_png({1, 1, {1, 2, 3}}, (out / "frames/frame_00001.png").string());
+  render::write_png({1, 1, {1, 2, 3}}, (out / "frames/kept.png").string());
+  folder.write("a/b/frames/frame_00002.png", "a picture of my own");
+  folder.write("a/b/frames/0001.png", "mine");
   folder.write("a/b/notes.txt", "mine");
   folder.write("a/b/frames/notes.txt", "mine");
   prepare_out(out);
-  for (const char* name : {"summary.json", "force.png", "frames/0001.png", "parts/physics.json"}) {
+  for (const char* name : {"summary.json", "force.png", "frames/frame_00001.png", "parts/physics.json"}) {
     EXPECT_FALSE(fs::exists(out / name)) << name;
   }
   EXPECT_TRUE(fs::exists(out / "notes.txt"));
-  EXPECT_TRUE(fs::exists(out / "frames/notes.txt"));
+  for (const char* name : {"notes.txt", "frame_00002.png", "0001.png", "kept.png"})
+    EXPECT_TRUE(fs::exists(out / "frames" / name)) << name;
+}
+
+TEST(OutFolder, FollowsNoLinks) {
+  const test::TemporaryFolder folder;
+  const fs::path out = folder / "out", elsewhere = folder / "elsewhere";
+  fs::create_directories(elsewhere);
+  render::write_png({1, 1, {1, 2, 3}}, (elsewhere / "frame_00001.png").string());
+  folder.write("elsewhere/physics.json", "mine");
+  for (const char* name : {"frames", "parts"}) {
+    fs::create_directories(out);
+    fs::create_symlink(elsewhere, out / name);
+    EXPECT_THROW(prepare_out(out), InputError);
+    fs::remove(out / name);
+  }
+  prepare_out(out);
+  fs::create_symlink(elsewhere / "physics.json", out / "summary.json");
+  prepare_out(out);
+  EXPECT_TRUE(fs::exists(elsewhere / "frame_00001.png"));
+  EXPECT_TRUE(fs::exists(elsewhere / "physics.json"));
 }
 
 TEST(OutFolder, CannotStandInAFile) {
