@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "common/record/hdf5_file.h"
 #include "common/record/hdf5_handle.h"
@@ -57,6 +58,17 @@ Shape shape_of(hid_t dataset) {
   return {extents.begin(), extents.end()};
 }
 
+/// A small file that claims to hold gigabytes does not: asked before memory is taken.
+bool holds_its_shape(hid_t dataset, const Shape& shape) {
+  std::uint64_t least = 1;  // bytes that this many numbers need, deflated as well as can be
+  for (const auto extent : shape) {
+    if (extent == 0) return true;
+    if (least > std::numeric_limits<std::uint64_t>::max() / extent) return false;
+    least *= extent;
+  }
+  return least / deflate_at_most <= H5Dget_storage_size(dataset);
+}
+
 H5T_class_t class_of(hid_t dataset) {
   const Handle type(H5Dget_type(dataset), H5Tclose);
   return H5Tget_class(type.get());
@@ -102,11 +114,9 @@ std::vector<T> Hdf5File::read(const std::string& path) const {
   checked(dataset.get(), "there is no sound dataset " + path);
   const H5T_class_t kind = class_of(dataset.get());
   if (kind != H5T_INTEGER && kind != H5T_FLOAT) fail("dataset " + path + " is not made of numbers");
-  const std::uint64_t n = product(shape_of(dataset.get()));
-  // Before memory is taken: a small file that claims to hold gigabytes does not.
-  if (n / deflate_at_most > H5Dget_storage_size(dataset.get()))
-    fail("dataset " + path + " holds less than its shape");
-  std::vector<T> values(n);
+  const Shape shape = shape_of(dataset.get());
+  if (!holds_its_shape(dataset.get(), shape)) fail("dataset " + path + " holds less than its shape");
+  std::vector<T> values(product(shape));
   if (values.empty()) return values;
   checked(H5Dread(dataset.get(), hdf5::type_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
           "cannot read the dataset " + path + ": damaged or truncated");
@@ -118,7 +128,9 @@ std::vector<T> Hdf5File::read_rows(const std::string& path, std::uint64_t first,
   hdf5::hush();
   const Handle dataset = open_dataset(file_, path);
   checked(dataset.get(), "there is no sound dataset " + path);
-  auto count = extents_of(shape_of(dataset.get()));
+  const Shape shape = shape_of(dataset.get());
+  if (!holds_its_shape(dataset.get(), shape)) fail("dataset " + path + " holds less than its shape");
+  auto count = extents_of(shape);
   if (count.empty() || n > count[0] || first > count[0] - n) fail("dataset " + path + " has fewer rows");
   std::vector<hsize_t> start(count.size(), 0);
   start[0] = first;

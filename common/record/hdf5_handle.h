@@ -40,9 +40,16 @@ inline void hush() noexcept {
   static_cast<void>(done);
 }
 
+/// How often HDF5 reads what has a wrong checksum, in a file that may still be written to, before it says
+/// that it is damaged. Why: between two attempts it sleeps, 1 ns at first and twice as long each time. Its
+/// default of 100 is for ever; 20 are 1 ms in all, and what a writer has half written is whole after some
+/// microseconds.
+inline constexpr unsigned read_attempts = 20;
+
 /// How files are opened. No locks: a record may be looked at while it grows, and some file systems have none.
 inline Handle file_access() {
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_metadata_read_attempts(access.get(), read_attempts);
   H5Pset_file_locking(access.get(), false, true);
   return access;
 }

@@ -7,6 +7,7 @@
 #include "common/record/hdf5_file.h"
 #include "common/record/volume.h"
 #include "common/record/volume_check.h"
+#include "common/record/volume_facts.h"
 
 namespace palpate {
 namespace {
@@ -19,12 +20,18 @@ class VolumeReader {
  public:
   explicit VolumeReader(const std::string& path) : path_(path), file_(path, Hdf5File::Mode::read) {}
 
-  Volume read() {
+  VolumeFacts facts() {
     check_format();
+    const VolumeFacts facts{size_of_intensity(), vector("spacing_m")};
+    check_spacing(path_, facts.spacing);
+    return facts;
+  }
+
+  Volume read() {
     Volume volume;
-    volume.size = size_of_intensity();
-    volume.spacing = vector("spacing_m");
-    check_spacing(path_, volume.spacing);
+    const VolumeFacts said = facts();
+    volume.size = said.size;
+    volume.spacing = said.spacing;
     volume.origin = vector("origin_m");
     if (!volume.origin.allFinite()) complain("its origin is not finite");
     if (file_.has_attribute("orientation_lps")) volume.orientation = orientation();
@@ -119,9 +126,13 @@ class VolumeReader {
 
 }  // namespace
 
-Volume read_volume(const std::string& path) {
+namespace {
+
+/// What `use` makes of the file. @throws InputError for whatever is wrong with it
+template <class Use>
+auto of_file(const std::string& path, const Use& use) {
   try {
-    return VolumeReader(path).read();
+    return use(path);
   } catch (const InputError&) {
     throw;
   } catch (const std::bad_alloc&) {
@@ -130,6 +141,16 @@ Volume read_volume(const std::string& path) {
   } catch (const std::runtime_error& error) {  // of Hdf5File, which names the file
     throw InputError(std::string(error.what()) + "; a volume made by palpate import is wanted");
   }
+}
+
+}  // namespace
+
+VolumeFacts volume_facts(const std::string& path) {
+  return of_file(path, [](const std::string& file) { return VolumeReader(file).facts(); });
+}
+
+Volume read_volume(const std::string& path) {
+  return of_file(path, [](const std::string& file) { return VolumeReader(file).read(); });
 }
 
 }  // namespace palpate
