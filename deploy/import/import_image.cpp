@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include "common/error/error.h"
 #include "common/math/hash.h"
 #include "common/record/volume_check.h"
 #include "deploy/import/image_format.h"
 #include "deploy/import/itk_volume.h"
+#include "deploy/import/memory_budget.h"
 #include "deploy/import/meta_header.h"
 #include "deploy/import/nifti_header.h"
 #include "deploy/import/nrrd_header.h"
@@ -74,17 +76,37 @@ std::vector<TransferPoint> transfer_of(const std::string& name, const std::vecto
   return name == "grey" ? grey_transfer(a, b) : default_transfer(a, b);
 }
 
+std::uint64_t cells_of(const std::array<int, 3>& size) {
+  std::uint64_t cells = 1;
+  for (const int n : size) cells *= static_cast<std::uint64_t>(n);
+  return cells;
+}
+
+Volume put_into(const std::optional<std::array<int, 3>>& partition, Volume volume) {
+  if (!partition) return volume;
+  const std::uint64_t now = volume.n_cells(), then = cells_of(*partition);
+  declare_cells("--partition", std::max(now, then), 2 * sizeof(float));  // a copy, and the next axis
+  declare_cells("--partition", then, written_bytes);
+  return resample(volume, *partition);
+}
+
 Volume import_phantom(const ImportOptions& options) {
   const auto size = options.raw.size.value_or(
       std::array<std::int64_t, 3>{phantom_size[0], phantom_size[1], phantom_size[2]});
-  Volume volume = aneurysm_phantom(check_size("--size", size));
+  const auto whole = check_size("--size", size);
+  declare_cells("--size", cells_of(whole), written_bytes);
+  Volume volume = aneurysm_phantom(whole);
   if (!options.transfer.empty()) volume.transfer = transfer_of(options.transfer, volume.intensity);
-  return options.partition ? resample(volume, *options.partition) : volume;
+  return put_into(options.partition, std::move(volume));
 }
 
 }  // namespace
 
-Volume import_image(const ImportOptions& options) {
+Volume import_image(const ImportOptions& options, std::vector<std::string>* made_of) {
+  if (options.partition) {
+    const auto& [nx, ny, nz] = *options.partition;
+    check_cost("--partition", cells_of(check_size("--partition", {nx, ny, nz})), written_bytes);
+  }
   if (options.phantom) return import_phantom(options);
   std::vector<std::string> files;
   Volume volume = read_any(options, files);
@@ -93,8 +115,9 @@ Volume import_image(const ImportOptions& options) {
   volume.source = input.filename().string();
   volume.source_checksum = checksum_of(files);
   volume.source_size = volume.size;
+  if (made_of != nullptr) *made_of = files;
   volume.transfer = transfer_of(options.transfer, volume.intensity);
-  return options.partition ? resample(volume, *options.partition) : volume;
+  return put_into(options.partition, std::move(volume));
 }
 
 }  // namespace palpate

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/record/volume.h"
 #include "deploy/import/read_raw.h"
@@ -18,7 +19,9 @@ struct ImportOptions {
   std::string transfer;                         // "ct", "grey"; empty: by the range of the image
 };
 
-/// Reads, checks, colours and resamples. @throws InputError, std::bad_alloc
-Volume import_image(const ImportOptions& options);
+/// Reads, checks, colours and resamples.
+/// @param files  if given, written: the files that the volume is made of; none of a phantom
+/// @throws InputError, std::bad_alloc
+Volume import_image(const ImportOptions& options, std::vector<std::string>* files = nullptr);
 
 }  // namespace palpate

@@ -8,11 +8,16 @@
 #include <new>
 
 #include "common/error/error.h"
+#include "common/file/privacy.h"
 #include "common/math/units.h"
+#include "common/process/checked_option.h"
+#include "common/process/machine_memory.h"
 #include "common/record/part_file.h"
 #include "deploy/import/brain_phantom.h"
+#include "deploy/import/image_format.h"
 #include "deploy/import/import_image.h"
 #include "deploy/import/in_child.h"
+#include "deploy/import/memory_budget.h"
 
 namespace {
 
@@ -23,6 +28,7 @@ struct Command {
   std::string out;
   bool brain = false;  // a folder of slices, no volume
   bool quiet = false;
+  double memory_limit = 0;  // [bytes]
 };
 
 /// @throws CLI::ParseError
@@ -53,10 +59,14 @@ Command parse(CLI::App& app, int argc, char** argv) {
   auto* header_option = app.add_option("--header", header, "raw: bytes to skip")->excludes(phantom_option);
   app.add_option("--partition", partition, "resample to nx,ny,nz cells")->delimiter(',')->expected(3);
   app.add_option("--transfer", command.options.transfer, "colours")->check(CLI::IsMember({"ct", "grey"}));
+  double gigabytes = 0.5e-9 * static_cast<double>(machine_memory());
+  app.add_option("--memory-limit", gigabytes, "most memory that it may take [GB]; else half of the machine's")
+      ->check(number_in({.lo = 1e-9 * least_memory, .hi = 1e6}));
   app.add_flag("--quiet", command.quiet, "say nothing when all is well");
   app.parse(argc, argv);
   if (image->empty() && phantom.empty()) throw CLI::RequiredError("image, or --phantom aneurysm or brain");
   command.options.phantom = !phantom.empty();
+  command.memory_limit = std::max(least_memory, 1e9 * gigabytes);
   command.brain = phantom == "brain";
   if (command.brain && (!size.empty() || !partition.empty() || !command.options.transfer.empty()))
     throw CLI::ValidationError("--phantom brain",
@@ -93,22 +103,46 @@ void make_brain(const Command& command) {
       brain_planes, brain_width, brain_height, brain_pixel_mm, brain_pixel_mm, brain_plane_mm, command.out);
 }
 
+/// Of a file, or of all in the folder of a DICOM series, which the library holds at once [bytes]. 0: none
+std::uint64_t file_bytes(const std::string& input) {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  const bool folder = fs::is_directory(input, none);
+  if (!folder && (!fs::is_regular_file(input, none) || !looks_like_dicom(input))) {
+    const auto bytes = fs::file_size(input, none);
+    return none ? 0 : bytes;
+  }
+  std::uint64_t sum = 0;
+  for (const auto& entry :
+       fs::directory_iterator(folder ? fs::path(input) : fs::absolute(input).parent_path(), none)) {
+    const auto bytes = entry.is_regular_file(none) ? entry.file_size(none) : 0;
+    if (!none) sum += bytes;
+  }
+  return sum;
+}
+
 /// All but the command line. Prints what is wrong, one line a mistake, and gives the exit code.
 int import(const Command& command) {
   try {
+    begin_memory(static_cast<std::uint64_t>(command.memory_limit), file_bytes(command.options.input));
     if (command.brain) {
       make_brain(command);
       return exit_ok;
     }
     check_output(command);
-    const Volume volume = import_image(command.options);
+    std::vector<std::string> files;
+    const Volume volume = import_image(command.options, &files);
+    keep_as_private_as(files);
     write_volume(volume, command.out);
     if (!command.quiet) report(command, volume);
     return exit_ok;
   } catch (const InputError& error) {
     for (const auto& line : error.complaints()) fmt::print(stderr, "{}\n", line);
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "{}: is too large for this machine's memory; give a smaller image\n",
+    fmt::print(stderr,
+               "{}: asks for more memory than an image of its size needs, or than --memory-limit allows; it "
+               "is probably "
+               "damaged\n",
                command.options.input);
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}: {}\n", command.options.input, error.what());

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/error/error.h"
+#include "deploy/import/memory_budget.h"
 
 namespace palpate {
 
@@ -12,6 +13,8 @@ std::vector<float> read_cells(ByteStream& stream, const std::string& where, cons
   const std::size_t slice_bytes = slice * bytes_of(layout.type);
   const auto wanted = fmt::format("{} x {} x {} cells of {} are {} bytes", nx, ny, nz, name_of(layout.type),
                                   slice_bytes * static_cast<std::size_t>(nz));
+  declare_cells(where, slice * static_cast<std::size_t>(nz),
+                written_bytes + static_cast<double>(bytes_of(layout.type)) / nz);
   std::vector<float> cells;
   cells.reserve(slice * static_cast<std::size_t>(nz));
   std::vector<unsigned char> bytes(slice_bytes);

@@ -8,12 +8,16 @@
 #include "deploy/import/dicom_length.h"
 #include "deploy/import/image_format.h"
 #include "deploy/import/itk_volume.h"
+#include "deploy/import/memory_budget.h"
 #include "deploy/import/stack_slices.h"
 
 namespace palpate {
 namespace {
 
 namespace fs = std::filesystem;
+
+// Why: cells as slices, as a volume (4 each) and as it is written (2), and what the next slice is read with.
+constexpr double stacked_bytes = 12;
 
 bool holds(const DicomSeries& series, const std::string& file) {
   return std::any_of(series.files.begin(), series.files.end(),
@@ -58,7 +62,11 @@ DicomSeries wanted_series(const std::string& path) {
 Volume read_dicom(const std::string& path, std::vector<std::string>& files) {
   const DicomSeries series = wanted_series(path);
   std::vector<Slice> slices;
-  for (const auto& file : series.files) slices.push_back({file, itk_volume(file, ItkFormat::dicom)});
+  for (const auto& file : series.files) {
+    slices.push_back({file, itk_volume(file, ItkFormat::dicom)});
+    if (slices.size() == 1 && series.files.size() > 1)  // the others, and the stack of them
+      declare_cells(path, slices.front().volume.n_cells() * series.files.size(), stacked_bytes);
+  }
   if (slices.size() == 1 && slices.front().volume.size[2] > 1) {  // many slices in one file
     files = series.files;
     return std::move(slices.front().volume);
