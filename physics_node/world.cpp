@@ -9,6 +9,8 @@
 
 #include "common/error/error.h"
 #include "common/math/hash.h"
+#include "physics_node/forecast/memory_need.h"
+#include "physics_node/forecast/speed_forecast.h"
 #include "physics_node/step/stable_step.h"
 
 namespace palpate::physics {
@@ -38,6 +40,10 @@ TeamChoice choose_threads(const Scene& scene, int spare_cores, Index n_masses, s
 
 World::World(const Scene& scene, int spare_cores) : scene_(scene) {
   const Integrator integrator = scene.physics.integrator;
+  const double memory = usable_memory();
+  std::vector<MemoryNeed> needs;
+  for (const BodySpec& spec : scene.bodies) needs.push_back(memory_need(spec, scene));
+  refuse_too_large(scene, needs, memory);
   Index n_masses = 0;
   std::size_t n_chunks = 0;
   stable_dt_ = std::numeric_limits<double>::infinity();
@@ -46,6 +52,12 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
     stable_dt_ = std::min(stable_dt_, stable_step(stiffest_mode(body), integrator));
     n_masses += body.lattice.n_masses();
     n_chunks = std::max(n_chunks, body.lattice.chunks.size());
+    MemoryNeed& need = needs[bodies_.size()];
+    if (need.masses == 0) {  // of an image: now it is known
+      need.masses = static_cast<double>(body.lattice.n_masses());
+      need.bytes += bytes_of_masses(need.masses, spec, scene);
+      refuse_too_large(scene, needs, memory);
+    }
     any_yields_ = any_yields_ || any_yields(body);
     const Lattice& lattice = body.lattice;
     const double bucket = 4 * lattice.spacing();
@@ -67,9 +79,7 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
   gathered_.reserve(tools_.size() * ToolCoupling::most_forces);
 
   frame_dt_ = 1.0 / scene.physics.frame_Hz;
-  const double wanted = scene.physics.step.value_or(scene.physics.safety * stable_dt_);
-  n_substeps_ =
-      std::isfinite(wanted) ? std::max(1, static_cast<int>(std::ceil(frame_dt_ / wanted - 1e-9))) : 1;
+  n_substeps_ = static_cast<int>(steps_a_frame(scene, stable_dt_));
   dt_ = frame_dt_ / n_substeps_;
   if (dt_ > stable_dt_) {
     remarks_.push_back(

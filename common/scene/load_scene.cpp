@@ -25,7 +25,7 @@ void read_root(toml::table& table, ReadContext& context) {
   set_if(scene.title, root.read_text("title"));
   if (const auto seed = root.read_integer("seed", 0, std::numeric_limits<std::int64_t>::max()))
     scene.seed = static_cast<std::uint64_t>(*seed);
-  set_if(scene.gravity, root.read_vector("gravity_m_per_s2"));
+  set_if(scene.gravity, root.read_vector("gravity_m_per_s2", {.lo = -1e4, .hi = 1e4}));
   read_run(root, context);
   read_physics(root, context);
   read_materials(root, context);

@@ -55,7 +55,7 @@ BodySpec read_body(TableReader& reader, ReadContext& context) {
   read_regions(reader, context, spec);
   read_cavities(reader, context, spec);
   set_if(spec.at, reader.read_vector_mm("at_mm"));
-  set_if(spec.velocity, reader.read_vector("velocity_m_per_s"));
+  set_if(spec.velocity, reader.read_vector("velocity_m_per_s", {.lo = -1e4, .hi = 1e4}));
   read_fixed(reader, context, spec);
   read_handle(reader, spec);
   return spec;

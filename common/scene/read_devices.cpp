@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string_view>
 
@@ -59,6 +60,12 @@ std::optional<std::size_t> read_path(TableReader& reader, const char* key, std::
       continue;
     }
     const double t = (*numbers)[0];
+    if (t > run_seconds.hi ||
+        std::any_of(numbers->begin() + 1, numbers->end(), [](double x) { return std::abs(x) > 1e6; })) {
+      reader.complain_value(key, item, fmt::format("{}, each at most 1e6", form));
+      in_order = false;
+      continue;
+    }
     const bool late_enough = last < 0 ? t >= 0 : t > last;
     if (!late_enough && in_order) {
       reader.complain_at(place_of(item.source()),

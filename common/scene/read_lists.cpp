@@ -53,12 +53,12 @@ std::vector<std::pair<std::string, const toml::table*>> named_tables(TableReader
 
 std::string list_title(const toml::table& table, const std::string& key) {
   const auto* name = table.get_as<std::string>("name");
-  return name == nullptr ? fmt::format("[[{}]]", key)
-                         : fmt::format("[[{}]] \"{}\"", key, one_line(name->get()));
+  return name == nullptr || name->get().empty() ? fmt::format("[[{}]]", key)
+                                                : fmt::format("[[{}]] \"{}\"", key, one_line(name->get()));
 }
 
 void refuse_known_name(TableReader& reader, const std::string& name, const std::vector<std::string>& taken) {
-  if (std::find(taken.begin(), taken.end(), name) == taken.end()) return;
+  if (name.empty() || std::find(taken.begin(), taken.end(), name) == taken.end()) return;
   reader.complain("name", fmt::format("the name \"{}\" is taken; give each its own", name));
 }
 

@@ -11,7 +11,7 @@ WallSpec read_wall(TableReader& reader) {
   reader.require("point_mm", "give any point of its surface as [x, y, z]");
   reader.require("normal", "give the direction away from it, to where tissue may be, as [x, y, z]");
   set_if(wall.point, reader.read_vector_mm("point_mm"));
-  if (const auto normal = reader.read_vector("normal")) {
+  if (const auto normal = reader.read_direction("normal")) {
     const double length = normal->stableNorm();
     if (length > 0)
       wall.normal = (*normal / length).normalized();

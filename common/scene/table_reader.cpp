@@ -10,6 +10,26 @@
 
 namespace palpate {
 
+namespace {
+
+// Numbers beyond these are slips of the keyboard, whatever they stand for. Why: products and ratios of a few
+// of them are finite, and whatever is measured in them is a number.
+constexpr double smallest = 1e-12, largest = 1e12;
+constexpr double longest_mm = 1e6;
+
+bool is_usual(double number) {
+  return number == 0 || (std::abs(number) >= smallest && std::abs(number) <= largest);
+}
+
+/// The lengths of a range that a scene can hold.
+Range lengths(Range range) {
+  range.lo = std::max(range.lo, -longest_mm);
+  range.hi = std::min(range.hi, longest_mm);
+  return range;
+}
+
+}  // namespace
+
 Place place_of(const toml::source_region& source) {
   Place place;
   if (source.path) place.file = *source.path;
@@ -106,8 +126,12 @@ void TableReader::require(std::string_view key, std::string_view advice) {
 std::optional<double> TableReader::number_of(std::string_view key, const toml::node& value,
                                              const Range& range) {
   const auto number = value.is_number() ? value.value<double>() : std::nullopt;
-  if (number && std::isfinite(*number) && range.contains(*number)) return number;
-  complain_value(key, value, range.text());
+  if (!number || !std::isfinite(*number) || !range.contains(*number)) {
+    complain_value(key, value, range.text());
+    return std::nullopt;
+  }
+  if (is_usual(*number)) return number;
+  complain_value(key, value, fmt::format("{}, of {:g} to {:g} in size", range.text(), smallest, largest));
   return std::nullopt;
 }
 
@@ -231,13 +255,27 @@ std::optional<Vec3> TableReader::read_vector(std::string_view key, const Range& 
   return Vec3((*numbers)[0], (*numbers)[1], (*numbers)[2]);
 }
 
+std::optional<Vec3> TableReader::read_direction(std::string_view key) {
+  const auto* value = find(key);
+  const auto* list = value == nullptr ? nullptr : value->as_array();
+  if (list == nullptr || list->size() != 3) return read_vector(key);
+  Vec3 direction;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto& item = *list->get(i);
+    const auto number = item.is_number() ? item.value<double>() : std::nullopt;
+    if (!number || !std::isfinite(*number)) return read_vector(key);  // says what is wrong
+    direction[static_cast<Eigen::Index>(i)] = *number;
+  }
+  return direction;
+}
+
 std::optional<double> TableReader::read_length_mm(std::string_view key, const Range& range) {
-  const auto length = read_number(key, range);
+  const auto length = read_number(key, lengths(range));
   return length ? std::optional(m_from_mm(*length)) : std::nullopt;
 }
 
 std::optional<Vec3> TableReader::read_vector_mm(std::string_view key, const Range& range) {
-  const auto vector = read_vector(key, range);
+  const auto vector = read_vector(key, lengths(range));
   return vector ? std::optional<Vec3>(*vector * m_from_mm(1.0)) : std::nullopt;
 }
 
@@ -247,7 +285,7 @@ std::optional<std::vector<double>> numbers_of(const toml::node& value, std::size
   std::vector<double> numbers;
   for (const auto& item : *list) {
     const auto number = item.is_number() ? item.value<double>() : std::nullopt;
-    if (!number || !std::isfinite(*number)) return std::nullopt;
+    if (!number || !std::isfinite(*number) || !is_usual(*number)) return std::nullopt;
     numbers.push_back(*number);
   }
   return numbers;

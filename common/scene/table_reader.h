@@ -61,6 +61,8 @@ class TableReader {
   std::optional<std::vector<int>> read_integers(std::string_view key, std::size_t n, std::string_view form,
                                                 int lo, int hi);
   std::optional<Vec3> read_vector(std::string_view key, const Range& range = any_number);
+  /// Of any length, however small or large.
+  std::optional<Vec3> read_direction(std::string_view key);
   /// Millimetres in the file, metres here.
   std::optional<double> read_length_mm(std::string_view key, const Range& range = positive);
   std::optional<Vec3> read_vector_mm(std::string_view key, const Range& range = any_number);

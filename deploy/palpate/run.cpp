@@ -11,9 +11,11 @@
 #include <optional>
 
 #include "common/error/error.h"
+#include "common/file/privacy.h"
 #include "common/process/checked_option.h"
 #include "common/process/stop_flag.h"
 #include "common/scene/load_scene.h"
+#include "common/scene/scene_source.h"
 #include "deploy/palpate/disk_reserve.h"
 #include "deploy/palpate/install_paths.h"
 #include "deploy/palpate/nodes.h"
@@ -25,6 +27,7 @@
 #include "deploy/palpate/summary.h"
 #include "deploy/palpate/viewers.h"
 #include "haptic_node/device/driver_library.h"
+#include "physics_node/forecast/memory_need.h"
 #include "physics_node/record/mend_record.h"
 
 namespace palpate::deploy {
@@ -119,10 +122,13 @@ void say_where(const fs::path& out, const fs::path& summary, bool plotted) {
 int run(const RunOptions& options) {
   // 1. everything that a person may have got wrong, before anything is started or written
   const Scene scene = load_scene(options.scene_path, options.settings);
+  keep_as_private_as(files_of(scene));  // and so do the nodes
   const fs::path out = options.out.empty() ? default_out(options.scene_path) : fs::path(options.out);
   const Reach reach = {.interface = options.interface, .peers = comma_list(options.peers)};
   Share share = parse_share(options.deployment, options.side, options.nodes, !reach.local());
   if (scene.tools.empty()) share = without_hand(std::move(share));
+  if (std::find(share.here.begin(), share.here.end(), NodeKind::physics) != share.here.end())
+    physics::refuse_too_large(scene, physics::usable_memory());
   std::optional<DiskReserve> room;
   const SessionPlan plan = {
       .nodes = share.here,

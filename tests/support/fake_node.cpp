@@ -4,6 +4,7 @@
 // FAKE_<NODE> (FAKE_PHYSICS, ...) in the environment makes it misbehave:
 //   crash: abort once running    mistake: exit 2 at once      hang: ignores SIGTERM
 //   leave: exit 0 once running   mute: never says anything    slow: loads for a second
+//   behind: simulates half as fast as time goes
 
 #include <time.h>
 #include <unistd.h>
@@ -73,7 +74,7 @@ int main(int argc, char** argv) {
   const auto start = std::chrono::steady_clock::now();
   while (!stop_requested()) {
     const auto age = std::chrono::steady_clock::now() - start;
-    status.t = std::chrono::duration<double>(age).count();
+    status.t = (whim == "behind" ? 0.5 : 1) * std::chrono::duration<double>(age).count();
     status.phase = whim == "slow" && age < 1s ? NodePhase::loading : NodePhase::running;
     if (whim != "mute") writer.write(status);
     if (whim == "crash" && age > 700ms) std::abort();

@@ -52,6 +52,13 @@ TEST_F(Supervision, CountsSecondsFromTheMomentTheSlowestNodeRuns) {
   EXPECT_GT(Clock::now() - start, std::chrono::milliseconds(1500));
 }
 
+TEST_F(Supervision, SeesWhatHappensSlowlyToTheEndOfTheScene) {
+  run.start({"--set", "scene.seconds=2"}, {{"FAKE_PHYSICS", "behind"}});
+  ASSERT_EQ(run.wait(), 0) << run.text("stderr");
+  // 4 s from its own start; without a look at the time of the tissue it would be 2 s.
+  EXPECT_GT(run.summary()["wall_s"].get<double>(), 2.7);
+}
+
 TEST_F(Supervision, StartsOnlyTheNodesAskedFor) {
   run.start({"--nodes", "haptic,physics", "--seconds", "0.3"});
   ASSERT_EQ(run.wait(), 0) << run.text("stderr");
