@@ -43,31 +43,29 @@ class ExportedBody {
   VtpMesh mesh(std::uint64_t row) {
     if (follows_breaks_) follow(row);
     const auto position = file_.read_rows<float>(base_ + "/position", row, 1);
-    VtpMesh mesh;
+    std::vector<std::uint32_t> vertices;
+    VtpMesh mesh = facets(true, vertices);
     VtpArray displacement{"displacement", 3, {}};
-    for (std::size_t v = 0; v < surface_.n_vertices(); ++v) {
-      const bool moves = v < surface_.n_moving();
-      const std::size_t n = moves ? number_[static_cast<std::size_t>(surface_.cell[v])] : 0;
+    for (const std::uint32_t v : vertices) {
+      const std::size_t n = moves(v) ? number_of(v) : 0;
       for (int a = 0; a < 3; ++a) {
         const auto rest = static_cast<float>(surface_.rest[v][a]);
-        const float now = moves ? position[3 * n + static_cast<std::size_t>(a)] : rest;
+        const float now = moves(v) ? position[3 * n + static_cast<std::size_t>(a)] : rest;
         mesh.points.push_back(now);
         displacement.values.push_back(now - rest);
       }
     }
-    add_facets(mesh, true);
     mesh.on_points.push_back(std::move(displacement));
-    if (follows_breaks_) mesh.on_points.push_back(yielded_share(row));
+    if (follows_breaks_) mesh.on_points.push_back(yielded_share(row, vertices));
     return mesh;
   }
 
   /// What does not move. No polygons: there is none.
   VtpMesh scenery() const {
-    VtpMesh mesh;
-    add_facets(mesh, false);
-    if (mesh.ends.empty()) return mesh;
-    for (const Vec3& rest : surface_.rest)
-      for (int a = 0; a < 3; ++a) mesh.points.push_back(static_cast<float>(rest[a]));
+    std::vector<std::uint32_t> vertices;
+    VtpMesh mesh = facets(false, vertices);
+    for (const std::uint32_t v : vertices)
+      for (int a = 0; a < 3; ++a) mesh.points.push_back(static_cast<float>(surface_.rest[v][a]));
     return mesh;
   }
 
@@ -83,28 +81,37 @@ class ExportedBody {
     look();
   }
 
-  VtpArray yielded_share(std::uint64_t row) const {
+  bool moves(std::uint32_t vertex) const { return vertex < surface_.n_moving(); }
+  std::size_t number_of(std::uint32_t vertex) const { return number_[static_cast<std::size_t>(surface_.cell[vertex])]; }
+
+  VtpArray yielded_share(std::uint64_t row, const std::vector<std::uint32_t>& vertices) const {
     const auto shares = file_.read_rows<std::uint8_t>(base_ + "/yielded", row, 1);
     VtpArray array{"yielded_share", 1, {}};
-    for (std::size_t v = 0; v < surface_.n_vertices(); ++v)
-      array.values.push_back(v < surface_.n_moving()
-                                 ? static_cast<float>(shares[number_[static_cast<std::size_t>(surface_.cell[v])]]) / 255.0F
-                                 : 0.0F);
+    for (const std::uint32_t v : vertices)
+      array.values.push_back(moves(v) ? static_cast<float>(shares[number_of(v)]) / 255.0F : 0.0F);
     return array;
   }
 
-  void add_facets(VtpMesh& mesh, bool moving) const {
+  /// The facets that have a moving corner, or those that have none. @param vertices  out: of the surface, those they use
+  VtpMesh facets(bool moving, std::vector<std::uint32_t>& vertices) const {
+    VtpMesh mesh;
+    std::vector<std::int32_t> point(surface_.n_vertices(), -1);
     for (std::size_t f = 0; f < surface_.facets.size(); ++f) {
       const auto& facet = surface_.facets[f];
-      const bool moves =
-          std::any_of(facet.begin(), facet.end(), [&](std::uint32_t corner) { return corner < surface_.n_moving(); });
-      if (moves != moving) continue;
+      if (std::any_of(facet.begin(), facet.end(), [&](std::uint32_t corner) { return moves(corner); }) != moving) continue;
       const std::size_t corners = facet[3] == facet[2] ? 3 : 4;
-      for (std::size_t c = 0; c < corners; ++c) mesh.corners.push_back(static_cast<std::int32_t>(facet[c]));
+      for (std::size_t c = 0; c < corners; ++c) {
+        if (point[facet[c]] < 0) {
+          point[facet[c]] = static_cast<std::int32_t>(vertices.size());
+          vertices.push_back(facet[c]);
+        }
+        mesh.corners.push_back(point[facet[c]]);
+      }
       mesh.ends.push_back(static_cast<std::int32_t>(mesh.corners.size()));
-      for (int byte = 0; byte < 4; ++byte)
-        mesh.rgba.push_back(static_cast<std::uint8_t>(surface_.rgba[f] >> (8 * byte) & 0xff));
+      for (int byte = 0; byte < 3; ++byte)  // not how opaque: the facets are, and a viewer would show what is behind them
+        mesh.rgb.push_back(static_cast<std::uint8_t>(surface_.rgba[f] >> (8 * byte) & 0xff));
     }
+    return mesh;
   }
 
   const Hdf5File& file_;

@@ -66,7 +66,7 @@ std::uint64_t write_vtp(const std::string& path, const VtpMesh& mesh) {
   xml += "<Points>\n" + data.add("Float32", "position", 3, mesh.points) + "</Points>\n<PointData>\n";
   for (const VtpArray& array : mesh.on_points) xml += data.add("Float32", array.name, array.components, array.values);
   xml += "</PointData>\n<CellData>\n";
-  if (!mesh.rgba.empty()) xml += data.add("UInt8", "colour", 4, mesh.rgba);
+  if (!mesh.rgb.empty()) xml += data.add("UInt8", "colour", 3, mesh.rgb);
   xml += "</CellData>\n<" + cells + ">\n" + data.add("Int32", "connectivity", 1, lone ? each : mesh.corners) +
          data.add("Int32", "offsets", 1, lone ? behind : mesh.ends) + "</" + cells +
          ">\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";

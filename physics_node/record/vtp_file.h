@@ -21,7 +21,7 @@ struct VtpMesh {
   std::vector<float> points;  // [m]                    (n_points x 3)
   /// Corners of the polygons, one after the other, and where each polygon ends among them. No polygons: lone points.
   std::vector<std::int32_t> corners, ends;
-  std::vector<std::uint8_t> rgba;  // of the polygons, "colour"; EMPTY: none (n_polygons x 4)
+  std::vector<std::uint8_t> rgb;  // of the polygons, "colour"; EMPTY: none (n_polygons x 3)
   std::vector<VtpArray> on_points;
   double t = 0;  // [s], "TimeValue"
 

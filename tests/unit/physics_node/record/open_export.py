@@ -3,7 +3,7 @@
 
 Usage: open_export.py record.pvd [picture.png]
 For each time: per part its file, points, cells, the enclosed volume, and the range of every array (of a vector, of its
-length). With a second word draws the last time off-screen, coloured by displacement, with arrows for the forces.
+length). With a second word draws the last time on a display that is there (xvfb-run), coloured by displacement, with arrows for the forces.
 """
 import json
 import math
@@ -52,6 +52,10 @@ def facts(path, t):
     if mesh.GetPoints().GetDataType() != VTK_FLOAT:
         sys.exit(f"open_export.py: {path}: points of another type")
     told = mesh.GetFieldData().GetArray("TimeValue").GetValue(0)
+    used = {mesh.GetCell(n).GetPointId(c) for n in range(mesh.GetNumberOfCells())
+            for c in range(mesh.GetCell(n).GetNumberOfPoints())}
+    if len(used) != mesh.GetNumberOfPoints():
+        sys.exit(f"open_export.py: {path}: {mesh.GetNumberOfPoints() - len(used)} points belong to nothing")
     corners = max((mesh.GetCell(n).GetNumberOfPoints() for n in range(mesh.GetNumberOfCells())), default=0)
     return {"file": os.path.basename(path), "t": t, "t_in_file": told, "points": mesh.GetNumberOfPoints(),
             "cells": mesh.GetNumberOfCells(), "corners": corners, "arrays": arrays, "bounds": mesh.GetBounds(),
@@ -66,6 +70,7 @@ def draw(paths, picture):
     from vtkmodules.vtkIOImage import vtkPNGWriter
     from vtkmodules.vtkRenderingCore import (vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow,
                                              vtkWindowToImageFilter)
+    sources = []
     renderer = vtkRenderer()
     renderer.SetBackground(1, 1, 1)
     for path in paths:
@@ -77,7 +82,9 @@ def draw(paths, picture):
             arrows = vtkGlyph3D()
             arrows.SetInputData(mesh)
             arrows.SetInputArrayToProcess(1, 0, 0, 0, "force")
-            arrows.SetSourceConnection(vtkArrowSource().GetOutputPort())
+            arrow = vtkArrowSource()
+            sources.append(arrow)  # the pipeline does not keep it
+            arrows.SetSourceConnection(arrow.GetOutputPort())
             arrows.SetScaleFactor(0.03 / most if most > 0 else 1)
             arrows.SetScaleModeToScaleByVector()
             arrows.SetVectorModeToUseVector()
@@ -100,7 +107,7 @@ def draw(paths, picture):
     window.SetSize(900, 700)
     window.AddRenderer(renderer)
     camera = renderer.GetActiveCamera()
-    camera.SetPosition(1, -1.6, 0.9)
+    camera.SetPosition(-1, 1.6, 0.3)
     camera.SetViewUp(0, 0, 1)
     renderer.ResetCamera()
     window.Render()
