@@ -9,19 +9,19 @@ palpate_test(NAME physics_laws_test KIND property
   LIBS palpate_physics_worlds)
 # The reference problems of palpate bench, held to the figures that the docs promise.
 palpate_test(NAME physics_closed_forms_test KIND property SOURCES physics_closed_forms_test.cpp
-  LIBS palpate_bench_problems TIMEOUT 300)
+  LIBS palpate_bench_problems)
 # What becomes of a sphere that falls.
 palpate_test(NAME physics_falls_test KIND property SOURCES physics_falls_test.cpp
-  LIBS palpate_physics_worlds palpate_bench_falls TIMEOUT 300)
+  LIBS palpate_physics_worlds palpate_bench_falls)
 target_compile_definitions(physics_falls_test PRIVATE SCENES="${PROJECT_SOURCE_DIR}/scenes")
 # What becomes of two bodies that meet.
-palpate_test(NAME physics_collide_test KIND property SOURCES physics_collide_test.cpp LIBS palpate_physics_worlds TIMEOUT 300)
+palpate_test(NAME physics_collide_test KIND property SOURCES physics_collide_test.cpp LIBS palpate_physics_worlds)
 target_compile_definitions(physics_collide_test PRIVATE SCENES="${PROJECT_SOURCE_DIR}/scenes")
 # Nothing tunnels.
 palpate_test(NAME physics_tunnelling_test KIND property SOURCES physics_tunnelling_test.cpp
-  LIBS palpate_bench_shots TIMEOUT 300)
+  LIBS palpate_bench_shots)
 # The same bits as ever, by the widest instruction set that this machine has and by that of every x86-64 machine.
-palpate_test(NAME physics_golden_test KIND golden SOURCES physics_golden_test.cpp LIBS palpate_physics_worlds TIMEOUT 300)
+palpate_test(NAME physics_golden_test KIND golden SOURCES physics_golden_test.cpp LIBS palpate_physics_worlds)
 add_test(NAME physics_golden_sse2_test COMMAND physics_golden_test WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
-set_tests_properties(physics_golden_sse2_test PROPERTIES LABELS golden TIMEOUT 300
+set_tests_properties(physics_golden_sse2_test PROPERTIES LABELS golden TIMEOUT 600
   ENVIRONMENT "PALPATE_SOURCE=${PROJECT_SOURCE_DIR};PALPATE_ISA=sse2")
