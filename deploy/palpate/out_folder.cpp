@@ -30,7 +30,7 @@ fs::path default_out(const std::string& scene_path) { return fs::path("out") / f
 
 void prepare_out(const fs::path& out) {
   std::error_code error;
-  for (const char* name : {"parts", "frames"}) refuse_link(out / name);
+  for (const char* name : {"parts", "frames", "vtk"}) refuse_link(out / name);
   fs::create_directories(out / "parts", error);
   if (error || access(out.c_str(), W_OK | X_OK) != 0 || access((out / "parts").c_str(), W_OK | X_OK) != 0) {
     throw InputError(fmt::format("{}: cannot be written to ({}); give another folder with --out",

@@ -106,7 +106,7 @@ TEST_F(PrivateFiles, AndLinksAndAPersonsPicturesStayAsTheyAre) {
   const fs::path out = folder / "out";
   fs::create_directories(out / "frames");
   const std::vector<std::string> links = {"record.h5", "summary.json", "tool_tip.csv", "energy.csv",
-                                          "force.png", "energy.png",   "record.xdmf"};
+                                          "force.png", "energy.png",   "record.pvd"};
   for (const auto& name : links) {
     test::write_file(folder / ("mine_" + name), "mine");
     fs::create_symlink(folder / ("mine_" + name), out / name);

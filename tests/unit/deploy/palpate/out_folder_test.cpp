@@ -43,7 +43,7 @@ TEST(OutFolder, FollowsNoLinks) {
   fs::create_directories(elsewhere);
   render::write_png({1, 1, {1, 2, 3}}, (elsewhere / "frame_00001.png").string());
   folder.write("elsewhere/physics.json", "mine");
-  for (const char* name : {"frames", "parts"}) {
+  for (const char* name : {"frames", "parts", "vtk"}) {
     fs::create_directories(out);
     fs::create_symlink(elsewhere, out / name);
     EXPECT_THROW(prepare_out(out), InputError);
