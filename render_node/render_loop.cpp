@@ -80,7 +80,7 @@ class Fare {
         report.update({{"frames_left_out", frames->left_out()}, {"frames_every", frames->every()}});
     }
     nlohmann::json part = {{"render", report}};
-    part.merge_patch(heard_report("render", wire.heard()));
+    add_heard(part, "render", wire.heard());
     try {
       write_json((folder / "render.json").string(), part);
     } catch (const std::runtime_error& error) {

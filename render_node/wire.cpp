@@ -100,6 +100,7 @@ std::vector<Heard> Wire::heard() {
 void Wire::tell(NodeStatus status) {
   clear_counts(status);
   for (const Heard& one : heard()) add_counts(status, one.counts);
+  status.warnings += status.refused[0] == '\0' ? 0 : 1;
   status_.write(status);
   for (Speaker* speaker : {&physics_, &hand_, &people_})
     for (const auto& line : speaker->remarks()) log_warn("{}", line);

@@ -88,7 +88,7 @@ Verdict judge(const palpate_wire_VertexBlock& wire) noexcept {
       .that(wire.block == wire.first_vertex / max_block_vertices, RejectReason::out_of_range, "block")
       .that(ends_by(wire.first_vertex, wire.n_vertices, most), RejectReason::out_of_range, "first_vertex")
       .that(wire.revision > 0, RejectReason::out_of_range, "revision")
-      .bounded(wire.t, longest_time, "t")
+      .positive(wire.t, longest_time, "t")
       .bounded(wire.position, farthest_vertex, "position", wire.n_vertices);
   if (check.verdict()) return check.verdict();
   const bool sound = std::all_of(wire.flags, wire.flags + wire.n_vertices, [](std::uint8_t flags) {

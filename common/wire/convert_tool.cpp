@@ -63,7 +63,7 @@ Verdict judge(const palpate_wire_ToolWrench& wire) noexcept {
   check.that(wire.tool < max_tools, RejectReason::unknown_id, "tool")
       .stamp(wire.stamp_ns, "stamp_ns")
       .stamp(wire.answers_ns, "answers_ns")
-      .bounded(wire.t, longest_time, "t")
+      .positive(wire.t, longest_time, "t")
       .bounded(wire.p_WT, farthest_hand, "p_WT")
       .unit(wire.q_WT, "q_WT")
       .bounded(wire.force, strongest_tissue, "force")

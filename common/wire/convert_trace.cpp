@@ -15,7 +15,7 @@ Verdict judge(const palpate_wire_HapticTrace& wire) noexcept {
     const palpate_wire_TraceSample& sample = wire.samples[i];
     const bool in_order = i == 0 || sample.tick > wire.samples[i - 1].tick;
     const Verdict verdict = Check()
-                                .bounded(sample.t, longest_time, "samples.t")
+                                .positive(sample.t, longest_time, "samples.t")
                                 .bounded(sample.p, farthest_hand, "samples.p")
                                 .bounded(sample.proxy, farthest_hand, "samples.proxy")
                                 .bounded(sample.force, strongest_hand, "samples.force")

@@ -9,8 +9,8 @@
 
 namespace palpate {
 
-/// {"wire": {NODE: {"heard": {TOPIC: {"received", "lost", "foreign", "rejected": {REASON: n}, "first_refused"}}}}}, the last
-/// one only if there was one. For json::merge_patch with wire_report.
-nlohmann::json heard_report(const std::string& node, const std::vector<Heard>& topics);
+/// Adds to a node's part {"wire": {NODE: {"heard": {TOPIC: {"received", "lost", "foreign", "rejected": {REASON: n},
+/// "first_refused"}}}}}, the last one only if there was one, and a warning for each topic of which not all was taken.
+void add_heard(nlohmann::json& part, const std::string& node, const std::vector<Heard>& topics);
 
 }  // namespace palpate

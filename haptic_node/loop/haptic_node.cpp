@@ -186,6 +186,7 @@ void HapticNode::take_counts(std::int64_t now) {
     add_counts(status_, counts);
   status_.samples_received = heard.patches.received;
   status_.samples_lost = heard.patches.lost;
+  status_.warnings += status_.refused[0] == '\0' ? 0 : 1;
 }
 
 void HapticNode::publish_status(NodePhase phase) {

@@ -77,7 +77,7 @@ void write_haptic_summary(const std::string& out, const LoopStats& stats,
                                        rejected(heard.patches) + rejected(heard.wrenches);
   std::vector<Heard> topics = {{"ContactPatch", heard.patches}, {"Command", wire.commands_heard()}};
   if (wire.feels_wrenches()) topics.push_back({"ToolWrench", heard.wrenches});
-  part.merge_patch(heard_report("haptic", topics));
+  add_heard(part, "haptic", topics);
   write_json(out + "/parts/haptic.json", part);
 }
 

@@ -208,6 +208,7 @@ void PhysicsLoop::publish_status(NodePhase phase) {
   add_counts(status_, wire_.commands.counts());
   status_.samples_lost = samples_lost_;
   status_.rejected[static_cast<std::size_t>(RejectReason::out_of_range)] += ticks_rejected_;
+  status_.warnings += status_.refused[0] == '\0' ? 0 : 1;
   for (Speaker* speaker : {&wire_.hand, &wire_.people})
     for (const auto& line : speaker->remarks()) log_warn("{}", line);
   last_status_ns_ = now;
@@ -276,8 +277,8 @@ bool PhysicsLoop::leave() {
   auto part = physics_summary(*world_, recorder_.get(), wall);
   part.update(wire_report("physics", wire_.participant, wire_.patches, wire_.wrenches, wire_.status,
                           wire_.eye.surfaces(), wire_.eye.blocks()));
-  part.merge_patch(heard_report(
-      "physics", {{"ToolState", wire_.tool_states.counts()}, {"Command", wire_.commands.counts()}}));
+  add_heard(part, "physics",
+            {{"ToolState", wire_.tool_states.counts()}, {"Command", wire_.commands.counts()}});
   try_to([&] { write_json(options_.out + "/parts/physics.json", part); });
   return left;
 }

@@ -60,6 +60,7 @@ class ViewModel {
   std::uint64_t samples_ignored() const noexcept {
     return ignored_;
   }  // stale, malformed, too large or about nothing known
+  std::size_t memory_used() const noexcept { return budget_->used; }
   /// How often something was not kept because it would have been too much (memory_budget.h).
   std::uint64_t memory_refused() const noexcept { return budget_->refused; }
 

@@ -3,6 +3,7 @@
 // takes no more memory than it may, writes no more than a few lines, and ends in order when it is asked to.
 //
 //   PALPATE_FLOOD=100000 build/ready/tests/wire_flood_test        # messages of each kind; a few hundred by default
+//   PALPATE_FLOOD_TOPIC=BodySurface ...                            # of this kind only
 
 #include <dds/dds.h>
 #include <fmt/format.h>
@@ -195,6 +196,8 @@ class WireFlood : public testing::TestWithParam<Node> {
 
   template <class M>
   void flood(const std::string& role, std::uint64_t seed) {
+    const char* only = std::getenv("PALPATE_FLOOD_TOPIC");
+    if (only != nullptr && std::string(only) != Topic<M>::name) return;
     Dice dice(seed);
     Identity sender = identity;
     sender.role = role;

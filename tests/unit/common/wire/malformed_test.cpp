@@ -140,7 +140,8 @@ TEST(MalformedToolWrench, IsRejectedForItsReason) {
       {"NaN normal", R::not_finite, [](auto& w) { w.normal[0] = nan; }},
       {"infinite stretch", R::not_finite, [](auto& w) { w.stretch = inf; }},
       {"time of 1e300 s", R::out_of_range, [](auto& w) { w.t = 1e300; }},
-      {"time of 1e17 s", R::out_of_range, [](auto& w) { w.t = -1e17; }},
+      {"time of 1e17 s", R::out_of_range, [](auto& w) { w.t = 1e17; }},
+      {"time before the start", R::out_of_range, [](auto& w) { w.t = -1e-3; }},
       {"force of no tissue", R::out_of_range, [](auto& w) { w.force[1] = 1e7; }},
       {"moment of no tissue", R::out_of_range, [](auto& w) { w.moment[1] = 1e7; }},
       {"tip on the moon", R::out_of_range, [](auto& w) { w.tip[0] = 4e8; }},
@@ -198,6 +199,7 @@ TEST(MalformedVertexBlock, IsRejectedForItsReason) {
       {"time of 1e300 s", R::out_of_range, [](auto& w) { w.t = 1e300; }},
       {"vertex that no float may square", R::out_of_range,
        [](auto& w) { w.position[w.n_vertices - 1][1] = -1e30F; }},
+      {"time before the start", R::out_of_range, [](auto& w) { w.t = -1e-3; }},
       {"a share of nothing that yielded", R::out_of_range, [](auto& w) { w.flags[w.n_vertices - 1] = 4; }},
   });
 }
@@ -215,6 +217,7 @@ TEST(MalformedHapticTrace, IsRejectedForItsReason) {
       {"NaN energy", R::not_finite, [](auto& w) { w.samples[9].energy = nan; }},
       {"time of 1e300 s", R::out_of_range, [](auto& w) { w.samples[63].t = 1e300; }},
       {"time of 1e17 s", R::out_of_range, [](auto& w) { w.samples[0].t = 1e17; }},
+      {"time before the start", R::out_of_range, [](auto& w) { w.samples[3].t = -1e-3; }},
       {"a hand on the moon", R::out_of_range, [](auto& w) { w.samples[9].p[2] = 4e8; }},
       {"a proxy on the moon", R::out_of_range, [](auto& w) { w.samples[9].proxy[2] = 4e8; }},
       {"force of no device", R::out_of_range, [](auto& w) { w.samples[9].force[2] = 1e200; }},

@@ -67,10 +67,11 @@ inline void randomise(Dice& dice, ContactPatch& m) {
 }
 inline void randomise(Dice& dice, ToolWrench& m) {
   m.tool = dice.below(max_tools);
-  dice.fill(m.tick), dice.fill(m.stamp_ns), dice.fill(m.t), dice.fill(m.force), dice.fill(m.moment);
+  dice.fill(m.tick), dice.fill(m.stamp_ns), dice.fill(m.force), dice.fill(m.moment);
   dice.fill(m.set_point), dice.fill(m.stiffness), dice.fill(m.n_contacts);
   dice.fill(m.answers), dice.fill(m.answers_ns), dice.fill(m.p_WT), dice.fill_unit(m.q_WT);
   dice.fill(m.tip), dice.fill(m.stretch);
+  m.t = dice.real(0, 10);
   if (dice.below(4) > 0) dice.fill_unit(m.normal);
 }
 inline void randomise(Dice& dice, BodySurface& m) {
@@ -95,7 +96,8 @@ inline void randomise(Dice& dice, VertexBlock& m) {
   m.body = dice.below(max_bodies);
   m.revision = 1 + dice.below(1000);
   m.block = dice.below(max_surface_chunks);
-  dice.fill(m.tick), dice.fill(m.t);
+  dice.fill(m.tick);
+  m.t = dice.real(0, 10);
   m.first_vertex = m.block * max_block_vertices;
   m.n_vertices = dice.below(max_block_vertices + 1);
   for (std::uint32_t i = 0; i < m.n_vertices; ++i) {
@@ -112,7 +114,8 @@ inline void randomise(Dice& dice, HapticTrace& m) {
   for (std::uint32_t i = 0; i < m.n_samples; ++i) {
     TraceSample& s = m.samples[i];
     s.tick = first + i;
-    dice.fill(s.t), dice.fill(s.p), dice.fill(s.proxy), dice.fill(s.force), dice.fill(s.torque),
+    s.t = dice.real(0, 10);
+    dice.fill(s.p), dice.fill(s.proxy), dice.fill(s.force), dice.fill(s.torque),
         dice.fill(s.energy);
   }
 }
