@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "common/error/error.h"
+#include "common/file/privacy.h"
 #include "common/process/checked_option.h"
 #include "deploy/palpate/scratch_folder.h"
 #include "deploy/palpate/subcommands.h"
@@ -31,6 +32,7 @@ void say(const physics::VtkExport& done) {
 
 int run_export(const ExportOptions& options) {
   const fs::path path = fs::is_directory(options.record) ? fs::path(options.record) / "record.h5" : fs::path(options.record);
+  keep_as_private_as({path.string()});
   const physics::SessionRecord record(path.string());
   const ScratchFolder files;
   const auto laid_out = record.lay_out(files.path());
