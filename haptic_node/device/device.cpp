@@ -38,7 +38,7 @@ Device::Device(const DriverLibrary& library, const Options& options, ClockFuncti
   host_.log = &log_line;
   host_.now_ns = now_ns;
 
-  words_ = {library.name(), library.path(), {}, {}};
+  words_ = {library.name(), library.path(), {}, {}, false};
   for (const auto& [key, value] : options) {
     if (key == "id")
       words_.id = value;
@@ -64,6 +64,7 @@ Device::Device(const DriverLibrary& library, const Options& options, ClockFuncti
   info_.size = sizeof(hdev_info);
   if (api_->get_info(handle_, &info_) != HDEV_OK) refuse_open(api_->last_error(handle_));
   if (const std::string wrong = objection(info_); !wrong.empty()) refuse_open(wrong);
+  words_.shared = can(HDEV_CAP_SHARED);
   if (api_->calibrate(handle_, calibration_timeout_ms) != HDEV_OK)
     refuse_open(std::string("not calibrated: ") + api_->last_error(handle_));
 }

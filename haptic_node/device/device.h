@@ -20,6 +20,7 @@ struct RescueWords {
   std::string file;    // of the driver
   std::string id;
   std::vector<std::string> pairs;  // key, value, key, value, ...
+  bool shared = false;             // HDEV_CAP_SHARED
 };
 
 class Device {

@@ -57,7 +57,8 @@ enum {
   HDEV_CAP_DEADMAN = 1u << 12,       /* notices whether a hand holds it                                     */
   HDEV_CAP_BLOCKING_READ = 1u << 13, /* read() waits for the device's own clock, which may pace the loop    */
   HDEV_CAP_SIMULATED = 1u << 14,     /* there is no hardware                                                */
-  HDEV_CAP_REL_ENCODERS = 1u << 15   /* must be brought to a reference before positions mean anything       */
+  HDEV_CAP_REL_ENCODERS = 1u << 15,  /* must be brought to a reference before positions mean anything       */
+  HDEV_CAP_SHARED = 1u << 16         /* another process may rescue() it while this one has it open          */
 };
 
 /* Why a device took its forces away (hdev_state.fault). */
@@ -184,7 +185,8 @@ typedef struct hdev_api {
   hdev_status (*emergency_stop)(hdev* device, uint32_t within_us);
   /* In another process, after the one that had a device open has died with its motors on: opens it by the words that
      open() got, no force, motors off, releases it. May block. Called again after a failure, since it may take the system
-     a while to take a device from the dead; last_error(NULL) says why. Null: nothing can be done from outside. */
+     a while to take a device from the dead; last_error(NULL) says why. With HDEV_CAP_SHARED also while that process lives,
+     but is stopped. Null: nothing can be done from outside. */
   hdev_status (*rescue)(const hdev_host* host, const char* id, const char* const* kv, uint32_t n_kv);
 } hdev_api;
 

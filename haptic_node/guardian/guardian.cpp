@@ -51,7 +51,8 @@ Guardian::Guardian(std::vector<const RescueWords*> tools) {
   for (std::size_t i = 0; i < tools.size(); ++i) {
     if (tools[i] == nullptr) continue;
     const RescueWords& tool = *tools[i];
-    words_.push_back({std::to_string(i), tool.driver, tool.file, tool.id, std::to_string(tool.pairs.size())});
+    words_.push_back({std::to_string(i), tool.driver, tool.file, tool.id, tool.shared ? "shared" : "own",
+                      std::to_string(tool.pairs.size())});
     words_.back().insert(words_.back().end(), tool.pairs.begin(), tool.pairs.end());
   }
   start();

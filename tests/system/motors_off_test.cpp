@@ -81,7 +81,16 @@ class MotorsOff : public StrangerSession {
     check(outcome, what);
   }
 
+  /// exit() from a thread of the vendor's library.
+  void exits() {
+    const Outcome outcome = struck_on_time([this] { bus->trouble.store(StrangerBus::own_exit); });
+    if (HasFailure()) return;
+    EXPECT_TRUE(WIFEXITED(outcome.status) && WEXITSTATUS(outcome.status) == 3) << outcome.status;
+    check(outcome, "exit()");
+  }
+
   void every_true_crash() {
+    exits();
     true_crash(StrangerBus::own_thread, SIGSEGV, "null pointer");
     true_crash(StrangerBus::own_stack, SIGSEGV, "stack overflow");
     true_crash(StrangerBus::own_abort, SIGABRT, "abort()");
@@ -140,6 +149,21 @@ TEST_F(ForceDimension, CrashInTheVendorsLibrary) {
   }
 }
 
+/// A second crash, in the handler of the first: the driver is left alone, and the guardian has its turn.
+TEST_F(OpenHaptics, ALibraryThatCrashesInTheHandlerDoesNotHoldUpTheEnd) {
+  ASSERT_TRUE(presses()) << log();
+  const Outcome outcome = strike(
+      [this] {
+        bus->trouble.store(StrangerBus::switch_crashes);
+        std::this_thread::sleep_for(5ms);
+        kill(haptic, SIGUSR1);
+      },
+      3);
+  EXPECT_TRUE(WIFSIGNALED(outcome.status) && WTERMSIG(outcome.status) == SIGSEGV) << outcome.status;
+  EXPECT_GE(outcome.off_ms, 0) << "by the guardian\n" << log();
+  EXPECT_TRUE(outcome.stayed_off);
+}
+
 /// A library that never comes back from the call that switches motors off.
 TEST_F(OpenHaptics, ALibraryThatHangsDoesNotHoldUpTheEnd) {
   ASSERT_TRUE(presses()) << log();
@@ -163,6 +187,17 @@ class Inverse3 : public MotorsOff {
 };
 TEST_F(Inverse3, EverySignal) { every_signal(); }
 TEST_F(Inverse3, Killed) { killed(); }
+
+/// Nobody in a stopped process can lower a force, but the service listens to others, too.
+TEST_F(Inverse3, Stopped) {
+  ASSERT_TRUE(presses()) << log();
+  kill(haptic, SIGSTOP);
+  EXPECT_TRUE(until([this] { return bus->felt() == 0; })) << log();
+  kill(haptic, SIGCONT);
+  const Outcome outcome = strike([this] { kill(haptic, SIGTERM); });
+  EXPECT_TRUE(WIFEXITED(outcome.status) && WEXITSTATUS(outcome.status) == 0) << outcome.status << "\n"
+                                                                             << log();
+}
 
 }  // namespace
 }  // namespace palpate::test

@@ -67,7 +67,7 @@ Inverse3Device::~Inverse3Device() {
 }
 
 void Inverse3Device::fill(hdev_info& info) const {
-  info.caps = HDEV_CAP_POS | HDEV_CAP_VEL | HDEV_CAP_FORCE;
+  info.caps = HDEV_CAP_POS | HDEV_CAP_VEL | HDEV_CAP_FORCE | HDEV_CAP_SHARED;
   if (has_grip_) info.caps |= HDEV_CAP_ROT;
   std::snprintf(info.vendor, sizeof info.vendor, "Haply");
   std::snprintf(info.model, sizeof info.model, "Inverse3");

@@ -49,6 +49,8 @@ struct StrangerBus {
     own_bus,          // SIGBUS: a page of a file that has become shorter
     servo_in_frame,   // the servo thread, within a call of the host's callback
     servo_outside,    // the servo thread, between two rounds
+    own_exit,         // exit(3) in a thread of the library
+    switch_crashes,  // the servo thread stands still, and the call that switches motors off reads from nowhere
     switch_hangs,  // hdDisable, dhdEnableForce never return in the process that has the device, and its servo thread
                    // stands still; other threads live
   };

@@ -116,7 +116,7 @@ void run_callbacks() {
 void serve() {
   auto due = std::chrono::steady_clock::now();
   while (lib().running.load()) {
-    palpate::test::perhaps_hang();
+    palpate::test::perhaps_stand_still();
     run_callbacks();
     if (stranger_bus().motors.load()) {
       lib().since_on += 1;
@@ -203,7 +203,7 @@ EXPORT void hdDisable(unsigned int what) {
   if (what == 0x4001) lib().clamping = false;
   if (what == 0x4002) lib().ramping = false;
   if (what != 0x4000) return;
-  palpate::test::perhaps_hang();
+  palpate::test::perhaps_never_return();
   stranger_bus().motors.store(false);
   stranger_bus().send(StrangerBus::motors_off);
 }

@@ -53,6 +53,8 @@ inline void do_wrong(std::uint32_t trouble) {
       return __builtin_trap();
     case StrangerBus::own_bus:
       return read_behind_the_end();
+    case StrangerBus::own_exit:
+      std::exit(3);
     default:
       return;
   }
@@ -70,11 +72,20 @@ inline void keep_a_troubled_thread() {
   static_cast<void>(once);
 }
 
-/// Where a stranger's library hangs for ever, if it was asked to.
-inline void perhaps_hang() {
-  while (stranger_bus().trouble.load() == StrangerBus::switch_hangs &&
-         stranger_bus().owner.load() == getpid())
+inline bool asked_to(StrangerBus::Trouble trouble) {
+  return stranger_bus().trouble.load() == trouble && stranger_bus().owner.load() == getpid();
+}
+
+/// Where a servo thread stands still, if it was asked to.
+inline void perhaps_stand_still() {
+  while (asked_to(StrangerBus::switch_hangs) || asked_to(StrangerBus::switch_crashes))
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+/// Where the call that switches motors off never comes back, if it was asked to.
+inline void perhaps_never_return() {
+  if (asked_to(StrangerBus::switch_crashes)) read_from_nowhere();
+  while (asked_to(StrangerBus::switch_hangs)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
 }  // namespace palpate::test
