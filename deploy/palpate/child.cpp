@@ -29,8 +29,10 @@ constexpr int exec_failed = 127;
 }  // namespace
 
 std::string Ending::text() const {
-  return by_signal ? fmt::format("was ended by signal {} ({})", code, strsignal(code))
-                   : fmt::format("ended with exit code {}", code);
+  if (!by_signal) return fmt::format("ended with exit code {}", code);
+  const char* name = sigabbrev_np(code);  // none for real-time signals
+  return fmt::format("was ended by signal {} ({}{}{})", code, name == nullptr ? "" : "SIG",
+                     name == nullptr ? "" : name + std::string(", "), strsignal(code));
 }
 
 Child::Child(const std::filesystem::path& program, const std::vector<std::string>& arguments) {

@@ -16,7 +16,7 @@ struct Ending {
   int code = 0;  // exit code, or number of the signal
 
   bool clean() const { return !by_signal && code == 0; }
-  std::string text() const;  // "ended with exit code 3", "was ended by signal 9 (Killed)"
+  std::string text() const;  // "ended with exit code 3", "was ended by signal 9 (SIGKILL, Killed)"
 };
 
 /// Starts a program in a process group of its own (so that Ctrl-C reaches only us), with our stdin, stdout and stderr and

@@ -73,11 +73,19 @@ TEST_F(Supervision, EndsTheOthersHapticFirstWhenANodeIsKilled) {
   ASSERT_EQ(pids.size(), 3U);
   kill(pids.at("palpate-physics"), SIGKILL);
   EXPECT_EQ(run.wait(), 1);
-  EXPECT_EQ(run.text("stderr"), "palpate: physics was ended by signal 9 (Killed)\n");
+  EXPECT_EQ(run.text("stderr"), "palpate: physics was ended by signal 9 (SIGKILL, Killed)\n");
   EXPECT_LT(told_ns("haptic"), told_ns("render"));
   EXPECT_EQ(run.summary()["nodes"]["physics"]["signal"], 9);
   EXPECT_EQ(run.summary()["nodes"]["render"]["exit_code"], 0);
   expect_nobody_left(pids);
+}
+
+TEST_F(Supervision, NamesTheSignalThatHasEndedTheHand) {
+  run.start({"--seconds", "60"});
+  ASSERT_TRUE(run.said(all_running)) << run.text("stdout");
+  kill(run.node_pids().at("palpate-haptic"), SIGSEGV);
+  EXPECT_EQ(run.wait(), 1);
+  EXPECT_EQ(run.text("stderr"), "palpate: haptic was ended by signal 11 (SIGSEGV, Segmentation fault)\n");
 }
 
 TEST_F(Supervision, ReportsANodeThatAborts) {

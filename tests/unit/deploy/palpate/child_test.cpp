@@ -25,7 +25,7 @@ TEST(Child, TellsTheSignalThatEndedIt) {
   Child child("/bin/sleep", {"60"});
   EXPECT_FALSE(child.ending());
   child.signal(SIGKILL);
-  EXPECT_EQ(child.wait().text(), "was ended by signal 9 (Killed)");
+  EXPECT_EQ(child.wait().text(), "was ended by signal 9 (SIGKILL, Killed)");
 }
 
 TEST(Child, IsNotLeftBehind) {
