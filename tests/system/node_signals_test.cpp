@@ -107,8 +107,8 @@ TEST_F(NodeSignals, PhysicsEndsAndItsRecordCanBeRead) {
         ASSERT_TRUE(until([&] { return fs::exists(record) && fs::file_size(record) > 0; }));
       },
       [&](bool in_order) {
-        const std::string command = std::string("timeout 60 " PALPATE " info ") + record.string() + " >" +
-                                    (folder / "info").string() + " 2>&1";
+        const std::string command = std::string("timeout 60 '" PALPATE "' info '") + record.string() +
+                                    "' >'" + (folder / "info").string() + "' 2>&1";
         const int code = std::system(command.c_str());
         std::ifstream file(folder / "info");
         const std::string text(std::istreambuf_iterator<char>(file), {});
