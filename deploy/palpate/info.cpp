@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 
 #include "common/error/error.h"
 #include "common/file/privacy.h"
@@ -21,7 +22,13 @@ std::string info(const std::string& path) {
     throw InputError(fmt::format("{}: no such file; give a volume, scene or record", path));
   const std::string extension = std::filesystem::path(path).extension().string();
   if (extension == ".toml") return info_scene(path);
-  if (extension == ".h5") return is_volume(path) ? info_volume(path) : info_record(path);
+  try {
+    if (extension == ".h5") return is_volume(path) ? info_volume(path) : info_record(path);
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::runtime_error& damaged) {  // of Hdf5File, which names the file
+    throw InputError(fmt::format("{}; write it again", damaged.what()));
+  }
   throw InputError(
       fmt::format("{}: is no file of palpate; give a volume or record (.h5) or a scene (.toml), or turn an "
                   "image into a volume with palpate import",
