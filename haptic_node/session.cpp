@@ -109,12 +109,41 @@ double HapticSession::patch_age() const noexcept {
 }
 
 void HapticSession::service() noexcept {
-  if (want_power_.exchange(false) && !lost_.load()) device_.enable_force(true);
+  if (!want_power_.exchange(false) || lost_.load()) return;
+  stopped_by_us_.store(false);
+  device_.enable_force(true);
+}
+
+/// Motors that were on and are off, although nobody here has asked for it.
+void HapticSession::look_after_power(DeviceSample& sample) noexcept {
+  if (stopped_by_us_.load() || !device_.can(HDEV_CAP_FORCE)) {
+    was_powered_ = false;
+  } else if (sample.has_new) {
+    if (was_powered_ && !sample.powered && sample.held && sample.trouble == FaultCause::none)
+      sample.trouble = FaultCause::force_off;
+    was_powered_ = sample.powered;
+  }
+}
+
+/// @param ns  what read and write of a tick took together
+FaultCause HapticSession::judge_calls(std::int64_t ns) noexcept {
+  counts_.longest_call = std::max(counts_.longest_call, seconds_from_ns(ns));
+  if (ns <= late_call_ns) {
+    late_calls_ = 0;
+    return FaultCause::none;
+  }
+  counts_.late_calls += 1;
+  late_calls_ += 1;
+  const bool held_up = late_calls_ >= late_calls_to_fault || ns > blocked_call_ns;
+  return held_up ? FaultCause::blocked : FaultCause::none;
 }
 
 DeviceSample HapticSession::sample_device() noexcept {
+  const std::int64_t before_ns = now_ns_(user_);
   const hdev_status status = device_.read(raw_);
   DeviceSample sample;
+  sample.trouble = judge_calls(now_ns_(user_) - before_ns + write_ns_);
+  write_ns_ = 0;
   sample.lost = status == HDEV_E_LOST;
   if (sample.lost) lost_.store(true);
   sample.fault = raw_.fault;
@@ -134,6 +163,10 @@ DeviceSample HapticSession::sample_device() noexcept {
   sample.powered = raw_.force_enabled != 0 || !device_.can(HDEV_CAP_FORCE);
   sample.held = raw_.deadman != 0 || !device_.can(HDEV_CAP_DEADMAN);
   sample.calibrated = raw_.cal == HDEV_CAL_OK;
+  if ((raw_.valid & HDEV_CAP_TEMPERATURE) != 0) sample.temperature = temperature_ = raw_.temperature;
+  if (temperature_ >= 1 && sample.trouble == FaultCause::none) sample.trouble = FaultCause::overtemp;
+  counts_.temperature_max = std::max(counts_.temperature_max, temperature_);
+  look_after_power(sample);
   return sample;
 }
 
@@ -155,7 +188,9 @@ void HapticSession::write_force(const ControllerOutput& out) noexcept {
   hdev_command command{};
   command.size = sizeof(hdev_command);
   for (int i = 0; i < 3; ++i) command.force[i] = force_d_(i), command.torque[i] = torque_d(i);
+  const std::int64_t before_ns = now_ns_(user_);
   device_.write(command);
+  write_ns_ = now_ns_(user_) - before_ns;
 }
 
 void HapticSession::fill_messages(std::int64_t now, const ControllerOutput& out) noexcept {
@@ -206,10 +241,8 @@ void HapticSession::tick(const ContactPatch* newest, const ToolWrench* wrench) n
 
   // 3. power, when the controller is ready for it
   if (out.want_power && !sample.powered) {
-    if (power_ == Power::by_tick)
-      device_.enable_force(true);
-    else
-      want_power_.store(true);
+    want_power_.store(true);
+    if (power_ == Power::by_tick) service();
   }
 
   // 4. what the others are told
@@ -231,18 +264,16 @@ void HapticSession::tick(const ContactPatch* newest, const ToolWrench* wrench) n
   fill_messages(now, out);
 }
 
-void HapticSession::close() noexcept {
+void HapticSession::begin_close() noexcept {
   if (!device_.is_open()) return;
-  if (state() != HapticState::fault) {
-    hdev_command nothing{};
-    nothing.size = sizeof(hdev_command);
-    if (device_.can(HDEV_CAP_FORCE)) {
-      device_.write(nothing);
-      device_.enable_force(false);
-    }
-  }
-  device_.close();
+  stopped_by_us_.store(true);
+  device_.begin_close(state() != HapticState::fault);
   controller_.set_state(HapticState::off);
+}
+
+bool HapticSession::close() noexcept {
+  begin_close();
+  return device_.close();
 }
 
 }  // namespace palpate::haptic

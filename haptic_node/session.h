@@ -23,6 +23,9 @@ struct SessionCounts {
   std::uint64_t patches_taken = 0;
   std::uint64_t patches_rejected = 0;  // malformed, rejected whole; wrenches as well
   std::uint64_t samples_rejected = 0;  // of the device: not finite, or a jump
+  std::uint64_t late_calls = 0;        // ticks in which the driver itself took longer than late_call_ns
+  double longest_call = 0;             // of those read and write of one tick [s]
+  double temperature_max = -1;         // of the motors, 1 = their limit; below 0: never told
   std::uint64_t outran = 0;            // ticks in which the tool was beyond what its patch covers
   double energy = 0;                   // given to the hand through the port so far [J]
   double energy_max = 0;               // largest of that [J]
@@ -36,6 +39,13 @@ class HapticSession {
  public:
   /// Who switches the motors on, which may block: tick() itself (simulated time), or service() on a slow thread.
   enum class Power { by_tick, by_service };
+
+  /// Read and write of one tick together, beyond which the tick is late by the driver's fault. As long as a stall.
+  static constexpr std::int64_t late_call_ns = 20'000'000;
+  /// So many in a row, or one that takes a second, are a fault. Why: a process that somebody stopped for a moment while it was
+  /// in the driver looks the same once; and nobody at the device waits longer than a second for a word.
+  static constexpr int late_calls_to_fault = 3;
+  static constexpr std::int64_t blocked_call_ns = 1'000'000'000;
 
   /// Opens the device of scene.tools[tool_index] and leaves it ready, forces off.
   /// @param driver_override  driver instead of the scene's; empty: the scene's
@@ -68,6 +78,7 @@ class HapticSession {
 
   /// Motors off now, from any thread and from signal handlers. A device that is lost is not called any more.
   void stop_motors() noexcept {
+    stopped_by_us_.store(true);
     if (!lost_.load()) device_.stop();
   }
 
@@ -81,10 +92,18 @@ class HapticSession {
   bool stopped() const noexcept { return controller_.stopped() || state() == HapticState::fault; }
   bool is_lost() const noexcept { return lost_.load(); }
 
-  /// Zero force, motors off, device released. Safe to repeat; the destructor does it.
-  void close() noexcept;
+  /// Zero force, motors off, device released: begins at once, in a thread of its own, as Device does.
+  void begin_close() noexcept;
+  /// Begins if need be, and waits. Safe to repeat; the destructor does it.
+  /// @return false if the driver does not come back from it: the device is left to that thread
+  bool close() noexcept;
 
   HapticState state() const noexcept { return controller_.state(); }
+  FaultCause fault_cause() const noexcept { return controller_.fault_cause(); }
+  /// What the driver says of its trouble. The slow thread that owns this session.
+  std::string driver_words() const { return device_.last_words(); }
+  /// Of the newest sample, 1 = the limit; below 0: unknown.
+  double temperature() const noexcept { return temperature_; }
   const ToolState& tool_state() const noexcept { return tool_state_; }
   const TraceSample& trace() const noexcept { return trace_; }
   const SessionCounts& counts() const noexcept { return counts_; }
@@ -99,6 +118,8 @@ class HapticSession {
 
  private:
   DeviceSample sample_device() noexcept;
+  void look_after_power(DeviceSample& sample) noexcept;
+  FaultCause judge_calls(std::int64_t ns) noexcept;
   void write_force(const ControllerOutput& out) noexcept;
   void book_energy(const Vec3& x_d, const Eigen::Quaterniond& q_w) noexcept;
   void fill_messages(std::int64_t now, const ControllerOutput& out) noexcept;
@@ -120,6 +141,11 @@ class HapticSession {
   Eigen::Quaterniond last_q_ = Eigen::Quaterniond::Identity();  // in the world
   std::atomic<bool> want_power_{false};
   std::atomic<bool> lost_{false};  // unplugged: only close() may be called
+  std::atomic<bool> stopped_by_us_{true};  // whoever asked last for the motors wanted them off
+  bool was_powered_ = false;               // since they were last asked for
+  std::int64_t write_ns_ = 0;              // that the last write took
+  int late_calls_ = 0;                     // in a row
+  double temperature_ = -1;
   std::int64_t start_ns_ = 0;
   std::int64_t first_run_ns_ = 0;
   ToolState tool_state_{};

@@ -66,10 +66,11 @@ Controller::Controller(const ControllerSettings& settings) noexcept
       torque_guard_(settings.torque_limit, settings.stiffness * torque_lever * torque_lever, settings.period),
       energy_(settings.resolution) {}
 
-/// Motors off at once; nothing is written to the device any more.
-ControllerOutput Controller::faulted(bool first) noexcept {
-  if (first) {
+/// Motors off at once; nothing is written to the device any more. @param first  none: it has happened before
+ControllerOutput Controller::faulted(FaultCause first) noexcept {
+  if (first != FaultCause::none) {
     ++faults_;
+    fault_cause_ = first;
     state_ = HapticState::fault;
     felt_ = {};
     guard_.pass(Vec3::Zero(), 0, false);
@@ -78,7 +79,7 @@ ControllerOutput Controller::faulted(bool first) noexcept {
   ControllerOutput out;
   out.proxy = motion_.x();
   out.write = false;
-  out.stop_motors = first;
+  out.stop_motors = first != FaultCause::none;
   return out;
 }
 
@@ -204,9 +205,9 @@ double Controller::share_of_felt() noexcept {
   const double force = felt_.force.norm(), limit = guard_.limit();
   const double r = force > limit ? limit / force : 1.0;
   full_ = felt_.stored * (2 * r - r * r);
-  const double applied = full_ * gain_ * stop_gain_;
-  const double share = energy_.share(motion_.hand(), settings_.period, applied, model_.work(),
-                                     gain_ * stop_gain_ * r * felt_.force);
+  const double applied = full_ * whole_gain();
+  const double share =
+      energy_.share(motion_.hand(), settings_.period, applied, model_.work(), whole_gain() * r * felt_.force);
   stored_ = energy_.left();
   return share;
 }
@@ -227,14 +228,14 @@ bool Controller::take_answer(std::int64_t now_ns, const ContactPatch* patch,
 
 ControllerOutput Controller::tick(std::int64_t now_ns, const DeviceSample& sample, const ContactPatch* patch,
                                   const ToolWrench* wrench) noexcept {
-  if (state_ == HapticState::fault) return faulted(false);
+  if (state_ == HapticState::fault) return faulted(FaultCause::none);
   const double dt = ticked_ ? seconds_from_ns(now_ns - last_ns_) : settings_.period;
   last_ns_ = now_ns;
   ticked_ = true;
 
   // 1. the hand
   const MotionVerdict verdict = motion_.take(sample, now_ns);
-  if (verdict == MotionVerdict::fault) return faulted(true);
+  if (verdict == MotionVerdict::fault) return faulted(motion_.cause());
   look_for_trouble(verdict, sample, dt);
 
   // 2. the tissue
@@ -248,14 +249,14 @@ ControllerOutput Controller::tick(std::int64_t now_ns, const DeviceSample& sampl
 
   // 4. the force
   if (stopping_) stop_gain_ = std::max(0.0, stop_gain_ - settings_.period / safe_ramp);
+  thermal_.step(sample.temperature, felt_.n_planes > 0 || felt_.force.norm() > 0, settings_.period);
   const bool fading = state_ != HapticState::run || stopping_;
   ControllerOutput out;
   const double share = share_of_felt();
-  out.force = guard_.pass(share * felt_.force, gain_ * stop_gain_, fading, hand_moved());
+  out.force = guard_.pass(share * felt_.force, whole_gain(), fading, hand_moved());
   const double wanted = felt_.force.norm();
   reached_ = wanted > 0 ? std::min(1.0, out.force.norm() / wanted) : 1.0;
-  if (settings_.torque_limit > 0)
-    out.torque = torque_guard_.pass(share * felt_.torque, gain_ * stop_gain_, fading);
+  if (settings_.torque_limit > 0) out.torque = torque_guard_.pass(share * felt_.torque, whole_gain(), fading);
   energy_.sent(out.force, out.torque);
   out.reported = report_.pass(out.force, std::min(dt, stall));
   out.proxy = felt_.n_planes > 0 ? Vec3(motion_.x() + out.force / settings_.stiffness) : motion_.x();

@@ -5,7 +5,7 @@
 //   off -> open -> calibrating -> ready --(patch, outside the tissue, hand at rest)--> armed --(motors on)--> run
 //   run --(patches stop)--> stale --(patches return)--> run, or ready once the force has faded to nothing
 //   any --(stall, old samples, overspeed, motors off, let go)--> safe --(quiet again)--> ready
-//   any --(device lost or faulty, three impossible samples)--> fault, for good: a person opens the device anew
+//   any --(device lost, faulty or blocked, three impossible samples)--> fault, for good: a person opens the device anew
 
 #include <cstdint>
 
@@ -17,6 +17,7 @@
 #include "haptic_node/control/motion_watch.h"
 #include "haptic_node/safety/energy_limit.h"
 #include "haptic_node/safety/force_guard.h"
+#include "haptic_node/safety/thermal_limit.h"
 
 namespace palpate::haptic {
 
@@ -80,6 +81,9 @@ class Controller {
 
   HapticState state() const noexcept { return state_; }
   ArmRefusal refusal() const noexcept { return refusal_; }
+  FaultCause fault_cause() const noexcept { return fault_cause_; }
+  /// What warm motors leave of the force, 0 to 1.
+  double thermal_gain() const noexcept { return thermal_.gain(); }
   bool engaged() const noexcept { return state_ == HapticState::run || state_ == HapticState::stale; }
   const MotionWatch& motion() const noexcept { return motion_; }
   const PatchWatch& patches() const noexcept { return patches_; }
@@ -102,7 +106,7 @@ class Controller {
   std::uint64_t outran() const noexcept { return outran_; }
 
  private:
-  ControllerOutput faulted(bool first) noexcept;
+  ControllerOutput faulted(FaultCause first) noexcept;
   void enter_safe(bool may_resume_inside) noexcept;
   void look_for_trouble(MotionVerdict verdict, const DeviceSample& sample, double dt) noexcept;
   void step_state(std::int64_t now_ns, const DeviceSample& sample, bool new_patch) noexcept;
@@ -113,6 +117,8 @@ class Controller {
   void step_safe(std::int64_t now_ns, const DeviceSample& sample) noexcept;
   double share_of_felt() noexcept;
   double hand_moved() noexcept;
+  /// Of what the springs would push with: fade or ramp, the end of the session, warm motors.
+  double whole_gain() const noexcept { return gain_ * stop_gain_ * thermal_.gain(); }
   bool take_answer(std::int64_t now_ns, const ContactPatch* patch, const ToolWrench* wrench) noexcept;
   /// What the silence of physics leaves of the force.
   double freshness(std::int64_t now_ns) const noexcept {
@@ -128,12 +134,14 @@ class Controller {
   ForceGuard torque_guard_;
   ForceReport report_;
   EnergyLimit energy_;
+  ThermalLimit thermal_;
   ContactResult felt_;
   double full_ = 0;    // in the springs at full gain [J]
   double stored_ = 0;  // as they are applied [J]
 
   HapticState state_ = HapticState::off;
   ArmRefusal refusal_ = ArmRefusal::no_sample;
+  FaultCause fault_cause_ = FaultCause::none;
   bool resume_inside_ = false;  // after a stall: planes start at the hand, no need to leave the tissue first
   double safe_for_ = 0;         // since the last trouble [s]
   double reached_ = 1;          // of the force felt in the last tick, after all limits

@@ -36,13 +36,17 @@ bool MotionWatch::believe(const DeviceSample& sample) noexcept {
 }
 
 MotionVerdict MotionWatch::take(const DeviceSample& sample, std::int64_t now_ns) noexcept {
-  if (sample.lost || sample.fault != 0) return MotionVerdict::fault;
+  cause_ = sample.lost ? FaultCause::lost : sample.fault != 0 ? cause_of(sample.fault) : sample.trouble;
+  if (cause_ != FaultCause::none) return MotionVerdict::fault;
   if (sample.has_new) {
     if (believe(sample)) {
       jumps_ = 0;
     } else {
       ++rejected_;
-      if (++jumps_ >= jumps_to_fault) return MotionVerdict::fault;
+      if (++jumps_ >= jumps_to_fault) {
+        cause_ = FaultCause::impossible;
+        return MotionVerdict::fault;
+      }
     }
   }
   if (!ever_) return MotionVerdict::good;

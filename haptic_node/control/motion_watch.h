@@ -5,6 +5,7 @@
 
 #include "common/scene/scene.h"
 #include "haptic_node/contact/hand_motion.h"
+#include "haptic_node/control/fault_cause.h"
 
 namespace palpate::haptic {
 
@@ -13,6 +14,8 @@ struct DeviceSample {
   bool has_new = false;                                   // false: the device had nothing newer
   bool lost = false;                                      // unplugged
   std::uint32_t fault = 0;                                // HDEV_FAULT_*
+  FaultCause trouble = FaultCause::none;                  // that the host has found by itself
+  double temperature = -1;  // of the hottest motor, 1 = its limit; below 0: unknown
   std::int64_t t_ns = 0;                                  // when it was measured
   Vec3 x = Vec3::Zero();                                  // tip [m]
   Eigen::Quaterniond q = Eigen::Quaterniond::Identity();  // attitude, unit
@@ -38,6 +41,8 @@ class MotionWatch {
   explicit MotionWatch(double period) noexcept : period_(period) {}
 
   MotionVerdict take(const DeviceSample& sample, std::int64_t now_ns) noexcept;
+  /// Why take() last said fault.
+  FaultCause cause() const noexcept { return cause_; }
 
   bool ever() const noexcept { return ever_; }
   const Vec3& x() const noexcept { return x_; }  // last believed [m]
@@ -58,6 +63,7 @@ class MotionWatch {
   Vec3 v_ = Vec3::Zero();
   Eigen::Quaterniond q_ = Eigen::Quaterniond::Identity();
   int jumps_ = 0;
+  FaultCause cause_ = FaultCause::none;
   std::uint64_t rejected_ = 0;
 };
 

@@ -32,11 +32,11 @@ std::string objection(const hdev_info& info) {
 
 Device::Device(const DriverLibrary& library, const Options& options, ClockFunction now_ns, void* user,
                const std::string& place)
-    : api_(&library.api()) {
-  host_.size = sizeof(hdev_host);
-  host_.user = user;
-  host_.log = &log_line;
-  host_.now_ns = now_ns;
+    : api_(&library.api()), name_(library.name()), host_(std::make_shared<hdev_host>()) {
+  host_->size = sizeof(hdev_host);
+  host_->user = user;
+  host_->log = &log_line;
+  host_->now_ns = now_ns;
 
   words_ = {library.name(), library.path(), {}, {}, false};
   for (const auto& [key, value] : options) {
@@ -57,7 +57,7 @@ Device::Device(const DriverLibrary& library, const Options& options, ClockFuncti
   };
 
   const auto pairs = static_cast<std::uint32_t>(kv.size() / 2);
-  if (api_->open(&host_, words_.id.c_str(), kv.data(), pairs, &handle_) != HDEV_OK || handle_ == nullptr) {
+  if (api_->open(host_.get(), words_.id.c_str(), kv.data(), pairs, &handle_) != HDEV_OK || handle_ == nullptr) {
     handle_ = nullptr;
     refuse(api_->last_error(nullptr));
   }
@@ -87,10 +87,44 @@ bool Device::emergency_stop(std::uint32_t within_us) noexcept {
   return good;
 }
 
-void Device::close() noexcept {
-  if (handle_ == nullptr) return;
-  api_->close(handle_);
+/// What a driver says may have several lines, and come from anywhere.
+std::string Device::last_words() const {
+  const char* said = handle_ == nullptr ? nullptr : api_->last_error(handle_);
+  std::string words = said == nullptr ? "" : said;
+  constexpr std::size_t most = 300;
+  if (words.size() > most) words.resize(most);
+  for (char& c : words)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  return words;
+}
+
+void Device::begin_close(bool answers) noexcept {
+  if (handle_ == nullptr || closing_) return;
+  const bool forces = answers && can(HDEV_CAP_FORCE);
+  closing_.emplace([api = api_, host = host_, handle = handle_, forces] {
+    if (forces) {
+      hdev_command nothing{};
+      nothing.size = sizeof(hdev_command);
+      api->write(handle, &nothing);
+      api->enable_force(handle, 0);
+    }
+    api->close(handle);
+  });
+  close_by_ = std::chrono::steady_clock::now() + close_within;
   handle_ = nullptr;
+}
+
+bool Device::close() noexcept {
+  begin_close(false);
+  if (!closing_ || closing_->wait_until(close_by_)) return true;
+  if (!told_) {
+    const std::string line = fmt::format(
+        "the driver \"{}\" does not come back from closing its device within {} ms; it is left behind", name_,
+        close_within.count());
+    log_line(nullptr, 2, line.c_str());
+  }
+  told_ = true;
+  return false;
 }
 
 }  // namespace palpate::haptic

@@ -1,11 +1,15 @@
 #pragma once
 // One open device behind its driver: opens, asks what it is, and makes sure that it is closed with its forces off.
 
+#include <chrono>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "haptic_node/device/bounded_call.h"
 #include "haptic_node/device/driver_library.h"
 #include "haptic_node/device/haptic_device.h"
 
@@ -26,6 +30,10 @@ struct RescueWords {
 class Device {
  public:
   using Options = std::vector<std::pair<std::string, std::string>>;
+
+  /// For a driver to close its device. Why: what a person asked to end is gone within a second, and a vendor's library may
+  /// block for ever; those that work take some 10 ms.
+  static constexpr std::chrono::milliseconds close_within{500};
 
   /// Opens and calibrates; forces stay off.
   /// @param options  keys and values for the driver; "id" picks the device instead of the first one
@@ -58,16 +66,27 @@ class Device {
   bool can_be_rescued() const noexcept { return api_->rescue != nullptr; }
   const RescueWords& rescue_words() const noexcept { return words_; }
 
-  /// Motors off, device released; safe to repeat.
-  void close() noexcept;
+  /// The driver's own words about its trouble; "" if it has none. Slow threads only; one line.
+  std::string last_words() const;
+
+  /// Motors off, device released: by a thread of its own, which begins at once.
+  /// @param answers  the device still answers, and is written no force first
+  void begin_close(bool answers) noexcept;
+  /// Begins if need be, waits until close_within is over. Safe to repeat.
+  /// @return false if the driver has not come back: a line has said so, and the device is that thread's for good
+  bool close() noexcept;
   bool is_open() const noexcept { return handle_ != nullptr; }
 
  private:
   const hdev_api* api_;
-  hdev_host host_{};
+  std::string name_;                 // of the driver
+  std::shared_ptr<hdev_host> host_;  // lent to the driver until it has closed, however long that takes
   hdev* handle_ = nullptr;
   hdev_info info_{};
   RescueWords words_;
+  std::optional<BoundedCall> closing_;
+  std::chrono::steady_clock::time_point close_by_;
+  bool told_ = false;
 };
 
 }  // namespace palpate::haptic

@@ -35,7 +35,7 @@ typedef enum hdev_status {
   HDEV_E_UNSUPPORTED = -5, /* this device cannot do that                                                */
   HDEV_E_SDK = -6,         /* the vendor's library, or a function in it, is missing                     */
   HDEV_E_COMM = -7,        /* a transfer failed; the device may be back in the next tick                */
-  HDEV_E_LOST = -8,        /* unplugged: nothing but close() may be called any more                     */
+  HDEV_E_LOST = -8,        /* unplugged: nothing but last_error() and close() may be called any more    */
   HDEV_E_FAULT = -9,       /* the device took its forces away: hdev_state.fault says why                */
   HDEV_E_NOTCAL = -10      /* it must be calibrated first                                               */
 } hdev_status;
@@ -70,7 +70,9 @@ enum {
   HDEV_FAULT_ESTOP = 1u << 4,
   HDEV_FAULT_DEADMAN = 1u << 5,
   HDEV_FAULT_POWER = 1u << 6,
-  HDEV_FAULT_INTERNAL = 1u << 7
+  HDEV_FAULT_INTERNAL = 1u << 7,
+  HDEV_FAULT_FORCE_OFF = 1u << 8, /* switched off by the device itself, which does not say why */
+  HDEV_FAULT_SILENT = 1u << 9     /* the vendor's library or service has stopped calling back  */
 };
 
 /* Whether positions can be trusted (hdev_state.cal). */
@@ -162,7 +164,8 @@ typedef struct hdev_api {
   hdev_status (*enable_force)(hdev* device, uint32_t on);
   /* No force, motors off, everything released. `device` is gone afterwards; null is allowed. */
   void (*close)(hdev* device);
-  /* The last trouble in words, "" if none. Null asks about the last open() that failed. */
+  /* The last trouble in words, "" if none: also why read() said HDEV_E_LOST or HDEV_E_FAULT. Null asks about the
+     last open() that failed. */
   const char* (*last_error)(hdev* device);
 
   /* From the real-time thread only. No allocation, no lock, no system call but the device's own. */

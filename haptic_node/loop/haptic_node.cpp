@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
+#include <cstdlib>
 #include <thread>
 
 #include "common/error/error.h"
@@ -45,7 +47,12 @@ HapticNode::HapticNode(const NodeOptions& options, const Scene& scene)
   first_ = std::make_unique<Participant>(nobody);
   newcomer_ = std::make_unique<Newcomer>(*first_, membership(options, scene, "haptic").identity);
   newcomer_->settle();  // before a device is opened: it may be another hand's
+  calls_ = std::make_unique<CallWatch>([this] {
+    for (const auto& channel : channels_)
+      if (HapticSession* session = channel->session.get()) session->stop_motors();
+  });
   for (std::uint32_t tool = 0; tool < scene.tools.size(); ++tool) {
+    const CallWatch::Call call(*calls_, scene.tools[tool].name + ": opening its device");
     channels_.push_back(std::make_unique<ToolChannel>(scene, tool, options.device, options.domain));
     const HapticSession& session = *channels_.back()->session.get();
     const hdev_info& info = session.device_info();
@@ -56,10 +63,11 @@ HapticNode::HapticNode(const NodeOptions& options, const Scene& scene)
     });
   }
   set_guard();
-  reports_.resize(channels_.size());
+  for (const auto& channel : channels_) tools_.emplace_back(*channel);
   flights_.resize(channels_.size());
   wire_ = std::make_unique<Wire>(membership(options, scene, "haptic"), channels_);
   loop_ = std::make_unique<RealtimeLoop>(channels_, rate_Hz_);
+  loop_watch_ = std::make_unique<LoopWatch>(*loop_, rate_Hz_);
   status_.node = NodeKind::haptic;
   status_.pid = static_cast<std::uint32_t>(getpid());
   status_.scene_checksum = scene_.checksum;
@@ -90,9 +98,10 @@ void HapticNode::set_guard() {
 /// Motors are switched on here, not in the real-time thread, as drivers may take their time.
 void HapticNode::serve() {
   for (std::size_t i = 0; i < channels_.size(); ++i) {
+    const CallWatch::Call call(*calls_, channels_[i]->name + ": switching its motors");
     if (HapticSession* session = channels_[i]->session.get(); session != nullptr && !CrashStop::ending())
       session->service();
-    resets_[i].step(reports_[i].state);
+    resets_[i].step(tools_[i].report().state, tools_[i].report().cause);
   }
 }
 
@@ -113,37 +122,34 @@ void HapticNode::keep_flights() {
   }
 }
 
+double HapticNode::seconds_so_far() const {
+  const LoopStats* stats = loop_->stats();
+  return stats == nullptr ? 0.0 : seconds_from_ns(now_ns() - stats->start_ns);
+}
+
 void HapticNode::look_at_tools() {
-  for (std::size_t i = 0; i < channels_.size(); ++i) {
-    const SessionReport* report = channels_[i]->reports.newest();
-    if (report == nullptr) continue;
-    const bool fault = report->state == HapticState::fault && reports_[i].state != HapticState::fault;
-    const bool first = report->first_run_ns > 0 && reports_[i].first_run_ns == 0;
-    reports_[i] = *report;
-    if (first) log_info("{}: forces are on", channels_[i]->name);
-    if (fault)
-      log_error("{}: device fault, forces are off; `palpate reset {}` opens the device anew",
-                channels_[i]->name, channels_[i]->name);
+  const std::int64_t now = now_ns();
+  loop_watch_->look(now);
+  for (std::size_t i = 0; i < tools_.size(); ++i) {
+    const CallWatch::Call call(*calls_, channels_[i]->name + ": asking for the cause of its fault");
+    tools_[i].look(seconds_so_far());
+    tools_[i].look_at_call(loop_watch_->in_driver_ns(static_cast<int>(i), now), seconds_so_far());
   }
 }
 
 bool HapticNode::is_over() const {
   if (stop_requested() || wire_->stop_commanded()) return true;
   if (options_.seconds <= 0) return false;
-  return std::all_of(reports_.begin(), reports_.end(), [this](const SessionReport& report) {
-    return report.first_run_ns > 0 && seconds_from_ns(now_ns() - report.first_run_ns) >= options_.seconds;
+  return std::all_of(tools_.begin(), tools_.end(), [this](const ToolWatch& tool) {
+    const std::int64_t first_ns = tool.report().first_run_ns;
+    return first_ns > 0 && seconds_from_ns(now_ns() - first_ns) >= options_.seconds;
   });
 }
 
 std::string HapticNode::note() const {
   std::string note = rights_text(rights_);
-  for (std::size_t i = 0; i < reports_.size(); ++i) {
-    note += fmt::format("; {}: {}", channels_[i]->name,
-                        resets_[i].busy() ? "opening" : name_of(reports_[i].state));
-    const bool waits = reports_[i].state == HapticState::ready || reports_[i].state == HapticState::safe;
-    if (waits && reports_[i].refusal != ArmRefusal::none)
-      note += fmt::format(" ({})", text_of(reports_[i].refusal));
-  }
+  for (std::size_t i = 0; i < tools_.size(); ++i) note += "; " + tools_[i].note(resets_[i].busy());
+  if (const std::string slow = loop_watch_->note(); !slow.empty()) note += "; " + slow;
   note.resize(std::min(note.size(), status_.note.size() - 1));
   return note;
 }
@@ -151,14 +157,9 @@ std::string HapticNode::note() const {
 /// What loop, tools and wire have counted so far.
 void HapticNode::take_counts(std::int64_t now) {
   status_.warnings = 0;
+  status_.rate_Hz = loop_watch_->measure(now);
+  status_.real_time_factor = status_.rate_Hz / rate_Hz_;
   if (const LoopStats* stats = loop_->stats()) {
-    const double wall = seconds_from_ns(stats->last_ns - last_status_ns_);
-    if (last_status_ns_ > 0 && wall > 0) {
-      status_.rate_Hz = static_cast<double>(stats->ticks - last_status_ticks_) / wall;
-      status_.real_time_factor = status_.rate_Hz / rate_Hz_;
-    }
-    last_status_ns_ = stats->last_ns;
-    last_status_ticks_ = stats->ticks;
     status_.t = seconds_from_ns(now - stats->start_ns);
     status_.ticks = stats->ticks;
     status_.late = stats->skipped;
@@ -167,12 +168,13 @@ void HapticNode::take_counts(std::int64_t now) {
     status_.warnings += static_cast<std::uint32_t>(stats->watchdog_stops);
   }
   SessionCounts sum;
-  for (const auto& report : reports_) {
-    sum.stale_events += report.counts.stale_events;
-    sum.safe_events += report.counts.safe_events;
-    sum.faults += report.counts.faults;
-    sum.energy = std::max(sum.energy, report.counts.energy);
-    sum.surplus = std::max(sum.surplus, report.counts.surplus);
+  for (const auto& tool : tools_) {
+    const SessionCounts& counts = tool.report().counts;
+    sum.stale_events += counts.stale_events;
+    sum.safe_events += counts.safe_events;
+    sum.faults += counts.faults;
+    sum.energy = std::max(sum.energy, counts.energy);
+    sum.surplus = std::max(sum.surplus, counts.surplus);
   }
   status_.energy_J = sum.energy;
   status_.surplus_J = sum.surplus;
@@ -190,9 +192,8 @@ void HapticNode::take_counts(std::int64_t now) {
 }
 
 void HapticNode::publish_status(NodePhase phase) {
-  const bool failed = std::any_of(reports_.begin(), reports_.end(), [](const SessionReport& report) {
-    return report.state == HapticState::fault;
-  });
+  const bool failed =
+      std::any_of(tools_.begin(), tools_.end(), [](const ToolWatch& tool) { return tool.failed(); });
   status_.phase = failed ? NodePhase::failed : phase;
   take_counts(now_ns());
   const std::string text = note();
@@ -215,8 +216,8 @@ int HapticNode::run() {
     keep_flights();
     if (now_ns() < next_status) continue;
     next_status = now_ns() + status_period_ns;
-    const bool running = std::all_of(reports_.begin(), reports_.end(),
-                                     [](const SessionReport& report) { return report.first_run_ns > 0; });
+    const bool running = std::all_of(tools_.begin(), tools_.end(),
+                                     [](const ToolWatch& tool) { return tool.report().first_run_ns > 0; });
     publish_status(running ? NodePhase::running : NodePhase::ready);
     unwelcome_ = newcomer_->must_go();
     guardian_->look_after();
@@ -224,30 +225,60 @@ int HapticNode::run() {
   return leave();
 }
 
+/// All at once. A session that the loop holds in a driver that hangs cannot be closed.
+/// @return whether all are closed
+bool HapticNode::close_devices() {
+  bool closed = true;
+  std::vector<std::unique_ptr<HapticSession>> sessions;
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    closed = closed && !resets_[i].hangs();
+    channels_[i]->flight.end();
+    if (resets_[i].has_session()) continue;
+    sessions.push_back(channels_[i]->session.take_back());
+    if (sessions.back() != nullptr) {
+      sessions.back()->begin_close();
+    } else {
+      log_error("{}: its driver does not come back from a tick; the device is left as it is",
+                channels_[i]->name);
+      closed = false;
+    }
+  }
+  for (const auto& session : sessions)
+    if (session != nullptr && !session->close()) closed = false;
+  return closed;
+}
+
 /// Forces to zero first, then the motors, then what is told about it.
 int HapticNode::leave() {
-  loop_->finish();
-  for (const auto& channel : channels_) {
-    if (HapticSession* session = channel->session.get()) session->close();
-    channel->flight.end();
-  }
+  const bool loop_ended = loop_->finish();
   look_at_tools();
+  const bool closed = close_devices();
   keep_flights();
   wire_->finish();
   publish_status(NodePhase::stopping);
   bool kept = true;
   try {
+    const LoopStats* stats = loop_->stats();
     if (!options_.out.empty())
-      write_haptic_summary(options_.out, *loop_->stats(), reports_, *wire_);
+      write_haptic_summary(options_.out, stats == nullptr ? LoopStats() : *stats, tools_, *wire_);
   } catch (const std::runtime_error& error) {  // a disk that has filled up is nobody's mistake
     log_error("{}", error.what());
     kept = false;
   }
+  if (!loop_ended || !closed) leave_behind(exit_failed);
   if (unwelcome_) return exit_mistake;
-  const bool faulty = std::any_of(reports_.begin(), reports_.end(), [](const SessionReport& report) {
-    return report.state == HapticState::fault;
-  });
+  const bool faulty =
+      std::any_of(tools_.begin(), tools_.end(), [](const ToolWatch& tool) { return tool.failed(); });
   return faulty || !kept ? exit_failed : exit_ok;
+}
+
+/// A thread that hangs in a driver still uses what the destructors would take away. The session hears of the end as ever.
+void HapticNode::leave_behind(int code) {
+  newcomer_.reset();
+  wire_.reset();
+  first_.reset();
+  std::fflush(nullptr);
+  std::_Exit(code);
 }
 
 }  // namespace palpate::haptic

@@ -8,11 +8,14 @@
 #include "common/message/messages.h"
 #include "common/process/node_main.h"
 #include "haptic_node/guardian/guardian.h"
+#include "haptic_node/loop/call_watch.h"
 #include "haptic_node/loop/crash_stop.h"
 #include "haptic_node/loop/device_reset.h"
+#include "haptic_node/loop/loop_watch.h"
 #include "haptic_node/loop/realtime.h"
 #include "haptic_node/loop/realtime_loop.h"
 #include "haptic_node/loop/tool_channel.h"
+#include "haptic_node/loop/tool_watch.h"
 #include "haptic_node/loop/wire.h"
 
 namespace palpate::haptic {
@@ -23,7 +26,7 @@ class HapticNode {
   HapticNode(const NodeOptions& options, const Scene& scene);
 
   /// Until a signal, a stop command, or options.seconds after forces were first on. Forces are zero and motors off
-  /// before it returns. @return exit code
+  /// before it returns. @return exit code; does not return where a driver hangs: the process ends then, all the same
   int run();
 
  private:
@@ -36,7 +39,10 @@ class HapticNode {
   void take_counts(std::int64_t now);
   bool is_over() const;
   void publish_status(NodePhase phase);
+  double seconds_so_far() const;
+  bool close_devices();
   int leave();
+  [[noreturn]] void leave_behind(int code);
 
   NodeOptions options_;
   Scene scene_;  // to open devices anew
@@ -46,17 +52,17 @@ class HapticNode {
   RealtimeRights rights_;
   std::unique_ptr<Guardian> guardian_;  // goes after the devices
   std::vector<std::unique_ptr<ToolChannel>> channels_;
-  std::vector<SessionReport> reports_;
+  std::vector<ToolWatch> tools_;
   std::vector<DeviceReset> resets_;
   std::vector<int> flights_;  // written so far, by tool
   std::unique_ptr<Wire> wire_;
   std::unique_ptr<Newcomer> newcomer_;
   bool unwelcome_ = false;  // in a session of another scene or version
   std::unique_ptr<RealtimeLoop> loop_;
+  std::unique_ptr<LoopWatch> loop_watch_;
   std::unique_ptr<CrashStop> crash_stop_;
+  std::unique_ptr<CallWatch> calls_;
   NodeStatus status_;
-  std::int64_t last_status_ns_ = 0;
-  std::uint64_t last_status_ticks_ = 0;
 };
 
 }  // namespace palpate::haptic

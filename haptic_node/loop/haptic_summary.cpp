@@ -24,7 +24,7 @@ nlohmann::json percentiles(const Histogram<Bins>& histogram) {
 }  // namespace
 
 nlohmann::json haptic_summary(const LoopStats& stats, const std::vector<SessionReport>& tools,
-                              std::uint64_t trace_lost) {
+                              std::uint64_t trace_lost, const std::vector<FaultRecord>& faults) {
   SessionCounts sum;
   for (const auto& tool : tools) {
     sum.stale_events += tool.counts.stale_events;
@@ -34,6 +34,9 @@ nlohmann::json haptic_summary(const LoopStats& stats, const std::vector<SessionR
     sum.patches_rejected += tool.counts.patches_rejected;
     sum.samples_rejected += tool.counts.samples_rejected;
     sum.outran += tool.counts.outran;
+    sum.late_calls += tool.counts.late_calls;
+    sum.longest_call = std::max(sum.longest_call, tool.counts.longest_call);
+    sum.temperature_max = std::max(sum.temperature_max, tool.counts.temperature_max);
     sum.energy_max = std::max(sum.energy_max, tool.counts.energy_max);
     sum.surplus_max = std::max(sum.surplus_max, tool.counts.surplus_max);
     sum.force_max = std::max(sum.force_max, tool.counts.force_max);
@@ -55,8 +58,17 @@ nlohmann::json haptic_summary(const LoopStats& stats, const std::vector<SessionR
                            {"patches_rejected", sum.patches_rejected},
                            {"samples_rejected", sum.samples_rejected},
                            {"outran_ticks", sum.outran},
+                           {"late_calls", sum.late_calls},
+                           {"longest_call_ms", 1e3 * sum.longest_call},
                            {"trace_samples_lost", trace_lost}};
   const double seconds = seconds_from_ns(stats.last_ns - stats.start_ns);
+  if (sum.temperature_max >= 0) haptic["motor_temperature_max"] = sum.temperature_max;
+  for (const auto& fault : faults)
+    haptic["fault_causes"].push_back({{"tool", fault.tool},
+                                      {"t_s", fault.t},
+                                      {"cause", name_of(fault.cause)},
+                                      {"text", text_of(fault.cause)},
+                                      {"driver", fault.words}});
   if (seconds > 0) haptic["rate_Hz"] = static_cast<double>(stats.ticks) / seconds;
   if (stats.period.total() > 0) haptic["period_us"] = percentiles(stats.period);
   if (stats.compute.total() > 0) haptic["compute_us"] = percentiles(stats.compute);
@@ -65,11 +77,17 @@ nlohmann::json haptic_summary(const LoopStats& stats, const std::vector<SessionR
   return {{"haptic", haptic}};
 }
 
-void write_haptic_summary(const std::string& out, const LoopStats& stats,
-                          const std::vector<SessionReport>& tools, const Wire& wire) {
+void write_haptic_summary(const std::string& out, const LoopStats& stats, const std::vector<ToolWatch>& tools,
+                          const Wire& wire) {
   std::error_code already;  // write_json says what is wrong with the folder
   std::filesystem::create_directories(out + "/parts", already);
-  auto part = haptic_summary(stats, tools, wire.trace_lost());
+  std::vector<SessionReport> reports;
+  std::vector<FaultRecord> faults;
+  for (const auto& tool : tools) {
+    reports.push_back(tool.report());
+    faults.insert(faults.end(), tool.records().begin(), tool.records().end());
+  }
+  auto part = haptic_summary(stats, reports, wire.trace_lost(), faults);
   part.update(wire_report("haptic", wire.participant(), wire.states(), wire.traces(), wire.status()));
   const Wire::HeardCounts heard = wire.heard();
   part["haptic"]["foreign_patches"] = heard.patches.foreign;

@@ -9,7 +9,7 @@
 namespace palpate::haptic {
 namespace {
 
-constexpr std::uint64_t publish_every = 50;  // ticks
+constexpr std::int64_t publish_every_ns = 50'000'000;
 constexpr std::int64_t finish_within_ns = 100'000'000;
 
 }  // namespace
@@ -19,10 +19,21 @@ void RealtimeLoop::start() {
   watchdog_ = std::thread([this] { watch(); });
 }
 
-void RealtimeLoop::finish() {
+bool RealtimeLoop::finish() {
   stop_.store(true);
-  if (thread_.joinable()) thread_.join();
+  const auto end = std::chrono::steady_clock::now() + leave_behind_after;
+  while (thread_.joinable() && !done_.load() && std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  if (thread_.joinable()) {
+    left_behind_ = !done_.load();
+    if (left_behind_)
+      thread_.detach();
+    else
+      thread_.join();
+  }
+  leave_.store(true);
   if (watchdog_.joinable()) watchdog_.join();
+  return !left_behind_;
 }
 
 /// A tool whose session is taken back has no motors on.
@@ -62,16 +73,20 @@ void RealtimeLoop::tick_tool(ToolChannel& channel, HapticSession& session, std::
   const bool fault = session.state() == HapticState::fault && before != HapticState::fault;
   if (fault || watchdog_stops_.load(std::memory_order_relaxed) != stats_.watchdog_stops)
     channel.flight.trigger();
-  channel.reports.write(
-      {session.state(), session.controller().refusal(), session.counts(), session.first_run_ns()});
+  channel.reports.write({session.state(), session.controller().refusal(), session.counts(),
+                         session.first_run_ns(), session.fault_cause(), session.temperature(),
+                         session.controller().thermal_gain()});
 }
 
 void RealtimeLoop::tick_tools(std::int64_t woke_ns) noexcept {
-  for (const auto& channel : channels_) {
-    if (HapticSession* session = channel->session.hold(ToolChannel::loop))
-      tick_tool(*channel, *session, woke_ns);
-    channel->session.let_go(ToolChannel::loop);
+  for (std::size_t tool = 0; tool < channels_.size(); ++tool) {
+    ToolChannel& channel = *channels_[tool];
+    in_tool_.store(static_cast<int>(tool), std::memory_order_relaxed);
+    if (HapticSession* session = channel.session.hold(ToolChannel::loop))
+      tick_tool(channel, *session, woke_ns);
+    channel.session.let_go(ToolChannel::loop);
   }
+  in_tool_.store(-1, std::memory_order_relaxed);
 }
 
 /// @param cpu_ns  of this thread when it woke
@@ -84,7 +99,8 @@ void RealtimeLoop::measure(const Ticker::Wake& wake, std::int64_t cpu_ns) noexce
   stats_.watchdog_stops = watchdog_stops_.load(std::memory_order_relaxed);
   stats_.compute.add(1e-3 * static_cast<double>(now_ns() - wake.woke_ns));
   stats_.compute_cpu.add(1e-3 * static_cast<double>(thread_cpu_ns() - cpu_ns));
-  if (stats_.ticks % publish_every != 0) return;
+  if (wake.woke_ns - published_ns_ < publish_every_ns) return;
+  published_ns_ = wake.woke_ns;
   const ThreadUsage usage = usage_of_this_thread();
   if (stats_.ticks <= static_cast<std::uint64_t>(rate_Hz_)) warm_ = usage;
   stats_.page_faults = usage.page_faults - warm_.page_faults;
@@ -119,7 +135,7 @@ void RealtimeLoop::watch() noexcept {
   std::uint64_t seen = 0;
   std::int64_t seen_ns = now_ns();
   bool stopped = false;
-  while (!done_.load()) {
+  while (!done_.load() && !leave_.load()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
     const std::uint64_t beat = heartbeat_.load(std::memory_order_acquire);
     if (beat == 0 || beat != seen) {

@@ -21,6 +21,9 @@ struct SessionReport {
   ArmRefusal refusal = ArmRefusal::none;
   SessionCounts counts;
   std::int64_t first_run_ns = 0;
+  FaultCause cause = FaultCause::none;  // of state fault
+  double temperature = -1;              // of the motors, 1 = their limit; below 0: unknown
+  double thermal_gain = 1;              // what that leaves of the force
 };
 
 /// A session in real time whose motors are switched on by a slow thread. @throws InputError as HapticSession does

@@ -36,9 +36,17 @@ struct WatchedDevice {
   // what the test asks for
   std::atomic<std::uint32_t> unplugged{0}, estop{0}, let_go{0};
   std::atomic<std::uint32_t> crash{0};  // 1: a thread of the driver reads from nowhere; 2: it calls exit(3)
+  std::atomic<std::uint32_t> block_read_ms{0};  // each read takes so long
+  std::atomic<std::uint32_t> hang_open{0}, hang_read{0}, hang_enable{0},
+      hang_close{0};                       // the call does not come back while this is set
+  std::atomic<std::uint32_t> dropped{0};   // it has switched its motors off by itself, without a fault
+  std::atomic<std::uint32_t> dead{0};      // HDEV_FAULT_SILENT
+  std::atomic<std::uint32_t> nonsense{0};  // positions are not numbers
+  std::atomic<double> temperature{-1};     // of its motors
+  std::array<char, 96> words{};            // last_error() of the open device
   // what was called
-  std::atomic<std::uint64_t> opened{0}, closed{0}, calibrated{0}, enabled{0}, disabled{0}, stops{0}, reads{0},
-      writes{0};
+  std::atomic<std::uint64_t> opening{0}, opened{0}, closed{0}, calibrated{0}, enabled{0}, disabled{0},
+      stops{0}, reads{0}, writes{0};
   std::atomic<std::uint64_t> after_lost{
       0};                                 // calls but close() after read() has said that the device is lost
   std::atomic<std::uint32_t> powered{0};  // now

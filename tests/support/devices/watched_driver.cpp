@@ -57,6 +57,9 @@ struct hdev {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
   }
+  static void hang(const std::atomic<std::uint32_t>& while_set) {
+    while (while_set.load() != 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
   void called() noexcept {
     if (lost.load()) watched->after_lost.fetch_add(1);
   }
@@ -72,6 +75,8 @@ hdev_status open_watched(const hdev_host* host, const char*, const char* const* 
   if (file == nullptr) return HDEV_E_ARG;
   try {
     auto device = std::make_unique<hdev>(file);
+    device->watched->opening.fetch_add(1);
+    hdev::hang(device->watched->hang_open);
     open_trouble = "unplugged";
     if (device->watched->unplugged.load() != 0) return HDEV_E_NODEV;
     device->host = host;
@@ -96,7 +101,7 @@ hdev_status enumerate_watched(const hdev_host*, char (*)[64], std::uint32_t, std
 hdev_status info_watched(hdev* device, hdev_info* info) {
   device->called();
   const hdev_status status = inner_api()->get_info(device->inner, info);
-  info->caps |= HDEV_CAP_DEADMAN;
+  info->caps |= HDEV_CAP_DEADMAN | HDEV_CAP_TEMPERATURE;
   return status;
 }
 
@@ -113,21 +118,25 @@ hdev_status power_watched(hdev* device, std::uint32_t on) {
   device->called();
   if (on == 0) cut_power(device);
   (on != 0 ? device->watched->enabled : device->watched->disabled).fetch_add(1);
+  hdev::hang(device->watched->hang_enable);
   device->watched->powered.store(on);
   return inner_api()->enable_force(device->inner, on);
 }
 
 void close_watched(hdev* device) {
   if (device == nullptr) return;
-  device->watched->closed.fetch_add(1);
   cut_power(device);
+  hdev::hang(device->watched->hang_close);
+  device->watched->closed.fetch_add(1);
   device->end.store(true);
   if (device->trouble.joinable()) device->trouble.join();
   inner_api()->close(device->inner);
   delete device;
 }
 
-const char* error_of(hdev* device) { return device == nullptr ? open_trouble : ""; }
+const char* error_of(hdev* device) {
+  return device == nullptr ? open_trouble : device->watched->words.data();
+}
 
 hdev_status attach_watched(hdev* device) {
   device->called();
@@ -138,6 +147,9 @@ hdev_status attach_watched(hdev* device) {
 hdev_status read_watched(hdev* device, hdev_state* state, std::uint32_t timeout_us) {
   device->called();
   device->watched->reads.fetch_add(1);
+  if (const std::uint32_t ms = device->watched->block_read_ms.load(); ms > 0)
+    std::this_thread::sleep_for(std::chrono::milliseconds(ms));
+  hdev::hang(device->watched->hang_read);
   if (device->watched->unplugged.load() != 0) {
     device->lost.store(true);
     return HDEV_E_LOST;
@@ -148,6 +160,13 @@ hdev_status read_watched(hdev* device, hdev_state* state, std::uint32_t timeout_
   state->deadman = device->watched->let_go.load() == 0 ? 1u : 0u;
   state->fault = device->watched->estop.load() != 0 ? std::uint32_t{HDEV_FAULT_ESTOP} : 0u;
   state->cal = device->calibrated ? HDEV_CAL_OK : HDEV_CAL_NEEDED;
+  if (device->watched->temperature.load() >= 0) {
+    state->valid |= HDEV_CAP_TEMPERATURE;
+    state->temperature = device->watched->temperature.load();
+  }
+  if (device->watched->dead.load() != 0) state->fault |= HDEV_FAULT_SILENT;
+  if (device->watched->dropped.load() != 0) state->force_enabled = 0;
+  if (device->watched->nonsense.load() != 0) state->pos[1] = std::nan("");
   return status;
 }
 

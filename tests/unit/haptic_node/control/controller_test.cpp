@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "tests/unit/haptic_node/virtual_world.h"
 
@@ -71,6 +72,23 @@ TEST(Controller, LatchesAFaultWhenTheDeviceIsLost) {
   }
   EXPECT_EQ(bench.controller.state(), HapticState::fault);
   EXPECT_EQ(bench.controller.faults(), 1u);
+  EXPECT_EQ(bench.controller.fault_cause(), FaultCause::lost);
+}
+
+TEST(FaultCause, HasWordsForEachAndSaysWhatAPersonDidFirst) {
+  for (std::uint32_t i = 0; i < n_fault_causes; ++i) {
+    const auto cause = static_cast<FaultCause>(i);
+    EXPECT_EQ(i == 0, std::string(text_of(cause)).empty()) << i;
+    EXPECT_EQ(i == 0, std::string(advice_of(cause)).empty()) << i;
+    for (std::uint32_t j = 0; j < i; ++j)
+      EXPECT_STRNE(text_of(cause), text_of(static_cast<FaultCause>(j))) << i << " and " << j;
+    // "rt: fifo=yes mlock=yes; tip: fault: TEXT; ADVICE, palpate reset tip" in the note of a status
+    EXPECT_LE(std::string(text_of(cause)).size() + std::string(advice_of(cause)).size(), 127u - 60u) << i;
+  }
+  EXPECT_EQ(cause_of(0), FaultCause::none);
+  for (std::uint32_t bit = 0; bit < 32; ++bit) EXPECT_NE(cause_of(1u << bit), FaultCause::none) << bit;
+  EXPECT_EQ(cause_of(HDEV_FAULT_ESTOP | HDEV_FAULT_FORCE_OFF | HDEV_FAULT_INTERNAL),
+            FaultCause::emergency_stop);
 }
 
 TEST(Controller, FaultsOnFaultBits) {

@@ -98,6 +98,94 @@ TEST(DeviceFault, AnEmergencyStopIsLatchedInOneTick) {
   EXPECT_EQ(world.file->powered, 0u);
 }
 
+struct Trouble {
+  const char* name;
+  void (*begin)(palpate::test::WatchedDevice&);
+  FaultCause cause;
+  int ticks;  // at most
+};
+
+TEST(DeviceFault, EachCauseIsNamedOnceAndLatched) {
+  const Trouble troubles[] = {
+      {"unplugged", [](auto& device) { device.unplugged = 1; }, FaultCause::lost, 1},
+      {"button", [](auto& device) { device.estop = 1; }, FaultCause::emergency_stop, 1},
+      {"not a number", [](auto& device) { device.nonsense = 1; }, FaultCause::impossible, 3},
+      {"too warm", [](auto& device) { device.temperature = 1.0; }, FaultCause::overtemp, 1},
+      {"forces off", [](auto& device) { device.dropped = 1; }, FaultCause::force_off, 1},
+  };
+  for (const Trouble& trouble : troubles) {
+    WatchedWorld world(scene_with(HandModel::rigid, in_and_out()));
+    world.run(1000);
+    ASSERT_GT(world.fz(), 1.0) << trouble.name;
+    ASSERT_EQ(world.session->fault_cause(), FaultCause::none) << trouble.name;
+    trouble.begin(*world.file);
+    world.run(trouble.ticks);
+    EXPECT_EQ(world.session->state(), HapticState::fault) << trouble.name;
+    EXPECT_EQ(world.session->fault_cause(), trouble.cause) << trouble.name;
+    EXPECT_EQ(world.fz(), 0.0) << trouble.name;
+    // The trouble is over: the cause stays, no force comes back, wherever the hand goes.
+    new (&*world.file) palpate::test::WatchedDevice;
+    world.run(2000, [&] { ASSERT_EQ(world.fz(), 0.0) << trouble.name; });
+    EXPECT_EQ(world.session->fault_cause(), trouble.cause) << trouble.name;
+    EXPECT_EQ(world.file->powered, 0u) << trouble.name;
+  }
+}
+
+/// What the host itself switches off, or a hand that lets go, is no fault of the device.
+TEST(DeviceFault, MotorsThatWereAskedToStopAreNoFault) {
+  WatchedWorld world(scene_with(HandModel::rigid, in_and_out()));
+  world.run(1000);
+  world.session->stop_motors();
+  world.file->dropped = 1;
+  world.run(50);
+  world.file->dropped = 0;
+  world.run(2000);
+  EXPECT_EQ(world.session->counts().faults, 0u);
+  EXPECT_EQ(world.session->state(), HapticState::run);
+}
+
+TEST(DeviceFault, WarmMotorsGetLessForceAndNoneBeforeTheirLimit) {
+  WatchedWorld world(scene_with(HandModel::rigid, {{0, {0, 0, 0.02}},
+                                                   {0.3, {0, 0, -0.004}},
+                                                   {3, {0, 0, -0.004}},
+                                                   {3.2, {0, 0, 0.01}},
+                                                   {4.2, {0, 0, 0.01}},
+                                                   {4.4, {0, 0, -0.004}}}));
+  world.file->temperature = 0.5;
+  world.run(1000);
+  const double cold = world.fz();
+  ASSERT_NEAR(cold, 1.6, 1e-3);
+  double last = cold;
+  const auto never_rises = [&] {
+    ASSERT_LE(world.fz(), last + 1e-9);
+    ASSERT_GE(world.fz(), last - cold * 1e-3 / ThermalLimit::fall - 1e-9)
+        << "no drop from one tick to the next";
+    last = world.fz();
+  };
+  world.file->temperature = 0.875;
+  world.run(200, never_rises);
+  EXPECT_NEAR(world.fz(), 0.5 * cold, 1e-3);
+  EXPECT_NEAR(world.session->controller().thermal_gain(), 0.5, 1e-9);
+  world.file->temperature = 0.96;
+  world.run(200, never_rises);
+  EXPECT_EQ(world.fz(), 0.0);
+  EXPECT_EQ(world.session->state(), HapticState::run) << "no fault below the limit";
+  world.file->temperature = 0.5;  // cooled down while pressed in: nothing comes from below the hand
+  world.run(1000, never_rises);
+  EXPECT_EQ(world.fz(), 0.0);
+  world.run(3000);  // it has been outside
+  EXPECT_NEAR(world.fz(), cold, 1e-2);
+  EXPECT_NEAR(world.session->counts().temperature_max, 0.96, 1e-12);
+}
+
+TEST(DeviceFault, ATemperatureThatIsNoNumberChangesNothing) {
+  WatchedWorld world(scene_with(HandModel::rigid, in_and_out()));
+  world.run(1000);
+  world.file->temperature = std::nan("");
+  world.run(100);
+  EXPECT_NEAR(world.fz(), 1.6, 1e-3);
+}
+
 TEST(DeviceFault, WhoLetsGoFeelsNothingUntilHeldAgainOutside) {
   WatchedWorld world(scene_with(HandModel::rigid, in_and_out()));
   world.run(1000);

@@ -22,7 +22,7 @@ struct ResetTest : testing::Test {
         }) {}
 
   void live(std::chrono::milliseconds span) {
-    running.live(span, true, [this] { reset.step(running.report.state); });
+    running.live(span, true, [this] { reset.step(running.report.state, running.report.cause); });
   }
   /// Until it is so, or 5 s: this machine may be busy.
   bool becomes(HapticState state) {
@@ -67,6 +67,43 @@ TEST_F(ResetTest, StaysAFaultWhenTheDeviceCannotBeOpenedAndMayBeAskedAgain) {
   running.channels[0]->reset_asked = true;
   EXPECT_TRUE(becomes(HapticState::run));
   EXPECT_EQ(file->closed, 1u);
+}
+
+/// Nobody else is left who could hear that the motors are to stop.
+TEST_F(ResetTest, ClosesADeviceWhoseVendorsSideIsDeadAndOpensItWhenAsked) {
+  ASSERT_TRUE(becomes(HapticState::run));
+  file->dead = 1;
+  ASSERT_TRUE(becomes(HapticState::fault));
+  EXPECT_EQ(running.report.cause, FaultCause::silent);
+  for (int i = 0; i < 500 && file->closed == 0; ++i) live(10ms);
+  live(100ms);
+  EXPECT_EQ(file->closed, 1u);
+  EXPECT_EQ(file->opened, 1u);
+  EXPECT_TRUE(reset.has_session());
+  EXPECT_FALSE(reset.hangs());
+  file->dead = 0;
+  running.channels[0]->reset_asked = true;
+  ASSERT_TRUE(becomes(HapticState::run));
+  live(100ms);
+  EXPECT_EQ(file->closed, 1u);
+  EXPECT_EQ(file->opened, 2u);
+}
+
+TEST_F(ResetTest, DoesNotOpenADeviceAgainThatItsDriverHasNotLetGoOf) {
+  ASSERT_TRUE(becomes(HapticState::run));
+  file->dead = file->hang_close = 1;
+  ASSERT_TRUE(becomes(HapticState::fault));
+  for (int i = 0; i < 500 && !reset.hangs(); ++i) live(10ms);
+  EXPECT_TRUE(reset.hangs());
+  EXPECT_EQ(file->powered, 0u);
+  running.channels[0]->reset_asked = true;
+  live(100ms);
+  EXPECT_EQ(file->opened, 1u);
+  file->dead = file->hang_close = 0;
+  for (int i = 0; i < 500 && file->closed == 0; ++i) live(10ms);
+  running.channels[0]->reset_asked = true;
+  ASSERT_TRUE(becomes(HapticState::run)) << "it has come back after all";
+  EXPECT_EQ(file->opened, 2u);
 }
 
 TEST_F(ResetTest, LeavesAToolWithoutAFaultAlone) {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "haptic_node/loop/haptic_summary.h"
+#include "haptic_node/loop/rate_meter.h"
 #include "tests/unit/haptic_node/loop/running_loop.h"
 
 namespace palpate::haptic::test {
@@ -47,6 +48,28 @@ TEST(RealtimeLoop, EndsWithNoForceAndClosedDevices) {
   EXPECT_LT(least, 1s);
 }
 
+/// 1000 Hz for two seconds, then 300 ms for each tick, as a driver does that blocks.
+TEST(RateMeter, CountsTicksOfTheWallClockWhateverTheLoopDoes) {
+  RateMeter meter;
+  std::int64_t now = 5'000'000'000;
+  std::uint64_t ticks = 70;
+  EXPECT_EQ(meter.take(ticks, now), 0.0);
+  double rate = 0;
+  for (int i = 0; i < 10; ++i) rate = meter.take(ticks += 200, now += 200'000'000);
+  EXPECT_NEAR(rate, 1000.0, 1e-6);
+  double slowest = 1e9, fastest = 0;
+  for (int ms = 200; ms <= 9000; ms += 200) {
+    rate = meter.take(ticks + static_cast<std::uint64_t>(ms / 300), now + ms * 1'000'000ll);
+    if (ms < 1400) continue;
+    slowest = std::min(slowest, rate);
+    fastest = std::max(fastest, rate);
+  }
+  EXPECT_GE(slowest, 2.0);  // of a true 3.33: one tick more or less in a second
+  EXPECT_LE(fastest, 4.5);
+  for (int i = 0; i < 8; ++i) rate = meter.take(ticks + 30, now + 9'000'000'000 + i * 200'000'000ll);
+  EXPECT_EQ(rate, 0.0) << "a loop that stands still";
+}
+
 TEST(HapticSummary, HasTheKeysOfASummary) {
   LoopStats stats;
   stats.ticks = 1001;
@@ -60,7 +83,10 @@ TEST(HapticSummary, HasTheKeysOfASummary) {
   SessionReport other = report;
   report.counts.force_max = 2;
   other.counts.torque_max = 0.03;
-  const nlohmann::json haptic = haptic_summary(stats, {report, other}, 0)["haptic"];
+  const nlohmann::json haptic = haptic_summary(stats, {report, other}, 0,
+                                               {{"tip", 1.5, FaultCause::overtemp, "warm motors"}})["haptic"];
+  EXPECT_EQ(haptic["fault_causes"][0]["cause"], "overtemp");
+  EXPECT_EQ(haptic["fault_causes"][0]["driver"], "warm motors");
   EXPECT_NEAR(haptic["rate_Hz"].get<double>(), 1000, 1e-9);
   EXPECT_EQ(haptic["stale_events"], 4);
   EXPECT_EQ(haptic["energy_max_J"], 1e-3);

@@ -1,0 +1,83 @@
+#include "haptic_node/loop/tool_watch.h"
+
+#include <fmt/format.h>
+
+#include "common/report/log.h"
+
+namespace palpate::haptic {
+namespace {
+
+double percent(double share) { return 100.0 * share; }
+
+}  // namespace
+
+void ToolWatch::say_fault(FaultCause cause, double t, const std::string& words) {
+  const std::string said = words.empty() ? std::string() : fmt::format(" ({})", words);
+  log_error("{}: fault: {}{}; forces are off. {}, then `palpate reset {}` opens the device anew",
+            channel_.name, text_of(cause), said, advice_of(cause), channel_.name);
+  if (records_.size() < most_records) records_.push_back({channel_.name, t, cause, words});
+}
+
+/// Once each: warm motors stay warm for minutes.
+void ToolWatch::say_heat() {
+  const double gain = report_.thermal_gain, heat = percent(report_.temperature);
+  if (gain < 1 && !said_warm_) {
+    said_warm_ = true;
+    log_warn("{}: its motors are at {:.0f} % of their limit; the force goes down to nothing at {:.0f} %",
+             channel_.name, heat, percent(ThermalLimit::hot));
+  }
+  if (gain <= 0 && !said_hot_) {
+    said_hot_ = true;
+    log_warn("{}: no force, since its motors are at {:.0f} % of their limit; let them cool down",
+             channel_.name, heat);
+  }
+  if (gain >= 1) said_warm_ = said_hot_ = false;
+}
+
+void ToolWatch::look(double t) {
+  const SessionReport* newest = channel_.reports.newest();
+  if (newest == nullptr) return;
+  const bool fault = newest->state == HapticState::fault && report_.state != HapticState::fault;
+  const bool first = newest->first_run_ns > 0 && report_.first_run_ns == 0;
+  report_ = *newest;
+  if (first) log_info("{}: forces are on", channel_.name);
+  if (report_.counts.late_calls > 0 && !said_late_ && !fault) {
+    said_late_ = true;
+    log_warn(
+        "{}: its driver held up a tick for {:.0f} ms; forces begin anew after that (said once, counted as "
+        "late_calls)",
+        channel_.name, 1e3 * report_.counts.longest_call);
+  }
+  if (fault && !stuck_) {
+    const HapticSession* session = channel_.session.get();
+    say_fault(report_.cause, t, session == nullptr ? std::string() : session->driver_words());
+  } else if (!fault) {
+    say_heat();
+  }
+}
+
+void ToolWatch::look_at_call(std::int64_t ns, double t) {
+  if (ns > stuck_ns && !stuck_) {
+    stuck_ = true;
+    say_fault(FaultCause::blocked, t, fmt::format("no answer for {:.1f} s", seconds_from_ns(ns)));
+  }
+  if (ns == 0 && report_.state != HapticState::fault) stuck_ = false;
+}
+
+std::string ToolWatch::note(bool opening) const {
+  const std::string& name = channel_.name;
+  if (opening) return name + ": opening";
+  if (failed()) {
+    const FaultCause cause = stuck_ ? FaultCause::blocked : report_.cause;
+    return fmt::format("{}: fault: {}; {}, palpate reset {}", name, text_of(cause), advice_of(cause), name);
+  }
+  std::string note = fmt::format("{}: {}", name, name_of(report_.state));
+  const bool waits = report_.state == HapticState::ready || report_.state == HapticState::safe;
+  if (waits && report_.refusal != ArmRefusal::none) note += fmt::format(" ({})", text_of(report_.refusal));
+  if (report_.thermal_gain < 1)
+    note += fmt::format(" (motors at {:.0f} % of their limit, {:.0f} % of the force)",
+                        percent(report_.temperature), percent(report_.thermal_gain));
+  return note;
+}
+
+}  // namespace palpate::haptic

@@ -1,0 +1,55 @@
+#pragma once
+// What the slow thread makes of the reports of one tool: each new trouble in one line with its cause, once; what the status
+// says of the tool now; and what the summary keeps.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "haptic_node/loop/tool_channel.h"
+
+namespace palpate::haptic {
+
+/// A latched fault, for the summary.
+struct FaultRecord {
+  std::string tool;
+  double t = 0;  // since the loop began [s]
+  FaultCause cause = FaultCause::none;
+  std::string words;  // of the driver; empty: it says nothing
+};
+
+class ToolWatch {
+ public:
+  static constexpr std::size_t most_records = 32;
+  /// The thread of the loop has been in the driver for so long: told at once, it may never come back.
+  static constexpr std::int64_t stuck_ns = 1'000'000'000;
+
+  explicit ToolWatch(ToolChannel& channel) : channel_(channel) {}
+
+  /// Every few milliseconds. Takes the newest report, says what is new.
+  /// @param t  since the loop began [s]
+  void look(double t);
+
+  /// The loop is in this tool's driver and has not come back for `ns`; 0: it has, or is elsewhere.
+  void look_at_call(std::int64_t ns, double t);
+
+  const SessionReport& report() const noexcept { return report_; }
+  bool stuck() const noexcept { return stuck_; }
+  bool failed() const noexcept { return stuck_ || report_.state == HapticState::fault; }
+  const std::vector<FaultRecord>& records() const noexcept { return records_; }
+
+  /// "tip: run", "tip: ready (inside the tissue, move out)", "tip: fault: its motors are too warm; let it cool down, then ..."
+  std::string note(bool opening) const;
+
+ private:
+  void say_fault(FaultCause cause, double t, const std::string& words);
+  void say_heat();
+
+  ToolChannel& channel_;
+  SessionReport report_;
+  bool stuck_ = false;
+  bool said_late_ = false, said_warm_ = false, said_hot_ = false;
+  std::vector<FaultRecord> records_;
+};
+
+}  // namespace palpate::haptic
