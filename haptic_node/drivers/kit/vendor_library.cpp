@@ -30,8 +30,10 @@ VendorLibrary::VendorLibrary(const std::string& what, const std::string& given,
                   what, said, path == nullptr || *path == '\0' ? "empty" : path));
 }
 
+void* VendorLibrary::look_up(const char* name) const noexcept { return dlsym(handle_, name); }
+
 void* VendorLibrary::address(const char* name) const {
-  void* found = dlsym(handle_, name);
+  void* found = look_up(name);
   if (found == nullptr)
     throw Trouble(HDEV_E_SDK, fmt::format("{} lacks {}() ({}); another version of {} is needed", file_, name,
                                           dlerror(), what_));

@@ -21,11 +21,17 @@ class VendorLibrary {
   void find(const char* name, Function*& function) const {
     function = reinterpret_cast<Function*>(address(name));
   }
+  /// The same for one that older versions lack: null then.
+  template <class Function>
+  void find_if_there(const char* name, Function*& function) const noexcept {
+    function = reinterpret_cast<Function*>(look_up(name));
+  }
 
   const std::string& file() const noexcept { return file_; }
 
  private:
   void* address(const char* name) const;
+  void* look_up(const char* name) const noexcept;
   std::string what_;
   std::string file_;
   void* handle_ = nullptr;

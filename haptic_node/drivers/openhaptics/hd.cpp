@@ -12,6 +12,7 @@ Hd::Hd(const std::string& file)
   library.find("hdGetErrorString", get_error_string);
   library.find("hdEnable", enable);
   library.find("hdDisable", disable);
+  library.find_if_there("hdIsEnabled", is_enabled);
   library.find("hdGetDoublev", get_doubles);
   library.find("hdGetIntegerv", get_integers);
   library.find("hdGetString", get_string);

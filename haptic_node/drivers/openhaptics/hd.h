@@ -99,6 +99,7 @@ struct Hd {
   const char* (*get_error_string)(unsigned int code);
   void (*enable)(HDenum what);
   void (*disable)(HDenum what);
+  unsigned char (*is_enabled)(HDenum what);  // null where the library lacks it
   void (*get_doubles)(HDenum what, double* values);
   void (*get_integers)(HDenum what, int* values);
   const char* (*get_string)(HDenum what);

@@ -19,8 +19,6 @@ constexpr double mm = 1e-3;    // [m]
 constexpr double mN_m = 1e-3;  // [N m]
 constexpr std::size_t most_motors = 8;
 
-unsigned int nothing(void*) { return HD_CALLBACK_DONE; }
-
 double one_double(const Hd& hd, HDenum what) {
   std::array<double, 16> values{};
   hd.get_doubles(what, values.data());
@@ -42,20 +40,38 @@ void copy_text(char (&to)[N], const char* from) {
 
 HdDevice::HdDevice(const hdev_host& host, const Hd& hd, const std::string& name, unsigned long rate_Hz)
     : OpenDevice(host), hd_(hd), rate_Hz_(rate_Hz) {
+  heard_ns_ = now_ns();
   open_scheduled(hd_, name, rate_Hz, frame, this, prepare, scheduled_);
 }
 
-/// Zero force first, then the motors, then the device.
+/// Zero force first, then the motors, then the device. Frames do that, where they come; whoever waits for a dead scheduler
+/// waits for ever, so that the motors are off before libHD is asked to stop it.
 HdDevice::~HdDevice() {
   wanted_.store(false);
-  settle();
+  if (!settled()) switch_off_from_here();
   close_scheduled(hd_, scheduled_);
 }
 
-/// Waits for frames that do what wanted_ says.
-void HdDevice::settle() {
-  for (int i = 0; i < 100 && powered_.load() != wanted_.load() && !lost_.load(); ++i)
-    hd_.schedule_synchronous(nothing, nullptr, HD_DEFAULT_SCHEDULER_PRIORITY);
+/// Waits for a frame that has switched the motors off. @return false if none comes
+bool HdDevice::settled() const noexcept {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::nanoseconds(dead_ns);
+  while (powered_.load() && !lost_.load()) {
+    if (dead_.load() || std::chrono::steady_clock::now() >= end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return true;
+}
+
+/// Not the vendor's thread, which calls back no more, or hangs in the middle of a frame.
+void HdDevice::switch_off_from_here() noexcept {
+  leave_alone_.store(true);
+  std::this_thread::sleep_for(std::chrono::milliseconds(2));  // a frame that has just begun ends
+  hd_.make_current(scheduled_.device);
+  if (frame_part_.load() != FramePart::open) hd_.begin_frame(scheduled_.device);
+  set_effort({});
+  hd_.end_frame(scheduled_.device);
+  hd_.disable(HD_FORCE_OUTPUT);
+  powered_.store(false);
 }
 
 void HdDevice::prepare(void* self) {
@@ -121,7 +137,10 @@ void HdDevice::power(bool on) {
 }
 
 std::string HdDevice::last_words() const {
-  const unsigned int code = last_code_.load();
+  if (dead_.load())
+    return fmt::format("the scheduler of libHD has not called back for {} ms", dead_ns / 1'000'000);
+  if (dropped_.load() && fault_code_.load() == HD_SUCCESS) return "hdIsEnabled: force output is off";
+  const unsigned int code = fault_code_.load() != HD_SUCCESS ? fault_code_.load() : last_code_.load();
   if (code == HD_SUCCESS) return {};
   return fmt::format("{}{} (0x{:04x})", lost_.load() ? "unplugged: " : "", hd_.get_error_string(code), code);
 }
@@ -130,7 +149,7 @@ std::string HdDevice::last_words() const {
 unsigned int HdDevice::frame(void* self) {
   auto& device = *static_cast<HdDevice*>(self);
   const Hd& hd = device.hd_;
-  if (device.lost_.load()) return HD_CALLBACK_CONTINUE;
+  if (device.lost_.load() || device.leave_alone_.load()) return HD_CALLBACK_CONTINUE;
   static thread_local const int scheduler_thread = gettid();  // another one after each rest of the scheduler
   device.scheduler_thread_.store(scheduler_thread);
   device.frame_part_.store(FramePart::outside);
@@ -151,8 +170,9 @@ unsigned int HdDevice::frame(void* self) {
   if (wanted || was_on) device.set_effort(effort);
   hd.end_frame(device.scheduled_.device);
   device.frame_part_.store(FramePart::outside);
-  if (wanted && !was_on) hd.enable(HD_FORCE_OUTPUT);
+  if (wanted && !was_on) hd.enable(HD_FORCE_OUTPUT), device.on_since_ = device.seq_;
   if (!wanted && was_on) hd.disable(HD_FORCE_OUTPUT);
+  if (wanted && was_on) device.look_at_force_output();
   device.powered_.store(wanted);
   device.frame_part_.store(FramePart::none);
 
@@ -214,6 +234,7 @@ void HdDevice::heed_errors(Sample& sample) noexcept {
     const Meaning meaning = meaning_of(error.code);
     failed = failed || meaning.transfer_failed;
     fault_ |= meaning.fault;
+    if (meaning.fault != 0 && fault_code_.load() == HD_SUCCESS) fault_code_.store(error.code);
   }
   failed_in_a_row_ = failed ? failed_in_a_row_ + 1 : 0;
   if (failed) sample.status = HDEV_E_COMM;
@@ -223,11 +244,33 @@ void HdDevice::heed_errors(Sample& sample) noexcept {
   lost_.store(true);
 }
 
+/// Whether the device has switched its forces off without an error.
+void HdDevice::look_at_force_output() noexcept {
+  if (hd_.is_enabled == nullptr || seq_ % frames_between_looks != 0 || seq_ - on_since_ < frames_to_settle)
+    return;
+  if (hd_.is_enabled(HD_FORCE_OUTPUT) != 0) return;
+  dropped_.store(true);
+  fault_ |= HDEV_FAULT_FORCE_OFF;
+}
+
+/// The host has asked in vain once more.
+bool HdDevice::is_dead() noexcept {
+  if (++reads_in_vain_ >= reads_to_dead && now_ns() - heard_ns_ > dead_ns) dead_.store(true);
+  return dead_.load();
+}
+
 hdev_status HdDevice::read(hdev_state& state) noexcept {
   if (lost_.load()) return HDEV_E_LOST;
   const Sample* sample = samples_.newest();
-  if (sample == nullptr || sample->state.seq == last_seq_) return HDEV_E_AGAIN;
+  if (sample == nullptr || sample->state.seq == last_seq_) {
+    if (!is_dead()) return HDEV_E_AGAIN;
+    if (sample != nullptr) state = sample->state;
+    state.fault = HDEV_FAULT_SILENT;
+    return HDEV_E_FAULT;
+  }
   last_seq_ = sample->state.seq;
+  heard_ns_ = now_ns();
+  reads_in_vain_ = 0;
   if (sample->status != HDEV_OK) return sample->status;
   state = sample->state;
   state.cal = calibration_.load();

@@ -19,6 +19,13 @@ class HdDevice final : public kit::OpenDevice {
   static constexpr std::int64_t silence_ns = 20'000'000;
   /// Failed transfers in a row after which the device counts as unplugged.
   static constexpr int transfers_to_lost = 20;
+  /// Without a frame, after which the vendor's scheduler counts as dead. Why: a hundred frames; its thread may have no more
+  /// rights than any other on a busy machine. The host must have asked in vain as well: a process that was stopped finds its
+  /// own threads as late as the vendor's.
+  static constexpr std::int64_t dead_ns = 100'000'000;
+  static constexpr int reads_to_dead = 50;
+  /// Frames between two questions whether the forces are still on, and after switching them on before the first one.
+  static constexpr std::uint64_t frames_between_looks = 10, frames_to_settle = 100;
 
   /// @throws kit::Trouble
   HdDevice(const hdev_host& host, const Hd& hd, const std::string& name, unsigned long rate_Hz);
@@ -50,7 +57,10 @@ class HdDevice final : public kit::OpenDevice {
   void set_effort(const kit::Effort& effort) const noexcept;
   kit::Effort effort_due(std::int64_t now) noexcept;
   void heed_errors(Sample& sample) noexcept;
-  void settle();
+  void look_at_force_output() noexcept;
+  bool is_dead() noexcept;
+  bool settled() const noexcept;
+  void switch_off_from_here() noexcept;
 
   const Hd& hd_;
   hdev_info info_{};
@@ -59,15 +69,22 @@ class HdDevice final : public kit::OpenDevice {
 
   TripleBuffer<Sample> samples_;  // vendor's thread -> host's
   TripleBuffer<Order> orders_;    // host's thread -> vendor's
-  std::uint64_t last_seq_ = 0;    // host's
+  std::uint64_t last_seq_ = 0;    // host's, as the next two
+  std::int64_t heard_ns_ = 0;     // of the newest sample
+  int reads_in_vain_ = 0;         // since then
   std::atomic<bool> wanted_{false}, powered_{false}, lost_{false};
   std::atomic<bool> doomed_{false};  // the process is dying: motors stay off
   std::atomic<int> scheduler_thread_{0};
   std::atomic<FramePart> frame_part_{FramePart::none};
+  std::atomic<bool> dead_{false};         // the vendor's scheduler
+  std::atomic<bool> dropped_{false};      // the device switched its forces off by itself
+  std::atomic<bool> leave_alone_{false};  // frames do nothing any more
   std::atomic<std::uint32_t> calibration_{HDEV_CAL_NEEDED};
-  std::atomic<unsigned int> last_code_{HD_SUCCESS};
+  std::atomic<unsigned int> last_code_{HD_SUCCESS};   // of the newest error
+  std::atomic<unsigned int> fault_code_{HD_SUCCESS};  // of the first that took the forces away
   // Vendor's thread:
   std::uint64_t seq_ = 0;
+  std::uint64_t on_since_ = 0;  // frame in which the forces were switched on
   std::uint32_t fault_ = 0;
   int failed_in_a_row_ = 0;
 };

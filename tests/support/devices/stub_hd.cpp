@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <deque>
@@ -45,6 +46,8 @@ class Stub final : public StubHd {
     scheduled.clear();
     broken.clear();
     called.clear();
+    silent = false;
+    firm_frames = 0;
     for (auto& list : raised) list.clear();
     current = ~0u;
     pressing_since = -1;
@@ -59,6 +62,7 @@ class Stub final : public StubHd {
     const std::lock_guard<std::recursive_mutex> lock(mutex);
     raised.at(i).push_back(code);
   }
+  void fall_silent(bool yes) override { silent = yes; }
   std::vector<std::string> breaches() override {
     const std::lock_guard<std::recursive_mutex> lock(mutex);
     return broken;
@@ -70,7 +74,7 @@ class Stub final : public StubHd {
 
   void run_callbacks() {
     const std::lock_guard<std::recursive_mutex> lock(mutex);
-    if (!running) return;
+    if (!running || silent) return;
     for (std::size_t i = 0; i < scheduled.size();) {
       const bool again = scheduled[i].callback(scheduled[i].user) == 1;
       for (unsigned int d = 0; d < n_devices; ++d)
@@ -87,6 +91,7 @@ class Stub final : public StubHd {
     thread = std::thread([this] {
       while (running) {
         press();
+        make_trouble();
         run_callbacks();
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
       }
@@ -102,6 +107,36 @@ class Stub final : public StubHd {
     if (pressing_since < 0) pressing_since = t;
     devices[0].transform[14] =
         -0.5 * std::atof(depth) * (1 - std::cos(3.14159265358979 * (t - pressing_since)));
+  }
+  void make_trouble() {
+    const char* trouble = std::getenv("STUB_HD_TROUBLE");
+    const std::lock_guard<std::recursive_mutex> lock(mutex);
+    StubHdDevice& hurt = devices[0];
+    if (trouble == nullptr) return;
+    if (firm_frames < 200) {
+      if (std::hypot(hurt.force[0], hurt.force[1], hurt.force[2]) > 0.3) ++firm_frames;
+      if (firm_frames == 200) note(std::string("trouble ") + trouble);
+      return;
+    }
+    const std::string what = trouble;
+    if (what == "silent") silent = true;
+    if (what == "off" && hurt.force_on) hurt.force_on = false, note("forces off by itself");
+    if (what == "warm" && hurt.temperature < 1) {
+      hurt.temperature = std::min(1.0, hurt.temperature + 0.001);
+      if (hurt.temperature >= 1) raised[0].push_back(0x0200);
+    }
+  }
+  /// Whoever waits for the vendor's thread.
+  void wait_for_scheduler() const {
+    while (silent) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  void note(const std::string& what) {
+    called.push_back(what);
+    const char* file = std::getenv("STUB_HD_LOG");
+    std::FILE* log = file == nullptr ? nullptr : std::fopen(file, "a");
+    if (log == nullptr) return;
+    std::fprintf(log, "%s\n", what.c_str());
+    std::fclose(log);
   }
   void stop() {
     running = false;
@@ -129,7 +164,8 @@ class Stub final : public StubHd {
   std::vector<std::string> broken, called;
   unsigned int current = ~0u;
   unsigned long next_handle = 0x100000001ul;  // does not fit 32 bits, like the real one
-  std::atomic<bool> running{false};
+  std::atomic<bool> running{false}, silent{false};
+  int firm_frames = 0;
   bool threaded = false;
   double pressing_since = -1;
   std::thread thread;
@@ -150,7 +186,7 @@ EXPORT StubHd* stub_hd() { return &stub(); }
 
 EXPORT unsigned int hdInitDevice(const char* name) {
   const Lock lock(stub().mutex);
-  stub().called.push_back(std::string("init ") + (name == nullptr ? "null" : name));
+  stub().note(std::string("init ") + (name == nullptr ? "null" : name));
   if (stub().running) stub().breach("hdInitDevice while the scheduler runs");
   for (unsigned int i = 0; i < n_devices; ++i) {
     auto& device = stub().devices[i];
@@ -169,7 +205,7 @@ EXPORT unsigned int hdInitDevice(const char* name) {
 }
 EXPORT void hdDisableDevice(unsigned int handle) {
   const Lock lock(stub().mutex);
-  stub().called.push_back("disable device " + std::to_string(handle));
+  stub().note("disable device " + std::to_string(handle));
   if (handle >= n_devices || !stub().devices[handle].open)
     return stub().breach("hdDisableDevice of no device");
   if (stub().devices[handle].force_on) stub().breach("hdDisableDevice with its forces on");
@@ -216,7 +252,7 @@ EXPORT void hdEnable(unsigned int what) {
   if (what == max_force_clamping) device->clamping = true;
   if (what == force_ramping) device->ramping = true;
   if (what != force_output) return;
-  stub().called.push_back("forces on");
+  stub().note("forces on");
   if (device->calibration != 0x5000) stub().breach("forces on before the calibration");
   if (!device->clamping || !device->ramping) stub().breach("forces on without clamping and ramping");
   for (const double f : device->force)
@@ -230,14 +266,15 @@ EXPORT void hdDisable(unsigned int what) {
   if (what == max_force_clamping) device->clamping = false;
   if (what == force_ramping) device->ramping = false;
   if (what != force_output) return;
-  if (device->force_on) stub().called.push_back("forces off");
+  if (device->force_on) stub().note("forces off");
   for (const double f : device->force)
     if (f != 0 && !device->unplugged) stub().breach("forces off without zero before");
   device->force_on = false;
 }
 EXPORT unsigned char hdIsEnabled(unsigned int what) {
   const Lock lock(stub().mutex);
-  return what == force_output && stub().devices[0].force_on ? 1 : 0;
+  StubHdDevice* device = stub().subject("hdIsEnabled", false);
+  return what == force_output && device != nullptr && device->force_on ? 1 : 0;
 }
 EXPORT void hdGetDoublev(unsigned int what, double* to) {
   const Lock lock(stub().mutex);
@@ -316,7 +353,7 @@ EXPORT void hdUpdateCalibration(unsigned int style) {
   const Lock lock(stub().mutex);
   StubHdDevice* device = stub().subject("hdUpdateCalibration", false);
   if (device == nullptr) return;
-  stub().called.push_back("update calibration " + std::to_string(style));
+  stub().note("update calibration " + std::to_string(style));
   if (style != 1 && style != 2 && style != 4) stub().breach("hdUpdateCalibration of more than one style");
   if (device->calibrates_when_updated) device->calibration = 0x5000;
 }
@@ -326,12 +363,14 @@ EXPORT unsigned long hdScheduleAsynchronous(unsigned int (*callback)(void*), voi
   return stub().next_handle++;
 }
 EXPORT void hdScheduleSynchronous(unsigned int (*callback)(void*), void* user, unsigned short) {
+  stub().wait_for_scheduler();
   const Lock lock(stub().mutex);
   if (!stub().running) stub().breach("hdScheduleSynchronous while the scheduler rests");
   stub().run_callbacks();
   callback(user);
 }
 EXPORT void hdUnschedule(unsigned long handle) {
+  stub().wait_for_scheduler();
   const Lock lock(stub().mutex);
   const auto had =
       std::erase_if(stub().scheduled, [&](const Scheduled& one) { return one.handle == handle; });
@@ -344,4 +383,7 @@ EXPORT void hdSetSchedulerRate(unsigned long rate_Hz) {
 #ifndef STUB_HD_OLD
 EXPORT void hdStartScheduler() { stub().start(); }
 #endif
-EXPORT void hdStopScheduler() { stub().stop(); }
+EXPORT void hdStopScheduler() {
+  stub().wait_for_scheduler();
+  stub().stop();
+}

@@ -36,10 +36,17 @@ class StubHd {
   virtual void tick(int n) = 0;                      // runs the scheduled callbacks here
   virtual void use_thread(bool yes) = 0;             // or in a thread of the scheduler, at 1 kHz
   virtual void raise(unsigned int i, unsigned int code) = 0;  // at the end of the device's next frame
+  /// From now on no callback comes, and whoever waits for the scheduler waits until it speaks again.
+  virtual void fall_silent(bool yes) = 0;
   virtual std::vector<std::string> breaches() = 0;            // of the rules of use
   virtual std::vector<std::string> calls() = 0;               // the rare ones, in order
 };
 
+/// For tests that start whole programs, in the environment:
+///   STUB_HD_PRESSES   the hand presses by so many mm, see stub_hd.cpp
+///   STUB_HD_TROUBLE   once 0.3 N have been set 200 times: "silent" as fall_silent(); "off" forces switch themselves off;
+///                     "warm" the motors warm up to their limit within a second, where they raise HD_WARM_MOTORS
+///   STUB_HD_LOG       file to which each rare call is added as a line when it is made
 /// Exported as "stub_hd".
 using StubHdFunction = StubHd*();
 

@@ -198,6 +198,77 @@ TEST_F(OpenHaptics, SurvivesAFailedTransferAndGivesUpAnUnpluggedDevice) {
   EXPECT_THAT(driver.last_error(), HasSubstr("unplugged: Device communication error (0x0302)"));
 }
 
+TEST_F(OpenHaptics, NamesTheErrorThatTookTheForcesAndNotWhatCameAfter) {
+  DriverUnderTest driver("openhaptics");
+  bring_up(driver, hd);
+  hd.raise(0, 0x0200);
+  hd.tick(1);
+  EXPECT_EQ(driver.read(), HDEV_E_FAULT);
+  hd.raise(0, 0x0302);
+  hd.tick(3);
+  EXPECT_THAT(driver.last_error(), HasSubstr("(0x0200)"));
+}
+
+/// As a device does that gets too warm or whose switch is let go, without an error of libHD.
+TEST_F(OpenHaptics, NoticesForcesThatTheDeviceSwitchedOffByItself) {
+  DriverUnderTest driver("openhaptics");
+  bring_up(driver, hd);
+  driver.write(0.2, 0, 0);
+  hd.tick(150);
+  ASSERT_EQ(driver.read(), HDEV_OK);
+  hd.device(0).force_on = false;
+  hd.tick(20);
+  EXPECT_EQ(driver.read(), HDEV_E_FAULT);
+  EXPECT_EQ(driver.state.fault, std::uint32_t{HDEV_FAULT_FORCE_OFF});
+  EXPECT_THAT(driver.last_error(), HasSubstr("force output is off"));
+  driver.write(0.48, 0, 0);
+  hd.tick(20);
+  EXPECT_THAT(hd.device(0).force, ElementsAre(0, 0, 0));
+  EXPECT_EQ(driver.read(), HDEV_E_FAULT) << "latched";
+  EXPECT_THAT(hd.calls(), ElementsAre("init Default PHANToM", "forces on"));
+}
+
+TEST_F(OpenHaptics, DeclaresASchedulerDeadThatCallsBackNoMoreAndSwitchesOffWithoutIt) {
+  DriverUnderTest driver("openhaptics");
+  bring_up(driver, hd);
+  driver.write(1, 0, 0);
+  hd.tick(1);
+  ASSERT_EQ(driver.read(), HDEV_OK);
+  hd.fall_silent(true);
+  hdev_status status = HDEV_E_AGAIN;
+  int ms = 0;
+  for (; ms < 200 && status == HDEV_E_AGAIN; ++ms) {
+    driver.now += 1'000'000;
+    hd.tick(1);
+    status = driver.read();
+  }
+  EXPECT_EQ(status, HDEV_E_FAULT);
+  EXPECT_EQ(driver.state.fault, std::uint32_t{HDEV_FAULT_SILENT});
+  EXPECT_NEAR(ms, 101, 1);
+  EXPECT_THAT(driver.last_error(), HasSubstr("the scheduler of libHD has not called back for 100 ms"));
+  driver.stop();
+  // Closing waits for the scheduler; the motors do not.
+  std::thread closing([&] { driver.close(); });
+  for (int i = 0; i < 10'000 && hd.calls().back() != "forces off"; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  EXPECT_THAT(hd.calls(), ElementsAre("init Default PHANToM", "forces on", "forces off"));
+  EXPECT_THAT(hd.device(0).force, ElementsAre(0, 0, 0));
+  hd.fall_silent(false);
+  closing.join();
+}
+
+/// The host was away, and the vendor's thread with it: no fault, whatever the clock says.
+TEST_F(OpenHaptics, ForgivesAProcessThatWasStopped) {
+  DriverUnderTest driver("openhaptics");
+  bring_up(driver, hd);
+  driver.now += 5'000'000'000;
+  EXPECT_EQ(driver.read(), HDEV_E_AGAIN);
+  driver.now += 1'000'000;
+  EXPECT_EQ(driver.read(), HDEV_E_AGAIN);
+  hd.tick(1);
+  EXPECT_EQ(driver.read(), HDEV_OK);
+}
+
 TEST_F(OpenHaptics, SaysWhyADeviceDoesNotOpen) {
   DriverUnderTest driver("openhaptics"), second("openhaptics");
   EXPECT_THAT(driver.trouble(with_stub, "right"),
