@@ -108,10 +108,14 @@ double HapticSession::patch_age() const noexcept {
   return patches.ever() ? patches.silence(tool_state_.stamp_ns) : -1.0;
 }
 
-void HapticSession::service() noexcept {
-  if (!want_power_.exchange(false) || lost_.load()) return;
+double HapticSession::sample_age() const noexcept {
+  return read_once_ ? std::max(0.0, seconds_from_ns(tool_state_.stamp_ns - raw_.t_ns)) : 0.0;
+}
+
+hdev_status HapticSession::service() noexcept {
+  if (!want_power_.exchange(false) || lost_.load()) return HDEV_E_AGAIN;
   stopped_by_us_.store(false);
-  device_.enable_force(true);
+  return device_.enable_force(true);
 }
 
 /// Motors that were on and are off, although nobody here has asked for it.

@@ -74,7 +74,8 @@ class HapticSession {
   void listen_anew() noexcept { controller_.listen_anew(); }
 
   /// With Power::by_service: switches the motors on when a tick has asked for it. Not the ticking thread.
-  void service() noexcept;
+  /// @return HDEV_E_AGAIN if nobody has asked, else what the driver answers
+  hdev_status service() noexcept;
 
   /// Motors off now, from any thread and from signal handlers. A device that is lost is not called any more.
   void stop_motors() noexcept {
@@ -104,6 +105,8 @@ class HapticSession {
   std::string driver_words() const { return device_.last_words(); }
   /// Of the newest sample, 1 = the limit; below 0: unknown.
   double temperature() const noexcept { return temperature_; }
+  /// Of the newest sample at the last tick [s]; 0 before the first one.
+  double sample_age() const noexcept;
   const ToolState& tool_state() const noexcept { return tool_state_; }
   const TraceSample& trace() const noexcept { return trace_; }
   const SessionCounts& counts() const noexcept { return counts_; }

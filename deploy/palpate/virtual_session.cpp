@@ -1,8 +1,11 @@
 #include "deploy/palpate/virtual_session.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
 
 #include "common/process/stop_flag.h"
+#include "common/report/warnings.h"
 #include "physics_node/report/physics_summary.h"
 
 namespace palpate::deploy {
@@ -78,6 +81,15 @@ nlohmann::json VirtualSession::finish() {
                          {"force_max_N", counts.force_max},      {"torque_max_N_m", counts.torque_max},
                          {"stale_events", counts.stale_events},  {"faults", counts.faults}};
   }
+  std::vector<std::string> faults;
+  for (std::size_t n = 0; n < hands_.size(); ++n) {
+    const haptic::FaultCause cause = hands_[n]->fault_cause();
+    if (cause == haptic::FaultCause::none) continue;
+    faults.push_back(fmt::format("{}: fault: {}; no force since then", scene_.tools[n].name, haptic::text_of(cause)));
+    summary["haptic"]["fault_causes"].push_back(
+        {{"tool", scene_.tools[n].name}, {"cause", haptic::name_of(cause)}, {"text", haptic::text_of(cause)}});
+  }
+  add_warnings(summary, faults);
   if (eye_) summary["render"] = eye_->summary(wall_s_);
   return summary;
 }

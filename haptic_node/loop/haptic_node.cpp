@@ -63,11 +63,11 @@ HapticNode::HapticNode(const NodeOptions& options, const Scene& scene)
     });
   }
   set_guard();
-  for (const auto& channel : channels_) tools_.emplace_back(*channel);
+  for (const auto& channel : channels_) tools_.emplace_back(*channel, said_);
   flights_.resize(channels_.size());
   wire_ = std::make_unique<Wire>(membership(options, scene, "haptic"), channels_);
   loop_ = std::make_unique<RealtimeLoop>(channels_, rate_Hz_);
-  loop_watch_ = std::make_unique<LoopWatch>(*loop_, rate_Hz_);
+  loop_watch_ = std::make_unique<LoopWatch>(*loop_, rate_Hz_, said_);
   status_.node = NodeKind::haptic;
   status_.pid = static_cast<std::uint32_t>(getpid());
   status_.scene_checksum = scene_.checksum;
@@ -100,7 +100,7 @@ void HapticNode::serve() {
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     const CallWatch::Call call(*calls_, channels_[i]->name + ": switching its motors");
     if (HapticSession* session = channels_[i]->session.get(); session != nullptr && !CrashStop::ending())
-      session->service();
+      tools_[i].look_at_power(session->service());
     resets_[i].step(tools_[i].report().state, tools_[i].report().cause);
   }
 }
@@ -229,22 +229,26 @@ int HapticNode::run() {
 /// @return whether all are closed
 bool HapticNode::close_devices() {
   bool closed = true;
-  std::vector<std::unique_ptr<HapticSession>> sessions;
+  std::vector<std::unique_ptr<HapticSession>> sessions(channels_.size());
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     closed = closed && !resets_[i].hangs();
     channels_[i]->flight.end();
     if (resets_[i].has_session()) continue;
-    sessions.push_back(channels_[i]->session.take_back());
-    if (sessions.back() != nullptr) {
-      sessions.back()->begin_close();
+    sessions[i] = channels_[i]->session.take_back();
+    if (sessions[i] != nullptr) {
+      sessions[i]->begin_close();
     } else {
       log_error("{}: its driver does not come back from a tick; the device is left as it is",
                 channels_[i]->name);
       closed = false;
     }
   }
-  for (const auto& session : sessions)
-    if (session != nullptr && !session->close()) closed = false;
+  for (std::size_t i = 0; i < sessions.size(); ++i) {
+    if (sessions[i] == nullptr) continue;
+    const bool off = sessions[i]->close();
+    if (off) guardian_->off(i);
+    closed = closed && off;
+  }
   return closed;
 }
 
@@ -260,7 +264,7 @@ int HapticNode::leave() {
   try {
     const LoopStats* stats = loop_->stats();
     if (!options_.out.empty())
-      write_haptic_summary(options_.out, stats == nullptr ? LoopStats() : *stats, tools_, *wire_);
+      write_haptic_summary(options_.out, stats == nullptr ? LoopStats() : *stats, tools_, said_.lines(), *wire_);
   } catch (const std::runtime_error& error) {  // a disk that has filled up is nobody's mistake
     log_error("{}", error.what());
     kept = false;

@@ -52,6 +52,7 @@ class HapticNode {
   RealtimeRights rights_;
   std::unique_ptr<Guardian> guardian_;  // goes after the devices
   std::vector<std::unique_ptr<ToolChannel>> channels_;
+  Said said_;
   std::vector<ToolWatch> tools_;
   std::vector<DeviceReset> resets_;
   std::vector<int> flights_;  // written so far, by tool

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/report/json_file.h"
+#include "common/report/warnings.h"
 #include "common/time/clock.h"
 #include "common/wire/heard_report.h"
 #include "common/wire/refusals.h"
@@ -77,7 +78,8 @@ nlohmann::json haptic_summary(const LoopStats& stats, const std::vector<SessionR
   return {{"haptic", haptic}};
 }
 
-void write_haptic_summary(const std::string& out, const LoopStats& stats, const std::vector<ToolWatch>& tools,
+void write_haptic_summary(const std::string& out, const LoopStats& stats,
+                          const std::vector<ToolWatch>& tools, const std::vector<std::string>& warnings,
                           const Wire& wire) {
   std::error_code already;  // write_json says what is wrong with the folder
   std::filesystem::create_directories(out + "/parts", already);
@@ -88,6 +90,7 @@ void write_haptic_summary(const std::string& out, const LoopStats& stats, const 
     faults.insert(faults.end(), tool.records().begin(), tool.records().end());
   }
   auto part = haptic_summary(stats, reports, wire.trace_lost(), faults);
+  add_warnings(part, warnings);
   part.update(wire_report("haptic", wire.participant(), wire.states(), wire.traces(), wire.status()));
   const Wire::HeardCounts heard = wire.heard();
   part["haptic"]["foreign_patches"] = heard.patches.foreign;

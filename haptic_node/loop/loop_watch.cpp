@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "common/report/log.h"
-
 namespace palpate::haptic {
 namespace {
 
@@ -17,10 +15,10 @@ void LoopWatch::look(std::int64_t now) {
   ticks_ = ticks;
   if (loop_.watchdog_stops() == 0 || said_stop_) return;
   said_stop_ = true;
-  log_warn(
+  said_.warn(fmt::format(
       "no tick for more than {} ms: motors were switched off until the next one (said once, counted as "
       "watchdog_stops)",
-      RealtimeLoop::watchdog_ns / 1'000'000);
+      RealtimeLoop::watchdog_ns / 1'000'000));
 }
 
 double LoopWatch::measure(std::int64_t now) {
@@ -29,10 +27,10 @@ double LoopWatch::measure(std::int64_t now) {
   slow_ = now - began_ns_ > warm_up_ns && rate_Hz_ < slow * wanted_Hz_;
   if (slow_ && !said_slow_) {
     said_slow_ = true;
-    log_warn(
+    said_.warn(fmt::format(
         "{:.0f} of {:.0f} ticks a second: forces come late; ease the load of this machine, or see why a "
         "driver is slow (said once)",
-        rate_Hz_, wanted_Hz_);
+        rate_Hz_, wanted_Hz_));
   }
   return rate_Hz_;
 }

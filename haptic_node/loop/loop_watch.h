@@ -7,6 +7,7 @@
 
 #include "haptic_node/loop/rate_meter.h"
 #include "haptic_node/loop/realtime_loop.h"
+#include "haptic_node/loop/said.h"
 
 namespace palpate::haptic {
 
@@ -16,8 +17,9 @@ class LoopWatch {
   /// missing is felt as a softer wall before anything else shows it.
   static constexpr double slow = 0.9;
 
-  /// @param loop  outlives this. @param rate_Hz  that is wanted
-  LoopWatch(const RealtimeLoop& loop, double rate_Hz) : loop_(loop), wanted_Hz_(rate_Hz) {}
+  /// @param loop, said  outlive this. @param rate_Hz  that is wanted
+  LoopWatch(const RealtimeLoop& loop, double rate_Hz, Said& said)
+      : loop_(loop), said_(said), wanted_Hz_(rate_Hz) {}
 
   /// Every few milliseconds.
   void look(std::int64_t now);
@@ -32,6 +34,7 @@ class LoopWatch {
 
  private:
   const RealtimeLoop& loop_;
+  Said& said_;
   double wanted_Hz_;
   RateMeter meter_;
   std::uint64_t ticks_ = 0;

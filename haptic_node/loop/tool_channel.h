@@ -24,6 +24,7 @@ struct SessionReport {
   FaultCause cause = FaultCause::none;  // of state fault
   double temperature = -1;              // of the motors, 1 = their limit; below 0: unknown
   double thermal_gain = 1;              // what that leaves of the force
+  double sample_age = 0;                // of the newest sample [s]
 };
 
 /// A session in real time whose motors are switched on by a slow thread. @throws InputError as HapticSession does

@@ -13,8 +13,9 @@ double percent(double share) { return 100.0 * share; }
 
 void ToolWatch::say_fault(FaultCause cause, double t, const std::string& words) {
   const std::string said = words.empty() ? std::string() : fmt::format(" ({})", words);
-  log_error("{}: fault: {}{}; forces are off. {}, then `palpate reset {}` opens the device anew",
-            channel_.name, text_of(cause), said, advice_of(cause), channel_.name);
+  said_.error(
+      fmt::format("{}: fault: {}{}; forces are off. {}, then `palpate reset {}` opens the device anew",
+                  channel_.name, text_of(cause), said, advice_of(cause), channel_.name));
   if (records_.size() < most_records) records_.push_back({channel_.name, t, cause, words});
 }
 
@@ -23,15 +24,43 @@ void ToolWatch::say_heat() {
   const double gain = report_.thermal_gain, heat = percent(report_.temperature);
   if (gain < 1 && !said_warm_) {
     said_warm_ = true;
-    log_warn("{}: its motors are at {:.0f} % of their limit; the force goes down to nothing at {:.0f} %",
-             channel_.name, heat, percent(ThermalLimit::hot));
+    said_.warn(fmt::format(
+        "{}: its motors are at {:.0f} % of their limit; the force goes down to nothing at {:.0f} %",
+        channel_.name, heat, percent(ThermalLimit::hot)));
   }
   if (gain <= 0 && !said_hot_) {
     said_hot_ = true;
-    log_warn("{}: no force, since its motors are at {:.0f} % of their limit; let them cool down",
-             channel_.name, heat);
+    said_.warn(
+        fmt::format("{}: no force, since its motors are at {:.0f} % of their limit; let them cool down",
+                    channel_.name, heat));
   }
   if (gain >= 1) said_warm_ = said_hot_ = false;
+}
+
+/// What the driver says, if the session is here and not being opened anew.
+std::string ToolWatch::words() const {
+  const HapticSession* session = channel_.session.get();
+  return session == nullptr ? std::string() : session->driver_words();
+}
+
+/// Once each time: no fault, since whoever moves the device may come back.
+void ToolWatch::say_silence() {
+  const bool silent = report_.sample_age > silence_s;
+  if (silent && !silent_) {
+    silence_words_ = words();
+    said_.warn(fmt::format("{}: nothing new from the device for {:.0f} s{}{}; no force until it is back",
+                           channel_.name, report_.sample_age, silence_words_.empty() ? "" : ": ",
+                           silence_words_));
+  }
+  silent_ = silent;
+}
+
+void ToolWatch::look_at_power(hdev_status answer) {
+  if (answer == HDEV_E_AGAIN) return;
+  const bool refused = answer != HDEV_OK;
+  if (refused && !power_refused_)
+    said_.warn(fmt::format("{}: its motors do not switch on: {}", channel_.name, words()));
+  power_refused_ = refused;
 }
 
 void ToolWatch::look(double t) {
@@ -43,16 +72,16 @@ void ToolWatch::look(double t) {
   if (first) log_info("{}: forces are on", channel_.name);
   if (report_.counts.late_calls > 0 && !said_late_ && !fault) {
     said_late_ = true;
-    log_warn(
+    said_.warn(fmt::format(
         "{}: its driver held up a tick for {:.0f} ms; forces begin anew after that (said once, counted as "
         "late_calls)",
-        channel_.name, 1e3 * report_.counts.longest_call);
+        channel_.name, 1e3 * report_.counts.longest_call));
   }
   if (fault && !stuck_) {
-    const HapticSession* session = channel_.session.get();
-    say_fault(report_.cause, t, session == nullptr ? std::string() : session->driver_words());
-  } else if (!fault) {
+    say_fault(report_.cause, t, words());
+  } else if (report_.state != HapticState::fault) {
     say_heat();
+    say_silence();
   }
 }
 
@@ -64,6 +93,14 @@ void ToolWatch::look_at_call(std::int64_t ns, double t) {
   if (ns == 0 && report_.state != HapticState::fault) stuck_ = false;
 }
 
+std::string ToolWatch::why_no_force() const {
+  if (silent_)
+    return fmt::format("nothing new from the device{}{}", silence_words_.empty() ? "" : ": ", silence_words_);
+  if (report_.state == HapticState::armed && power_refused_) return "its motors do not switch on";
+  const bool waits = report_.state == HapticState::ready || report_.state == HapticState::safe;
+  return waits ? text_of(report_.refusal) : "";
+}
+
 std::string ToolWatch::note(bool opening) const {
   const std::string& name = channel_.name;
   if (opening) return name + ": opening";
@@ -72,8 +109,7 @@ std::string ToolWatch::note(bool opening) const {
     return fmt::format("{}: fault: {}; {}, palpate reset {}", name, text_of(cause), advice_of(cause), name);
   }
   std::string note = fmt::format("{}: {}", name, name_of(report_.state));
-  const bool waits = report_.state == HapticState::ready || report_.state == HapticState::safe;
-  if (waits && report_.refusal != ArmRefusal::none) note += fmt::format(" ({})", text_of(report_.refusal));
+  if (const std::string why = why_no_force(); !why.empty()) note += fmt::format(" ({})", why);
   if (report_.thermal_gain < 1)
     note += fmt::format(" (motors at {:.0f} % of their limit, {:.0f} % of the force)",
                         percent(report_.temperature), percent(report_.thermal_gain));

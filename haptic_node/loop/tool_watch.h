@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "haptic_node/loop/said.h"
 #include "haptic_node/loop/tool_channel.h"
 
 namespace palpate::haptic {
@@ -21,14 +22,20 @@ struct FaultRecord {
 class ToolWatch {
  public:
   static constexpr std::size_t most_records = 32;
+  /// A device that was heard of and has had nothing new for so long has gone, or has nobody who moves it. [s]
+  static constexpr double silence_s = 1;
   /// The thread of the loop has been in the driver for so long: told at once, it may never come back.
   static constexpr std::int64_t stuck_ns = 1'000'000'000;
 
-  explicit ToolWatch(ToolChannel& channel) : channel_(channel) {}
+  /// @param channel, said  outlive this
+  ToolWatch(ToolChannel& channel, Said& said) : channel_(channel), said_(said) {}
 
   /// Every few milliseconds. Takes the newest report, says what is new.
   /// @param t  since the loop began [s]
   void look(double t);
+
+  /// What the driver has answered to the motors' switch; HDEV_E_AGAIN: nobody has asked.
+  void look_at_power(hdev_status answer);
 
   /// The loop is in this tool's driver and has not come back for `ns`; 0: it has, or is elsewhere.
   void look_at_call(std::int64_t ns, double t);
@@ -44,11 +51,17 @@ class ToolWatch {
  private:
   void say_fault(FaultCause cause, double t, const std::string& words);
   void say_heat();
+  void say_silence();
+  std::string words() const;
+  std::string why_no_force() const;
 
   ToolChannel& channel_;
+  Said& said_;
   SessionReport report_;
   bool stuck_ = false;
   bool said_late_ = false, said_warm_ = false, said_hot_ = false;
+  bool silent_ = false, power_refused_ = false;
+  std::string silence_words_;
   std::vector<FaultRecord> records_;
 };
 

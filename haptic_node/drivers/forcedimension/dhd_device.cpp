@@ -137,8 +137,8 @@ void DhdDevice::power(bool on) {
 }
 
 std::string DhdDevice::last_words() const {
-  if (lost_.load()) return fmt::format("unplugged: {}", dhd_.get_last_error());
-  return failed_in_a_row_ > 0 ? dhd_.get_last_error() : "";
+  const char* why = why_.load();
+  return lost_.load() ? fmt::format("unplugged: {}", why) : std::string(why);
 }
 
 bool DhdDevice::measure(hdev_state& state) noexcept {
@@ -163,40 +163,56 @@ bool DhdDevice::measure(hdev_state& state) noexcept {
   return true;
 }
 
+std::uint32_t DhdDevice::because(std::uint32_t fault, const char* why) noexcept {
+  why_.store(why);
+  return fault;
+}
+
 /// Why forces are off although we switched them on.
-std::uint32_t DhdDevice::faults(const int* status) const noexcept {
-  if (status[DHD_STATUS_POWER] == 0) return HDEV_FAULT_POWER;
-  if (status[DHD_STATUS_ERROR] != 0) return HDEV_FAULT_INTERNAL;
-  if (!powered_.load() || status[DHD_STATUS_FORCE] != 0) return 0;
+std::uint32_t DhdDevice::faults(const int* status) noexcept {
+  if (status[DHD_STATUS_POWER] == 0) return because(HDEV_FAULT_POWER, "status: no power");
+  if (status[DHD_STATUS_ERROR] != 0) return because(HDEV_FAULT_INTERNAL, "status: error");
+  if (!powered_.load() || status[DHD_STATUS_FORCE] != 0) {
+    offs_in_a_row_ = 0;
+    return 0;
+  }
   switch (status[DHD_STATUS_FORCE_OFF_CAUSE]) {
     case DHD_FORCEOFF_BUTTON:
-      return HDEV_FAULT_ESTOP;
+      return because(HDEV_FAULT_ESTOP, "forces off by the force button");
     case DHD_FORCEOFF_VELOCITY:
-      return HDEV_FAULT_OVERSPEED;
+      return because(HDEV_FAULT_OVERSPEED, "forces off by the velocity threshold");
     case DHD_FORCEOFF_WATCHDOG:
-      return HDEV_FAULT_WATCHDOG;
+      return because(HDEV_FAULT_WATCHDOG, "forces off by the device's watchdog");
     case DHD_FORCEOFF_DEADMAN:
-      return HDEV_FAULT_DEADMAN;
-    default:  // between our switching and the next status, or by our own word
-      return 0;
+      return because(HDEV_FAULT_DEADMAN, "forces off by the dead man's switch");
+    default:  // at first between our switching and the next status
+      if (++offs_in_a_row_ < offs_to_fault) return 0;
+      return because(HDEV_FAULT_FORCE_OFF, "forces are off, and the device does not say why");
   }
 }
 
 hdev_status DhdDevice::failed() noexcept {
+  const char* words = dhd_.get_last_error();
+  why_.store(words == nullptr ? "" : words);
   if (++failed_in_a_row_ >= transfers_to_lost) lost_.store(true);
   return lost_.load() ? HDEV_E_LOST : HDEV_E_COMM;
+}
+
+hdev_status DhdDevice::gone(const char* why) noexcept {
+  why_.store(why);
+  lost_.store(true);
+  return HDEV_E_LOST;
 }
 
 hdev_status DhdDevice::read(hdev_state& state) noexcept {
   if (lost_.load()) return HDEV_E_LOST;
   Status status{};
   if (dhd_.get_status(status.data(), id_) < 0) return failed();
-  if (status[DHD_STATUS_CONNECTED] == 0 || status[DHD_STATUS_FORCE_OFF_CAUSE] == DHD_FORCEOFF_USBDISCN) {
-    lost_.store(true);
-    return HDEV_E_LOST;
-  }
+  if (status[DHD_STATUS_CONNECTED] == 0) return gone("not connected");
+  if (status[DHD_STATUS_FORCE_OFF_CAUSE] == DHD_FORCEOFF_USBDISCN) return gone("USB disconnected");
   state.t_ns = now_ns();
   if (!measure(state)) return failed();
+  if (failed_in_a_row_ > 0) why_.store("");
   failed_in_a_row_ = 0;
   state.seq = ++seq_;
   state.force_enabled = powered_.load() && status[DHD_STATUS_FORCE] != 0 ? 1u : 0u;

@@ -23,6 +23,9 @@ class DhdDevice final : public kit::OpenDevice {
   static constexpr double watchdog_tick = 125e-6;       // unit of the device's watchdog [s]
   static constexpr unsigned char watchdog_ticks = 240;  // 30 ms; one byte holds no more than 31.9 ms
   static constexpr int transfers_to_lost = 20;          // failed ones in a row
+  /// Samples in a row that say "no force" although it was switched on, without a cause that libdhd knows. Why: 50 ms at 1 kHz,
+  /// ten times what a command takes to come back in the status.
+  static constexpr int offs_to_fault = 50;
 
   /// @param dhd  outlives the device
   /// @throws kit::Trouble
@@ -42,8 +45,10 @@ class DhdDevice final : public kit::OpenDevice {
  private:
   void say_what_it_is();
   bool measure(hdev_state& state) noexcept;
-  std::uint32_t faults(const int* status) const noexcept;
+  std::uint32_t faults(const int* status) noexcept;
+  std::uint32_t because(std::uint32_t fault, const char* why) noexcept;
   hdev_status failed() noexcept;
+  hdev_status gone(const char* why) noexcept;
   void keep_ready_to_stop() noexcept;
   void switch_off() noexcept;
 
@@ -62,6 +67,9 @@ class DhdDevice final : public kit::OpenDevice {
   std::atomic<bool> calibrated_{false};
   std::uint64_t seq_ = 0;
   std::atomic<int> failed_in_a_row_{0};
+  int offs_in_a_row_ = 0;
+  // Of the newest trouble, static text. libdhd keeps its last error for each thread: what it says is taken where it failed.
+  std::atomic<const char*> why_{""};
 };
 
 }  // namespace palpate::haptic::forcedimension

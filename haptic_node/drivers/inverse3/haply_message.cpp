@@ -59,6 +59,14 @@ void take_grip(const json& message, HaplyState& state) {
   }
 }
 
+void take_status(const json* status, HaplyState& state) {
+  constexpr std::array<const char*, n_haply_flags> names{"power_supply", "calibrated", "ready"};
+  for (std::size_t i = 0; status != nullptr && i < names.size(); ++i) {
+    const json* flag = child(*status, names[i]);
+    if (flag != nullptr && flag->is_boolean()) state.flags[i] = flag->get<bool>() ? Said::yes : Said::no;
+  }
+}
+
 std::string with_session(const Dialect& dialect, json message, bool first) {
   if (first) message["session"]["configure"]["profile"]["name"] = dialect.profile;
   return message.dump();
@@ -86,6 +94,10 @@ bool take_update(const std::string& message, const std::string& device, HaplySta
   HaplyState next = state;
   if (!take<3>(child(*said, "cursor_position"), {"x", "y", "z"}, next.position)) return false;
   if (!take<3>(child(*said, "cursor_velocity"), {"x", "y", "z"}, next.velocity)) return false;
+  const json* applied = child(*said, "current_cursor_force");
+  next.tells_applied = applied != nullptr;
+  if (!take<3>(applied, {"x", "y", "z"}, next.applied)) return false;
+  take_status(child(*found, "status"), next);
   take_grip(parsed, next);
   state = next;
   return true;

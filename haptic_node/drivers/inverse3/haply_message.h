@@ -8,6 +8,11 @@
 
 namespace palpate::haptic::inverse3 {
 
+/// What the service says of a device's own condition.
+enum class HaplyFlag : std::size_t { power_supply, calibrated, ready };
+inline constexpr std::size_t n_haply_flags = 3;
+enum class Said : char { nothing, no, yes };
+
 /// What is known of one device. A message changes only what it mentions: the service leaves parts out.
 struct HaplyState {
   std::array<double, 3> position{};        // [m]
@@ -15,6 +20,11 @@ struct HaplyState {
   std::array<double, 4> grip{1, 0, 0, 0};  // attitude of the grip: w, x, y, z
   bool has_grip = false;
   std::uint32_t buttons = 0;  // a, b, c
+  std::array<Said, n_haply_flags> flags{};
+  std::array<double, 3> applied{};  // force that the device has been given last [N]
+  bool tells_applied = false;       // the newest message did
+
+  Said said(HaplyFlag flag) const { return flags[static_cast<std::size_t>(flag)]; }
 };
 
 /// Numbers of the devices in a message, in its order.

@@ -51,6 +51,8 @@ Inverse3Device::Inverse3Device(const hdev_host& host, const Settings& settings, 
     throw kit::Trouble(HDEV_E_NODEV,
                        fmt::format("no Inverse3 \"{}\"; the service has {}", id_, fmt::join(ids, ", ")));
   take_update(inventory, id_, known_);
+  if (known_.said(HaplyFlag::power_supply) == Said::no)
+    log(1, "the Inverse3 has no power supply: no force will be felt");
   if (!exchange(true))
     throw kit::Trouble(HDEV_E_COMM, "the Haply Inverse service does not answer with a state");
   has_grip_ = known_.has_grip;
@@ -86,7 +88,32 @@ void Inverse3Device::power(bool on) {
   wanted_.store(on);
 }
 
-std::string Inverse3Device::last_words() const { return lost_.load() ? lost_words_ : std::string(); }
+std::string Inverse3Device::last_words() const {
+  return lost_.load() ? lost_words_ : std::string(fault_words_.load());
+}
+
+void Inverse3Device::fault(std::uint32_t bit, const char* why) noexcept {
+  if (fault_ == 0) fault_words_.store(why);
+  fault_ |= bit;
+}
+
+/// What the service says of the device itself. Versions differ in what they tell: only what was once said to be so can be no
+/// longer so. @param force  that was sent with this message [N]
+void Inverse3Device::look_for_faults(const HaplyState& before, const std::array<double, 3>& force) noexcept {
+  const auto gone = [&](HaplyFlag flag) {
+    return before.said(flag) == Said::yes && known_.said(flag) == Said::no;
+  };
+  if (gone(HaplyFlag::power_supply)) fault(HDEV_FAULT_POWER, "status: power_supply is false");
+  if (gone(HaplyFlag::calibrated)) fault(HDEV_FAULT_FORCE_OFF, "status: calibrated is false");
+  if (gone(HaplyFlag::ready)) fault(HDEV_FAULT_FORCE_OFF, "status: ready is false");
+
+  const double sent = std::hypot(force[0], force[1], force[2]);
+  const bool nothing = known_.tells_applied && known_.applied == std::array<double, 3>{};
+  has_applied_ = has_applied_ || (known_.tells_applied && !nothing);
+  nothings_in_a_row_ = has_applied_ && nothing && sent >= certain_force ? nothings_in_a_row_ + 1 : 0;
+  if (nothings_in_a_row_ >= nothings_to_fault)
+    fault(HDEV_FAULT_FORCE_OFF, "current_cursor_force is none although forces are sent");
+}
 
 /// The thread of the conversation: at fixed times, one message and its answer.
 void Inverse3Device::converse() noexcept {
@@ -112,8 +139,9 @@ void Inverse3Device::converse() noexcept {
 /// One message, one answer. @return false for an answer that says nothing of the device
 /// @throws ConnectionLost
 bool Inverse3Device::exchange(bool first) {
-  forcing_.store(forcing_.load() || wanted_.load());
-  const bool powered = wanted_.load() && !doomed_.load();
+  const bool wanted = wanted_.load() && fault_ == 0;
+  forcing_.store(forcing_.load() || wanted);
+  const bool powered = wanted && !doomed_.load();
   const std::array<double, 3> force = powered ? force_due() : std::array<double, 3>{};
   // After the last force one message with none, then questions only.
   const bool with_force = forcing_.load();
@@ -123,7 +151,9 @@ bool Inverse3Device::exchange(bool first) {
   std::string answer;
   if (!socket_.receive_text(answer, answer_time))
     throw ConnectionLost("the Haply Inverse service has fallen silent");
+  const HaplyState before = known_;
   const bool good = take_update(answer, id_, known_);
+  if (good) look_for_faults(before, force);
   publish(good ? HDEV_OK : HDEV_E_COMM, force, powered);
   return good;
 }
@@ -146,6 +176,7 @@ void Inverse3Device::publish(hdev_status status, const std::array<double, 3>& fo
   state.cal = HDEV_CAL_OK;
   state.buttons = known_.buttons;
   state.force_enabled = powered ? 1u : 0u;
+  state.fault = fault_;
   Eigen::Quaterniond q(known_.grip[0], known_.grip[1], known_.grip[2], known_.grip[3]);
   const bool turned = known_.has_grip && std::abs(q.norm() - 1.0) < 1e-2;
   if (turned) state.valid |= HDEV_CAP_ROT;
@@ -154,7 +185,7 @@ void Inverse3Device::publish(hdev_status status, const std::array<double, 3>& fo
   for (std::size_t i = 0; i < 3; ++i) {
     state.pos[i] = known_.position[i];
     state.vel[i] = known_.velocity[i];
-    state.applied_force[i] = force[i];
+    state.applied_force[i] = known_.tells_applied ? known_.applied[i] : force[i];
     for (std::size_t j = 0; j < 3; ++j)
       state.R[3 * i + j] = r(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
   }
@@ -166,8 +197,9 @@ hdev_status Inverse3Device::read(hdev_state& state) noexcept {
   const Sample* sample = samples_.newest();
   if (sample == nullptr || sample->state.seq == last_seq_) return HDEV_E_AGAIN;
   last_seq_ = sample->state.seq;
-  if (sample->status == HDEV_OK) state = sample->state;
-  return sample->status;
+  if (sample->status != HDEV_OK) return sample->status;
+  state = sample->state;
+  return state.fault != 0 ? HDEV_E_FAULT : HDEV_OK;
 }
 
 hdev_status Inverse3Device::write(const kit::Effort& effort) noexcept {

@@ -38,6 +38,10 @@ class Inverse3Device final : public kit::OpenDevice {
   static constexpr std::int64_t silence_ns = 20'000'000;        // of the host, after which the force is none
   static constexpr std::chrono::milliseconds answer_time{200};  // a service that takes longer is gone
   static constexpr int bad_answers_to_lost = 20;                // in a row
+  /// Answers in a row that tell of no force at all while at least so much is sent. Why: 100 ms; filters of the service delay and
+  /// scale a force, they do not swallow it.
+  static constexpr int nothings_to_fault = 100;
+  static constexpr double certain_force = 0.2;  // [N]
 
   /// @throws kit::Trouble
   Inverse3Device(const hdev_host& host, const Settings& settings, const std::string& id);
@@ -64,6 +68,8 @@ class Inverse3Device final : public kit::OpenDevice {
   bool exchange(bool first);
   std::array<double, 3> force_due() noexcept;
   void publish(hdev_status status, const std::array<double, 3>& force, bool powered) noexcept;
+  void look_for_faults(const HaplyState& before, const std::array<double, 3>& force) noexcept;
+  void fault(std::uint32_t bit, const char* why) noexcept;
 
   Settings settings_;
   std::string id_;
@@ -77,11 +83,15 @@ class Inverse3Device final : public kit::OpenDevice {
   std::atomic<bool> forcing_{false};  // the last message held a force, perhaps none
   std::string no_force_;              // the message that ends a force, ready to be sent
   std::string lost_words_;  // written before lost_ is set, read after
+  std::atomic<const char*> fault_words_{""};  // static text
   // Host's thread:
   std::uint64_t last_seq_ = 0;
   // Conversation:
   std::uint64_t seq_ = 0;
   int bad_in_a_row_ = 0;
+  std::uint32_t fault_ = 0;
+  bool has_applied_ = false;  // it has told of a force
+  int nothings_in_a_row_ = 0;
   std::thread thread_;
 };
 

@@ -97,7 +97,7 @@ const char* kit_last_error(hdev* device) {
   if (device == nullptr) return open_trouble().c_str();
   const std::string now = device->device->last_words();
   device->words = device->trouble;
-  if (!now.empty()) device->words += (device->trouble.empty() ? "" : "; ") + now;
+  if (!now.empty() && now != device->trouble) device->words += (device->trouble.empty() ? "" : "; ") + now;
   return device->words.c_str();
 }
 

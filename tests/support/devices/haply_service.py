@@ -3,7 +3,8 @@
 
 haply_service.py FORCE_KEY MOOD LOG     prints its port, then serves one client.
   FORCE_KEY  what holds the components of a force, as this version of the service has it
-  MOOD       calm; or what it does after 100 messages: leaves, silent, garbage, deviceless; or shy: says nothing at all
+  MOOD       calm; or what it does after 100 messages: leaves, silent, garbage, deviceless; powerless, unready: its status says
+             so; limp: forces are none, which it tells; or untold: tells of no force ever; or shy: says nothing at all
   LOG        file with one line for each message of the client, written when it has gone
 The device answers each message with one state. Its x follows the force that it was sent, 1 mm for each newton, so
 that the test sees a force come back as a position; it leaves out whatever is as it was.
@@ -29,7 +30,8 @@ async def serve(socket):
     if mood == "shy":
         await asyncio.sleep(60)
     inventory = {"session_id": 7, "inverse3": [
-        {"device_id": "049D", "config": {}, "state": state_of({}), "status": {}},
+        {"device_id": "049D", "config": {}, "state": state_of({}),
+         "status": {"calibrated": True, "in_use": False, "power_supply": True, "ready": True, "started": True}},
         {"device_id": "0500", "config": {}, "state": state_of({}), "status": {}}],
         "verse_grip": [{"device_id": "61", "state": {
             "orientation": {"w": 0.70710678, "x": 0.0, "y": 0.0, "z": 0.70710678},
@@ -60,7 +62,15 @@ async def serve(socket):
             state = state_of(force)
             if n > 1:
                 del state["cursor_position"]["y"]  # as it was
-            answer = json.dumps({"inverse3": [{"device_id": device["device_id"], "state": state}]})
+            if mood in ("limp", "untold"):
+                none = mood == "untold" or n > 100
+                state["current_cursor_force"] = {c: 0.0 if none else force.get(c, 0.0) for c in "xyz"}
+            entry = {"device_id": device["device_id"], "state": state}
+            if n > 100 and mood == "powerless":
+                entry["status"] = {"power_supply": False}
+            if n > 100 and mood == "unready":
+                entry["status"] = {"ready": False}
+            answer = json.dumps({"inverse3": [entry]})
             # now and then in two frames
             await socket.send([answer[:30], answer[30:]] if n % 7 == 0 else answer)
     except websockets.ConnectionClosed:

@@ -13,6 +13,7 @@ using palpate::test::StubDhdDevice;
 
 constexpr int n_devices = 2;
 constexpr int most_status = 17;
+thread_local const char* last_error = "no error";  // each thread has its own, as with the vendor
 
 class Stub final : public StubDhd {
  public:
@@ -59,7 +60,6 @@ class Stub final : public StubDhd {
   std::condition_variable_any changed;
   std::array<StubDhdDevice, n_devices> devices;
   std::vector<std::string> broken, called;
-  const char* last_error = "no error";
   bool expert = false;
 };
 
@@ -133,7 +133,7 @@ EXPORT void dhdGetSDKVersion(int* major, int* minor, int* release, int* revision
   *release = 5;
   *revision = 0;
 }
-EXPORT const char* dhdErrorGetLastStr() { return stub().last_error; }
+EXPORT const char* dhdErrorGetLastStr() { return last_error; }
 EXPORT int dhdGetPositionAndOrientationFrame(double* x, double* y, double* z, double (*r)[3], char id) {
   const Lock lock(stub().mutex);
   StubDhdDevice* device = stub().subject("dhdGetPositionAndOrientationFrame", id);

@@ -114,7 +114,7 @@ class Stub final : public StubHd {
     StubHdDevice& hurt = devices[0];
     if (trouble == nullptr) return;
     if (firm_frames < 200) {
-      if (std::hypot(hurt.force[0], hurt.force[1], hurt.force[2]) > 0.3) ++firm_frames;
+      if (std::hypot(hurt.force[0], hurt.force[1], hurt.force[2]) > 0.1) ++firm_frames;
       if (firm_frames == 200) note(std::string("trouble ") + trouble);
       return;
     }
@@ -122,7 +122,7 @@ class Stub final : public StubHd {
     if (what == "silent") silent = true;
     if (what == "off" && hurt.force_on) hurt.force_on = false, note("forces off by itself");
     if (what == "warm" && hurt.temperature < 1) {
-      hurt.temperature = std::min(1.0, hurt.temperature + 0.001);
+      hurt.temperature = std::min(1.0, std::max(hurt.temperature, 0.75) + 0.0002);
       if (hurt.temperature >= 1) raised[0].push_back(0x0200);
     }
   }

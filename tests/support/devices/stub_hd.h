@@ -44,8 +44,8 @@ class StubHd {
 
 /// For tests that start whole programs, in the environment:
 ///   STUB_HD_PRESSES   the hand presses by so many mm, see stub_hd.cpp
-///   STUB_HD_TROUBLE   once 0.3 N have been set 200 times: "silent" as fall_silent(); "off" forces switch themselves off;
-///                     "warm" the motors warm up to their limit within a second, where they raise HD_WARM_MOTORS
+///   STUB_HD_TROUBLE   once 0.1 N have been set 200 times: "silent" as fall_silent(); "off" forces switch themselves off;
+///                     "warm" the motors warm up from 0.75 to their limit in 1250 frames, where they raise HD_WARM_MOTORS
 ///   STUB_HD_LOG       file to which each rare call is added as a line when it is made
 /// Exported as "stub_hd".
 using StubHdFunction = StubHd*();

@@ -137,6 +137,7 @@ TEST_F(ForceDimension, SaysWhyTheDeviceLetGo) {
     dhd.device(0).force_off_cause = cause;
     EXPECT_EQ(driver.read(), HDEV_E_FAULT) << cause;
     EXPECT_EQ(driver.state.fault, fault) << cause;
+    EXPECT_THAT(driver.last_error(), HasSubstr("forces off by the")) << cause;
   }
   dhd.reset();
   DriverUnderTest driver("forcedimension");
@@ -147,6 +148,38 @@ TEST_F(ForceDimension, SaysWhyTheDeviceLetGo) {
   dhd.device(0).powered = false;
   EXPECT_EQ(driver.read(), HDEV_E_FAULT);
   EXPECT_EQ(driver.state.fault, static_cast<std::uint32_t>(HDEV_FAULT_POWER));
+}
+
+/// Without a cause, or with that of its own software: some models do so when they get warm.
+TEST_F(ForceDimension, NoticesForcesThatTheDeviceSwitchedOffByItself) {
+  for (const int cause : {0, 4}) {
+    dhd.reset();
+    DriverUnderTest driver("forcedimension");
+    bring_up(driver);
+    dhd.device(0).force_on = false;
+    dhd.device(0).force_off_cause = cause;
+    int reads = 0;
+    hdev_status status = HDEV_OK;
+    for (; reads < 200 && status == HDEV_OK; ++reads) status = driver.read();
+    EXPECT_EQ(status, HDEV_E_FAULT) << cause;
+    EXPECT_EQ(reads, 50) << cause;
+    EXPECT_EQ(driver.state.fault, std::uint32_t{HDEV_FAULT_FORCE_OFF}) << cause;
+    EXPECT_THAT(driver.last_error(), HasSubstr("does not say why")) << cause;
+  }
+}
+
+/// What libdhd said in the thread that failed; it keeps its last error for each thread.
+TEST_F(ForceDimension, HandsOutTheWordsOfTheThreadThatFailed) {
+  DriverUnderTest driver("forcedimension");
+  bring_up(driver);
+  std::thread loop([&] {
+    dhd.device(0).connected = false;
+    driver.write(1, 0, 0);
+  });
+  loop.join();
+  EXPECT_THAT(driver.last_error(), HasSubstr("communication error"));
+  EXPECT_EQ(driver.read(), HDEV_E_LOST);
+  EXPECT_THAT(driver.last_error(), HasSubstr("unplugged: not connected"));
 }
 
 TEST_F(ForceDimension, SurvivesAFailedTransferAndGivesUpAnUnpluggedDevice) {

@@ -150,6 +150,51 @@ TEST(Inverse3, GivesUpAServiceThatIsNoMore) {
   }
 }
 
+TEST(Inverse3, NamesWhatTheServiceSaysOfTheDeviceAndForcesNoMore) {
+  struct Case {
+    const char* mood;
+    std::uint32_t fault;
+    const char* words;
+  };
+  for (const Case& one : {Case{"powerless", HDEV_FAULT_POWER, "power_supply is false"},
+                          Case{"unready", HDEV_FAULT_FORCE_OFF, "ready is false"},
+                          Case{"limp", HDEV_FAULT_FORCE_OFF, "current_cursor_force is none"}}) {
+    Service service(one.mood);
+    DriverUnderTest driver("inverse3");
+    ASSERT_EQ(driver.open(service.options()), HDEV_OK) << one.mood << ": " << driver.api().last_error(nullptr);
+    driver.power(true);
+    read_until(driver, [&](hdev_status s) {
+      driver.write(1, 0, 0);
+      return s == HDEV_E_FAULT;
+    });
+    EXPECT_EQ(driver.state.fault, one.fault) << one.mood;
+    EXPECT_THAT(driver.last_error(), HasSubstr(one.words)) << one.mood;
+    driver.write(1, 0, 0);
+    const std::uint64_t seq = driver.state.seq;
+    read_until(driver, [&](hdev_status s) { return s == HDEV_E_FAULT && driver.state.seq > seq + 5; });
+    EXPECT_EQ(driver.state.force_enabled, 0u) << one.mood;
+    driver.close();
+    const auto messages = service.messages();
+    EXPECT_FALSE(messages.back()["inverse3"][0]["commands"].contains("set_cursor_force"))
+        << one.mood << ": a question only";
+  }
+}
+
+/// Versions of the service that never tell of a force: no reason to take it for none.
+TEST(Inverse3, BelievesThatForcesAreFeltWhereTheServiceNeverTellsOfThem) {
+  Service service("untold");
+  DriverUnderTest driver("inverse3");
+  ASSERT_EQ(driver.open(service.options()), HDEV_OK) << driver.api().last_error(nullptr);
+  driver.power(true);
+  std::uint64_t first = 0;
+  const hdev_status last = read_until(driver, [&](hdev_status s) {
+    driver.write(1, 0, 0);
+    if (first == 0 && is_good(s)) first = driver.state.seq;
+    return s == HDEV_E_FAULT || (first > 0 && driver.state.seq > first + 400);
+  });
+  EXPECT_NE(last, HDEV_E_FAULT) << driver.last_error();
+}
+
 TEST(Inverse3, SaysWhyADeviceDoesNotOpen) {
   DriverUnderTest driver("inverse3");
   EXPECT_THAT(driver.trouble({{"service_port", "1"}}),
