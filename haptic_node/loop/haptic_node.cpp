@@ -233,7 +233,10 @@ bool HapticNode::close_devices() {
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     closed = closed && !resets_[i].hangs();
     channels_[i]->flight.end();
-    if (resets_[i].has_session()) continue;
+    if (resets_[i].has_session()) {
+      if (!resets_[i].hangs()) guardian_->off(i);
+      continue;
+    }
     sessions[i] = channels_[i]->session.take_back();
     if (sessions[i] != nullptr) {
       sessions[i]->begin_close();

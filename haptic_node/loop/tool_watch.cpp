@@ -14,7 +14,7 @@ double percent(double share) { return 100.0 * share; }
 void ToolWatch::say_fault(FaultCause cause, double t, const std::string& words) {
   const std::string said = words.empty() ? std::string() : fmt::format(" ({})", words);
   said_.error(
-      fmt::format("{}: fault: {}{}; forces are off. {}, then `palpate reset {}` opens the device anew",
+      fmt::format("{}: fault: {}{}; forces are off; {}, then `palpate reset {}` opens it anew",
                   channel_.name, text_of(cause), said, advice_of(cause), channel_.name));
   if (records_.size() < most_records) records_.push_back({channel_.name, t, cause, words});
 }
