@@ -70,6 +70,7 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
     collisions_ = std::make_unique<Collisions>(bodies_, fragments_, scene.contact);
   if (collisions_)
     for (const std::size_t b : felt) collisions_->feel(b);
+  if (bodies_.size() > 1 || any_yields_) inside_ = std::make_unique<InsideOthers>(bodies_);
   if (scene.floor) planes_.push_back({Vec3::UnitZ(), scene.floor->height});
   if (scene.floor || !scene.walls.empty())
     for (auto& body : bodies_) body->prepare_contact();
@@ -344,6 +345,7 @@ void World::frame(std::span<const std::optional<ToolState>> tools) noexcept {
   for (int n = 1; n <= n_substeps; ++n) step(dt, static_cast<double>(n) / n_substeps, n == n_substeps);
   for (LedTool* tool : led_tools_) tool->end_frame(collisions_.get(), frame_dt_);
   guard();
+  if (collisions_ && collisions_->bodies_are_near()) inside_->look_now_and_then();
   // backward_euler solves for all masses at once: none of them can be left out.
   if (scene_.physics.sleep && scene_.physics.integrator != Integrator::backward_euler)
     for (auto& body : bodies_) body->sleep_and_wake(frame_dt_);
@@ -358,6 +360,7 @@ void World::reset() noexcept {
   }
   for (auto& tool : tools_) tool->reset();
   if (collisions_) collisions_->restart();
+  if (inside_) inside_->restart();
   n_substeps_ = std::max(1, n_substeps_ >> recoveries_);
   dt_ = frame_dt_ / n_substeps_;
   recoveries_ = 0;

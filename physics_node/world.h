@@ -11,6 +11,7 @@
 #include "common/message/messages.h"
 #include "common/scene/scene.h"
 #include "physics_node/collision/collisions.h"
+#include "physics_node/collision/inside_others.h"
 #include "physics_node/contact/body_tool.h"
 #include "physics_node/contact/stick_tool.h"
 #include "physics_node/contact/tool_coupling.h"
@@ -55,6 +56,8 @@ class World {
   std::size_t n_tools() const { return tools_.size(); }
   /// Contact between bodies and fragments; null where nothing could ever touch.
   const Collisions* collisions() const { return collisions_.get(); }
+  /// Which bodies have gone into each other, as far as the frames have looked; null where a single body cannot break.
+  const InsideOthers* inside_others() const { return inside_.get(); }
   StepReport& report() { return report_; }
   const StepReport& report() const { return report_; }
   std::uint64_t state_hash() const noexcept;
@@ -96,6 +99,7 @@ class World {
   std::vector<LedTool*> led_tools_;  // those of them that move tissue themselves: bodies and sticks
   bool stick_near_ = false;          // one of them may touch in this frame
   std::unique_ptr<Collisions> collisions_;
+  std::unique_ptr<InsideOthers> inside_;
   std::vector<Plane> planes_;  // floor and walls
   std::vector<NodalForce> gathered_;
   StepReport report_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "common/error/error.h"
 #include "physics_node/body/build_lattice.h"
@@ -22,17 +23,34 @@ class OwnFrame {
     }
   }
 
-  /// Is a mass within `depth` of a face that is marked?
-  bool is_on(const std::array<bool, 6>& faces, Index cell, const Vec3& depth) const {
+  /// How deep below each face; nothing: not at all.
+  using Depths = std::array<std::optional<double>, 6>;  // [m]
+
+  /// Is a mass within that depth of a face?
+  bool is_on(const Depths& depth, Index cell) const {
     const Vec3 p = place(cell);
-    for (int axis = 0; axis < 3; ++axis) {
-      if (faces[static_cast<std::size_t>(2 * axis)] && p[axis] <= lo_[axis] + depth[axis]) return true;
-      if (faces[static_cast<std::size_t>(2 * axis + 1)] && p[axis] >= hi_[axis] - depth[axis]) return true;
-    }
+    for (std::size_t f = 0; f < 6; ++f)
+      if (depth[f] && below(f, p) <= *depth[f]) return true;
     return false;
   }
 
+  /// Are the masses in the outermost layer of a face a single row: longer than an element, and less than one wide?
+  bool is_row(std::size_t face, double layer) const {
+    Eigen::AlignedBox3d box;
+    for (const Index cell : lattice_.masses)
+      if (below(face, place(cell)) <= layer) box.extend(place(cell));
+    Vec3 size = box.sizes();
+    const auto axis = static_cast<Eigen::Index>(face / 2);
+    const double a = size[(axis + 1) % 3], b = size[(axis + 2) % 3];
+    const double element = 0.99 * lattice_.spacing();
+    return std::max(a, b) > element && std::min(a, b) < element;
+  }
+
  private:
+  double below(std::size_t face, const Vec3& p) const {
+    const auto axis = static_cast<Eigen::Index>(face / 2);
+    return face % 2 == 0 ? p[axis] - lo_[axis] : hi_[axis] - p[axis];
+  }
   Vec3 place(Index cell) const {
     return spec_.orientation.transpose() * (lattice_.rest_position(cell) - spec_.at);
   }
@@ -47,12 +65,25 @@ bool is_in_box(const BodySpec& spec, const Vec3& p) {
   });
 }
 
+/// On fcc the two outermost layers, of voxels one: the masses of a cell are two rows already [m].
+double two_layers(const Lattice& lattice, std::size_t face) {
+  const bool fcc = lattice.kind == LatticeKind::fcc;
+  return 0.75 * (fcc ? lattice.rest_length[0] : lattice.step[static_cast<Eigen::Index>(face / 2)]);
+}
+
 void hold_masses(const BodySpec& spec, Body& body) {
   const Lattice& lattice = body.lattice;
   const OwnFrame frame(spec, lattice);
+  OwnFrame::Depths depth;
+  for (std::size_t f = 0; f < 6; ++f) {
+    if (!spec.fixed_faces[f]) continue;
+    const double layer = 0.25 * lattice.step[static_cast<Eigen::Index>(f / 2)];
+    // A row of masses is a hinge: there two layers are held, as for a handle.
+    depth[f] = frame.is_row(f, layer) ? two_layers(lattice, f) : layer;
+  }
   for (const Index cell : lattice.masses) {
     const bool touches_scenery = body.cells && touches_rigid_cell(*body.cells, lattice, cell);
-    if (!touches_scenery && !frame.is_on(spec.fixed_faces, cell, 0.25 * lattice.step) &&
+    if (!touches_scenery && !frame.is_on(depth, cell) &&
         !is_in_box(spec, lattice.rest_position(cell)))
       continue;
     body.inverse_mass[static_cast<std::size_t>(cell)] = 0;
@@ -63,10 +94,11 @@ void hold_masses(const BodySpec& spec, Body& body) {
 void give_handle(const BodySpec& spec, Body& body) {
   const Lattice& lattice = body.lattice;
   const OwnFrame frame(spec, lattice);
-  const Vec3 spacing =
-      lattice.kind == LatticeKind::fcc ? Vec3::Constant(lattice.rest_length[0]) : lattice.step;
+  OwnFrame::Depths depth;
+  for (std::size_t f = 0; f < 6; ++f)
+    if (spec.handle_faces[f]) depth[f] = two_layers(lattice, f);
   for (const Index cell : lattice.masses)
-    if (frame.is_on(spec.handle_faces, cell, 0.75 * spacing)) body.handle.push_back(cell);
+    if (frame.is_on(depth, cell)) body.handle.push_back(cell);
   body.tip = spec.at;
 }
 

@@ -41,8 +41,9 @@ inline bool any_damped(const Body& body) {
   return std::any_of(body.laws.begin(), body.laws.end(), [](const ElementLaw& law) { return law.damped; });
 }
 
-/// Builds a body's lattice, laws, held masses and handle. On a face are the masses within a quarter of a grid step of it (held)
-/// or within three quarters of the spacing (handle: on fcc the two outermost layers, so that no knife hangs on one row).
+/// Builds a body's lattice, laws, held masses and handle. Held are the masses within a quarter of a grid step of a face; where
+/// those are a single row, which would be a hinge, and for a handle, the masses within three quarters of the spacing: on fcc the two
+/// outermost layers.
 /// Faces are those of the masses in the body's own frame.
 /// @param materials  of the scene; the body and its regions name them, and they must be there
 /// @throws InputError

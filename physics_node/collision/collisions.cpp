@@ -76,6 +76,7 @@ bool Collisions::are_near(std::uint32_t a, std::uint32_t b, double frame_seconds
 
 bool Collisions::begin_frame(double frame_seconds) noexcept {
   bool any_near = false;
+  bodies_near_ = false;
   fastest_ = 0;
   const auto n = static_cast<std::uint32_t>(bodies_.size());
   for (std::uint32_t a = 0; a < n; ++a)
@@ -84,6 +85,7 @@ bool Collisions::begin_frame(double frame_seconds) noexcept {
       near_.allow(a, b, near);
       if (!near) continue;
       any_near = true;
+      bodies_near_ = bodies_near_ || a != b;
       fastest_ = std::max({fastest_, fastest(a), fastest(b)});
     }
   wanted_step_ =

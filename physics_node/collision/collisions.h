@@ -31,6 +31,9 @@ class Collisions {
   /// Which bodies may touch in the coming frame. @return false: none, so that there is nothing to do in its steps
   bool begin_frame(double frame_seconds) noexcept;
 
+  /// Are two different bodies near in this frame?
+  bool bodies_are_near() const noexcept { return bodies_near_; }
+
   /// After every step, whether anything is near or not: follows elements that broke.
   void follow_breaks() noexcept;
   /// One step of contact in a frame in which something is near, after the masses have moved by it; the bodies have remembered
@@ -73,6 +76,7 @@ class Collisions {
   std::int64_t active_overflows_ = 0;
   double smallest_L_ = 0;
   double wanted_step_ = 0;
+  bool bodies_near_ = false;
   double fastest_ = 0;  // no mass of what is near moves faster in this frame [m/s]
 };
 

@@ -9,15 +9,9 @@
 #include <array>
 #include <vector>
 
-#include "physics_node/lattice/lattice.h"
+#include "physics_node/lattice/surroundings.h"
 
 namespace palpate::physics {
-
-/// Elements that must live, at one mass: bits of its mask.
-struct Need {
-  Index offset = 0;  // of the mass from the first corner
-  Mask bits = 0;
-};
 
 struct TrianglePattern {
   std::array<Index, 2> corner{};  // the other two corners, from the one that comes first in storage; both > 0
@@ -31,10 +25,6 @@ using TrianglePatterns = std::array<std::vector<TrianglePattern>, max_row_kinds>
 TrianglePatterns triangle_patterns(const Lattice& lattice);
 
 /// @param mask  called with a storage cell, tells its live elements
-template <class MaskOf>
-bool holds(const Need& need, Index cell, const MaskOf& mask) {
-  return (mask(cell + need.offset) & need.bits) == need.bits;
-}
 template <class MaskOf>
 bool is_alive(const TrianglePattern& triangle, Index cell, const MaskOf& mask) {
   return holds(triangle.edges[0], cell, mask) && holds(triangle.edges[1], cell, mask);

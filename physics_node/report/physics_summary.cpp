@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "common/math/hash.h"
 #include "common/report/commit.h"
@@ -126,10 +127,21 @@ nlohmann::json physics_summary(const World& world, const Recorder* recorder, dou
                          {"state_hash", hex_of(world.state_hash())},
                          {"stages", stages_part(world.report())}};
   if (std::isfinite(world.stable_step_seconds())) part["stable_dt_s"] = world.stable_step_seconds();
+  std::optional<InsideOthers> inside;
+  if (world.inside_others() != nullptr) {
+    inside = *world.inside_others();
+    inside->look();
+  }
   Momenta momenta;
   for (std::size_t b = 0; b < world.n_bodies(); ++b) {
     const MovingBody& moving = world.body(b);
     part["bodies"][moving.body().name] = body_part(moving, world.fragments(b));
+    nlohmann::json& of_body = part["bodies"][moving.body().name];
+    if (world.n_bodies() > 1) {
+      of_body["inside_others"] = inside->now(b);
+      of_body["inside_others_max"] = inside->most(b);
+    }
+    if (world.fragments(b) != nullptr) of_body["inside_own_pieces"] = inside->between_pieces(b, *world.fragments(b));
     const Momenta p = moving.momenta();
     momenta.linear += p.linear;
     momenta.angular += p.angular;
@@ -162,6 +174,7 @@ nlohmann::json physics_summary(const World& world, const Recorder* recorder, dou
   if (recorder != nullptr) part["record"] = {{"dropped", recorder->dropped()}};
   part["warnings"] = nlohmann::json::array();
   add_warnings(part, all_warnings(world));
+  if (inside && inside->any() && !world.inside_others()->any()) add_warning(part, inside_text(world, *inside));
   return part;
 }
 

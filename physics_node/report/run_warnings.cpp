@@ -10,7 +10,21 @@ struct Kind {
   std::string (*text)(const World&);
 };
 
+std::string remedy(const World& world) {
+  const ContactSpec& contact = world.scene().contact;
+  if (!contact.enabled) return "contact is switched off: set contact.enabled = true";
+  if (contact.distance == ContactDistance::paper)
+    return "contact of masses with masses lets them through: set contact.distance = \"swept\"";
+  return "are they inside each other at the start? if not, set a smaller physics.step_ms or stiffer materials";
+}
+
 const Kind kinds[] = {
+    {[](const World& w) noexcept { return w.inside_others() != nullptr && w.inside_others()->any(); },
+     [](const World& w) { return inside_text(w, *w.inside_others()); }},
+    {[](const World& w) noexcept { return w.collisions() != nullptr && w.collisions()->tally().passages > 0; },
+     [](const World& w) {
+       return fmt::format("{} times a mass went through a facet; {}", w.collisions()->tally().passages, remedy(w));
+     }},
     {[](const World& w) noexcept { return w.report().restored > 0; },
      [](const World& w) {
        return fmt::format("the guard brought the last good state back {} time(s) and halved the step {} time(s), to {:.3g} ms; "
@@ -31,6 +45,16 @@ const Kind kinds[] = {
 static_assert(std::size(kinds) <= most_warning_kinds);
 
 }  // namespace
+
+std::string inside_text(const World& world, const InsideOthers& inside) {
+  std::string list;
+  for (std::size_t b = 0; b < world.n_bodies(); ++b) {
+    if (inside.most(b) == 0) continue;
+    list += fmt::format("{}{} of {} masses of \"{}\"", list.empty() ? "" : ", ", inside.most(b),
+                        world.body(b).body().lattice.n_masses(), world.body(b).body().name);
+  }
+  return fmt::format("bodies go into each other: up to {} were inside another body; {}", list, remedy(world));
+}
 
 WarningKinds raised_warnings(const World& world) noexcept {
   WarningKinds raised;

@@ -19,6 +19,9 @@ WarningKinds raised_warnings(const World& world) noexcept;
 /// One line for each of these kinds, as things are now.
 std::vector<std::string> warning_texts(const World& world, WarningKinds which);
 
+/// The line about bodies that went into each other: who, how far, what would help.
+std::string inside_text(const World& world, const InsideOthers& inside);
+
 /// What a summary says: the remarks about the scene, then the lines of all kinds that hold.
 std::vector<std::string> all_warnings(const World& world);
 

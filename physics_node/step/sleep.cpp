@@ -32,8 +32,12 @@ std::vector<Index> rows_beside(const Lattice& lattice, const RowSegment& row) {
 }  // namespace
 
 Sleep::Sleep(const Body& body)
-    : may_sleep_(body.n_held > 0), quiet_s_(body.lattice.rows.size()), before_(body.lattice.rows.size()) {
+    : may_sleep_(body.n_held > 0),
+      quiet_s_(body.lattice.rows.size()),
+      masses_of_(body.lattice.rows.size(), 0),
+      before_(body.lattice.rows.size()) {
   if (!may_sleep_) return;
+  for (const Index cell : body.lattice.masses) ++masses_of_[static_cast<std::size_t>(body.lattice.row_of(cell))];
   for (const RowSegment& row : body.lattice.rows) {
     beside_begin_.push_back(static_cast<Index>(beside_.size()));
     const auto rows = rows_beside(body.lattice, row);
@@ -77,7 +81,7 @@ void Sleep::classify(const Body& body, LatticeState<Real>& state) noexcept {
   for (std::size_t r = 0; r < rows.size(); ++r) {
     if (rows[r] == RowState::awake) continue;
     const RowSegment& segment = body.lattice.rows[r];
-    sleeping_masses_ += segment.count;
+    sleeping_masses_ += masses_of_[r];
     // What rims beside it have added to a row that did not clear it is not part of any sum.
     if (before_[r] == RowState::asleep && rows[r] != RowState::asleep)
       for (auto& axis : state.f) std::fill_n(axis.data() + segment.first, segment.count, Real(0));

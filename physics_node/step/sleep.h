@@ -42,6 +42,7 @@ class Sleep {
   bool may_sleep_;
   std::vector<Index> beside_, beside_begin_;  // rows whose masses share elements with a row's
   std::vector<float> quiet_s_;                // by row: for how long
+  std::vector<Index> masses_of_;              // by row; its cells count gaps too
   std::vector<RowState> before_;              // by row, scratch
   Index sleeping_masses_ = 0;
 };

@@ -54,6 +54,15 @@ TEST(Sleep, BeginsAtOnceWhereNothingEverMoved) {
   EXPECT_EQ(world.ledger().exchanged, 0);
 }
 
+TEST(Sleep, CountsMassesAndNoPlacesWithoutOne) {
+  Recipe recipe = bar(true);
+  recipe.shape = "shape = \"tube\"\nouter_radius_mm = 40\ninner_radius_mm = 20\nlength_mm = 100\naxis = \"z\"";
+  recipe.body = "fixed = [\"-z\"]";
+  World world(scene_of(recipe));
+  rest(world, 0.005);
+  EXPECT_EQ(world.body(0).sleeping_fraction(), 1) << "rows across the bore have a gap";
+}
+
 TEST(Sleep, EndsThroughNeighboursAndMovesAsIfNothingHadSlept) {
   World sleeper(scene_of(bar(true))), awake(scene_of(bar(false)));
   rest(sleeper, 0.3), rest(awake, 0.3);

@@ -12,6 +12,7 @@
 #include "common/scene/load_scene.h"
 #include "physics_node/body/trim.h"
 #include "physics_node/step/moving_body.h"
+#include "physics_node/world.h"
 #include "tests/support/image/scratch_folder.h"
 #include "tests/support/physics/made_volume.h"
 #include "tests/support/physics/small_worlds.h"
@@ -171,6 +172,24 @@ TEST(Handle, IsTheTwoOutermostLayersOfItsFaces) {
   EXPECT_EQ(turned.handle.size(), 13u + 12u);
   for (const Index cell : turned.handle)
     EXPECT_LE(turned.lattice.rest_position(cell).y(), -0.005 + 1e-9) << "its own z points to -y";
+}
+
+TEST(HeldMasses, AreNeverASingleRowWhichWouldBeAHinge) {
+  Recipe recipe = recipe_of("shape = \"knife\"\nlength_mm = 20\nheight_mm = 10\nfixed = [\"+z\"]", 2);
+  recipe.material = "density_kg_per_m3 = 8000\nmodulus_kPa = 20000\nviscosity_Pa_s = 50";
+  EXPECT_EQ(body_of(recipe).n_held, 11 + 10) << "a row of either sheet, as for a handle";
+  // It hangs in gravity from the side: on a hinge it would swing down by its height.
+  recipe.gravity = "[0, 9.81, 0]";
+  World world(scene_of(recipe));
+  double farthest = 0;
+  while (world.t() < 0.1) {  // a hinge would have turned by half a circle
+    world.frame({});
+    for (const Index cell : world.body(0).body().lattice.masses)
+      farthest = std::max(farthest, world.body(0).displacement(cell).norm());
+  }
+  EXPECT_LT(farthest, 0.001);
+  EXPECT_EQ(body_of(recipe_of(Recipe::box(20, 20, 20) + "\nfixed = [\"+z\"]", 5 * std::sqrt(2.0))).n_held, 13)
+      << "one layer of a thick body holds it";
 }
 
 TEST(HeldMasses, OfATurnedBodyAreOnItsOwnFaces) {
