@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "render_node/view/arrow_scale.h"
+#include "render_node/view/line_of_action.h"
 
 namespace palpate::render {
 namespace {
@@ -41,8 +42,9 @@ Painter::Painter(const Scene& scene, const ViewModel& model)
       tools_[i].length = scene.tools[i].length;
     }
     tools_[i].force_limit = device.force_limit;
-    tools_[i].is_body = scene.tools[i].shape == ToolShape::body;
-    tools_[i].at_hand = tools_[i].is_body || force_model_of(scene.tools[i]) == ForceModel::direct;
+    for (std::size_t b = 0; scene.tools[i].shape == ToolShape::body && b < scene.bodies.size(); ++b)
+      if (scene.bodies[b].name == scene.tools[i].body) tools_[i].body = b;
+    tools_[i].at_hand = tools_[i].body || force_model_of(scene.tools[i]) == ForceModel::direct;
   }
 }
 
@@ -70,7 +72,7 @@ void Painter::draw(ViewModel& model, const Camera& camera, const PaintOptions& o
   backdrop_.draw_gradient();
   draw_bodies(model, camera, options, height);
   at_pixels_.begin(camera);
-  for (std::size_t i = 0; i < tools_.size(); ++i) draw_tool(tools_[i], model.tools()[i], options);
+  for (std::size_t i = 0; i < tools_.size(); ++i) draw_tool(tools_[i], model.tools()[i], model, options);
   draw_planes(model, camera);
 }
 
@@ -114,18 +116,30 @@ void Painter::draw_bodies(ViewModel& model, const Camera& camera, const PaintOpt
   }
 }
 
+/// Where tissue pushes a tool that is drawn with its tip at `at`. A point is pushed there; of a body and of a stick the wrench
+/// says the line of action, which is moved as the drawn tool is.
+Eigen::Vector3d Painter::pushed_at(const Tool& tool, const ToolView& view, const ViewModel& model,
+                                   const Eigen::Vector3d& at, const Eigen::Vector3d& axis) const {
+  if (!tool.body && tool.length <= 0) return at;
+  auto line = line_of_action(view.force, view.moment, view.set_point);
+  if (!line) return at;
+  if (tool.body) return pushed_point(*line, model.bodies()[*tool.body].surface()).value_or(at);
+  line->point += at - view.tip_in_tissue;
+  return pushed_point(*line, at, at + tool.length * axis, tool.radius);
+}
+
 // As the papers show it, a tool rests on the surface where its proxy is, however far beneath the hand has gone.
-void Painter::draw_tool(Tool& tool, const ToolView& view, const PaintOptions& options) {
+void Painter::draw_tool(Tool& tool, const ToolView& view, const ViewModel& model, const PaintOptions& options) {
   if (!view.tip || size_ <= 0) return;
   const Eigen::Vector3d at = tool.at_hand ? *view.tip : view.proxy;
   const Eigen::Vector3d axis = tool.length > 0 ? Eigen::Vector3d(view.attitude * tool.axis) : tool.axis;
-  if (options.tool && !tool.is_body) {
+  if (options.tool && !tool.body) {
     if (options.wire) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
     at_pixels_.finish(0.30F, 1.0F);
     tool.stick.draw(at_pixels_, pose_along(at, axis), steel);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   }
-  if (options.force) draw_arrow(tool, at, view.force);
+  if (options.force) draw_arrow(tool, pushed_at(tool, view, model, at, axis), view.force);
 }
 
 void Painter::draw_arrow(Tool& tool, const Eigen::Vector3d& from, const Eigen::Vector3d& force) {
@@ -135,8 +149,8 @@ void Painter::draw_arrow(Tool& tool, const Eigen::Vector3d& from, const Eigen::V
   const Eigen::Matrix4f pose = pose_along(from, force.normalized());
   at_pixels_.finish(0.05F, 1.0F);
   tool.arrow.draw(at_pixels_, pose, arrow_colour);
-  // Once more, faintly, where something hides it.
-  at_pixels_.finish(0.0F, 0.30F);
+  // Once more, paler, where something hides it: it begins at the tool's own surface, often behind it.
+  at_pixels_.finish(0.0F, 0.75F);
   glDepthFunc(GL_GREATER);
   glDepthMask(GL_FALSE);
   glEnable(GL_BLEND);

@@ -9,7 +9,8 @@ namespace palpate::render {
 
 void History::add(double t, double value) {
   if (!(std::abs(t) <= longest_time) || !std::isfinite(value)) return;
-  if (t < newest_t_) buckets_.clear();
+  if (t < newest_t_ - slack_s) buckets_.clear();
+  else t = std::max(t, newest_t_);
   newest_t_ = t;
   now_ = value;
   const auto number = static_cast<std::int64_t>(std::floor(t / bucket_s + 1e-6));  // 0.07 / 0.01 is below 7
@@ -22,11 +23,13 @@ void History::add(double t, double value) {
   while (buckets_.front().number < oldest) buckets_.pop_front();
 }
 
-std::vector<History::Point> History::points() const {
+std::vector<History::Point> History::points(double now) const {
   std::vector<Point> points;
   points.reserve(buckets_.size());
+  const double last = std::floor(now / bucket_s + 1e-6);
   for (const auto& bucket : buckets_) {
-    points.push_back({static_cast<double>(buckets_.back().number - bucket.number) * bucket_s, bucket.value});
+    const double age = std::max(0.0, (last - static_cast<double>(bucket.number)) * bucket_s);
+    if (age <= span_s + 1e-9) points.push_back({age, bucket.value});
   }
   return points;
 }

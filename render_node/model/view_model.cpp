@@ -3,11 +3,18 @@
 #include <algorithm>
 
 #include "common/message/vec3.h"
+#include "render_node/model/hand_state.h"
 
 namespace palpate::render {
 ViewModel::ViewModel(const Scene& scene) : tools_(scene.tools.size()) {
   bodies_.reserve(scene.bodies.size());
   for (std::size_t n = 0; n < scene.bodies.size(); ++n) bodies_.emplace_back(budget_);
+  for (std::size_t i = 0; i < tools_.size(); ++i) {
+    const DeviceSpec& device = scene.device(scene.tools[i].device);
+    tools_[i].name = scene.tools[i].name;
+    tools_[i].clock = HandClock(device.rate_Hz);
+    if (device.driver == "simulated" && !device.waypoints.empty()) tools_[i].path_s = device.waypoints.back().t;
+  }
 }
 
 void ViewModel::begin_anew() noexcept {
@@ -37,13 +44,18 @@ void ViewModel::take(const ToolWrench& wrench) {
     return;
   }
   ToolView& tool = tools_[wrench.tool];
+  tool.answered = true;
   tool.force = vec(wrench.force);
   tool.moment = vec(wrench.moment);
+  tool.set_point = vec(wrench.set_point);
+  tool.tip_in_tissue = vec(wrench.tip);
   tool.n_contacts = wrench.n_contacts;
   tool.attitude = Eigen::Quaterniond(wrench.q_WT[0], wrench.q_WT[1], wrench.q_WT[2], wrench.q_WT[3]);
-  tool.on_tool.add(wrench.t, tool.force.norm());
-  for (std::size_t axis = 0; axis < 3; ++axis) tool.moment_history[axis].add(wrench.t, wrench.moment[axis]);
   t_ = wrench.t;
+  const auto when = tool.clock.at(wrench.answers);
+  if (!when) return;  // no hand has been answered yet
+  tool.on_tool.add(*when, tool.force.norm());
+  for (std::size_t axis = 0; axis < 3; ++axis) tool.moment_history[axis].add(*when, wrench.moment[axis]);
 }
 
 void ViewModel::take(const HapticTrace& trace) {
@@ -54,6 +66,7 @@ void ViewModel::take(const HapticTrace& trace) {
   ToolView& tool = tools_[trace.tool];
   for (std::uint32_t i = 0; i < trace.n_samples; ++i) {
     const TraceSample& sample = trace.samples[i];
+    tool.clock.note(sample);
     tool.on_hand.add(sample.t, vec(sample.force).norm());
     tool.tip = vec(sample.p);
     tool.proxy = vec(sample.proxy);
@@ -69,6 +82,16 @@ void ViewModel::take(const NodeStatus& status) {
   }
   nodes_[kind] = status;
   if (status.node == NodeKind::physics) t_ = status.t;
+  if (status.node != NodeKind::haptic) return;
+  for (ToolView& tool : tools_)
+    if (!tool.path_began && !tool.on_hand.empty() && hand_state(status.note.data(), tool.name).state == "run")
+      tool.path_began = tool.on_hand.newest();
+}
+
+bool ViewModel::path_is_over() const noexcept {
+  return !tools_.empty() && std::all_of(tools_.begin(), tools_.end(), [](const ToolView& tool) {
+    return tool.path_s > 0 && tool.path_began && tool.on_hand.newest() >= *tool.path_began + tool.path_s;
+  });
 }
 
 void ViewModel::refresh() {

@@ -6,27 +6,37 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "common/message/messages.h"
 #include "common/scene/scene.h"
 #include "render_node/model/body_picture.h"
+#include "render_node/model/hand_clock.h"
 #include "render_node/model/history.h"
 
 namespace palpate::render {
 
 /// One tool, as far as messages have told.
 struct ToolView {
+  std::string name;                                              // as in the scene
   std::optional<Vec3> tip;                                       // of the newest trace sample [m]
   Vec3 proxy = Vec3::Zero();                                     // [m]; meaningless without tip
   Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();  // of the handle
+  bool answered = false;                                         // physics has said what follows
   Vec3 force = Vec3::Zero();                                     // of the tissue on the tool [N]
   Vec3 moment = Vec3::Zero();                                    // about the set point [N m]
+  Vec3 set_point = Vec3::Zero();                                 // [m]
+  Vec3 tip_in_tissue = Vec3::Zero();                             // of the tool, where physics has it [m]
   std::uint32_t n_contacts = 0;
-  double energy = 0;                      // given to the hand so far [J]
-  History on_tool;                        // magnitude of the tissue's force, against simulated time [N]
-  History on_hand;                        // magnitude of the device's force, against device time [N]
-  std::array<History, 3> moment_history;  // about x, y, z through the set point, against simulated time [N m]
+  double energy = 0;  // given to the hand so far [J]
+  double path_s = 0;                    // of a simulated hand, from when its forces are on to the end; 0: there is none [s]
+  std::optional<double> path_began;     // when forces were first on, by the hand's clock [s]
+  // All against the time of the hand (hand_clock.h).
+  HandClock clock{1000};
+  History on_tool;                        // magnitude of the tissue's force [N]
+  History on_hand;                        // magnitude of the device's force [N]
+  std::array<History, 3> moment_history;  // about x, y, z through the set point [N m]
 };
 
 class ViewModel {
@@ -51,6 +61,9 @@ class ViewModel {
   const std::optional<NodeStatus>& node(NodeKind kind) const noexcept {
     return nodes_[static_cast<std::size_t>(kind)];
   }
+
+  /// Every tool's hand is simulated and has come to the end of its path.
+  bool path_is_over() const noexcept;
 
   double t() const noexcept { return t_; }  // newest simulated time heard of [s]
   bool anything_to_see() const noexcept;    // at least one body is whole

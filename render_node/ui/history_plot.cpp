@@ -51,9 +51,9 @@ void draw_grid(ImDrawList& list, const Axes& axes) {
   }
 }
 
-void draw_history(ImDrawList& list, const Axes& axes, const PlotLine& what, double per_unit) {
+void draw_history(ImDrawList& list, const Axes& axes, const PlotLine& what, double now, double per_unit) {
   std::vector<ImVec2> line;
-  for (const auto& point : what.history->points()) line.push_back(axes.at(point.age, per_unit * point.value));
+  for (const auto& point : what.history->points(now)) line.push_back(axes.at(point.age, per_unit * point.value));
   const float width = ImGui::GetFontSize() * 0.12F;
   list.AddPolyline(line.data(), static_cast<int>(line.size()), what.colour, ImDrawFlags_None, width);
   if (!line.empty()) list.AddCircleFilled(line.back(), 1.7F * width, what.colour);
@@ -80,17 +80,25 @@ double axis_top(double value) {
   return 10 * decade;
 }
 
+double newest_of(std::span<const PlotLine> lines) {
+  double newest = 0;
+  for (const auto& what : lines)
+    if (!what.history->empty()) newest = std::max(newest, what.history->newest());
+  return newest;
+}
+
 void history_plot(std::span<const PlotLine> lines, const char* unit, double per_unit, float height) {
   const float line = ImGui::GetFontSize();
   double peak = 0;
   bool below = false, any = false;
+  const double now = newest_of(lines);
   for (const auto& what : lines) {
     if (what.history->empty()) continue;
     if (any) ImGui::SameLine(0, line);
     any = true;
     legend(what.words, what.colour);
     peak = std::max(peak, per_unit * what.history->peak());
-    for (const auto& point : what.history->points()) below = below || point.value < 0;
+    for (const auto& point : what.history->points(now)) below = below || point.value < 0;
   }
   if (any) ImGui::SameLine();
   const float end = ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(unit).x;
@@ -106,19 +114,24 @@ void history_plot(std::span<const PlotLine> lines, const char* unit, double per_
                   top};
   ImDrawList& list = *ImGui::GetWindowDrawList();
   draw_grid(list, axes);
-  for (const auto& what : lines) draw_history(list, axes, what, per_unit);
+  for (const auto& what : lines) draw_history(list, axes, what, now, per_unit);
   ImGui::Dummy({free, height});
 }
 
 void force_plot(const ToolView& tool, float height) {
   const std::array<PlotLine, 2> lines{
-      {{&tool.on_tool, tissue_colour, "by the tissue"}, {&tool.on_hand, hand_colour, "on the hand"}}};
+      {{&tool.on_tool, tissue_colour, "by tissue"}, {&tool.on_hand, hand_colour, "on hand"}}};
   history_plot(lines, "N", 1, height);
 }
 
+bool shows_moments(const ToolView& tool) {
+  return std::any_of(tool.moment_history.begin(), tool.moment_history.end(),
+                     [](const History& axis) { return axis.peak() != 0; });
+}
+
 void moment_plot(const ToolView& tool, float height) {
+  if (!shows_moments(tool)) return;
   const auto& moment = tool.moment_history;
-  if (std::all_of(moment.begin(), moment.end(), [](const History& axis) { return axis.peak() == 0; })) return;
   const std::array<PlotLine, 3> lines{{{&moment[0], axis_colours[0], "about x"},
                                        {&moment[1], axis_colours[1], "y"},
                                        {&moment[2], axis_colours[2], "z"}}};
