@@ -159,7 +159,18 @@ void pass_on(const PanelWishes& wishes, ThresholdControl& threshold, Wire& wire)
   }
 }
 
-int run_window(const NodeOptions& options, const Scene& scene) {
+/// The scene with the driver that the command line wants: another than the scene's follows no path of its.
+Scene with_driver(Scene scene, const std::string& driver) {
+  if (driver.empty()) return scene;
+  for (DeviceSpec& device : scene.devices) {
+    if (device.driver != driver) device.waypoints.clear();
+    device.driver = driver;
+  }
+  return scene;
+}
+
+int run_window(const NodeOptions& options, const Scene& given) {
+  const Scene scene = with_driver(given, options.device);
   ViewModel model(scene);
   Window window(scene, model, pointed_tools(options, scene));
   Wire wire(membership(options, scene, "render"));

@@ -46,7 +46,7 @@ void choose_colours() {
 }  // namespace
 
 ImguiContext::ImguiContext(int height)
-    : context_(ImGui::CreateContext()), scale_(std::max(0.5F, static_cast<float>(height) / 720.0F)) {
+    : context_(ImGui::CreateContext()), height_(height), scale_(std::max(0.5F, static_cast<float>(height) / 720.0F)) {
   make_current();
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;  // nothing is remembered between runs
@@ -57,6 +57,12 @@ ImguiContext::ImguiContext(int height)
 }
 
 ImguiContext::~ImguiContext() { ImGui::DestroyContext(context_); }
+
+float ImguiContext::fit(int height) const {
+  const float ratio = std::clamp(static_cast<float>(height) / static_cast<float>(height_), 0.5F, 1.0F);
+  ImGui::GetIO().FontGlobalScale = ratio;
+  return ratio * scale_;
+}
 
 void ImguiContext::make_current() const { ImGui::SetCurrentContext(context_); }
 

@@ -14,11 +14,13 @@ class ImguiContext {
   ImguiContext& operator=(const ImguiContext&) = delete;
 
   void make_current() const;
-  float scale() const noexcept { return scale_; }  // of all lengths, 1 at 720 px
+  /// Text follows a window that is made lower than it began, down to half. @return of all lengths, 1 at 720 px
+  float fit(int height) const;
 
  private:
   ImGuiContext* context_;
-  float scale_;
+  int height_;
+  float scale_;  // of the font
 };
 
 }  // namespace palpate::render

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -49,6 +50,13 @@ const char* word_for(NodePhase phase) {
   return i < words.size() ? words[i] : "?";
 }
 
+/// How fast a node goes; of physics also its share of real time.
+std::string pace(const NodeStatus& status) {
+  if (status.node == NodeKind::physics)
+    return fmt::format("{:.0f} Hz  x{:.2f}", status.rate_Hz, status.real_time_factor);
+  return fmt::format("{:.{}f} Hz", status.rate_Hz, status.node == NodeKind::render ? 1 : 0);
+}
+
 void node_rows(const ViewModel& model) {
   struct Named {
     NodeKind kind;
@@ -60,13 +68,9 @@ void node_rows(const ViewModel& model) {
     const auto& status = model.node(kind);
     if (!status) continue;
     any = true;
-    row(name, status->phase == NodePhase::running
-                  ? fmt::format("{:.{}f} Hz", status->rate_Hz, kind == NodeKind::render ? 1 : 0)
-                  : std::string(word_for(status->phase)));
+    row(name, status->phase == NodePhase::running ? pace(*status) : std::string(word_for(status->phase)));
   }
-  const auto& physics = model.node(NodeKind::physics);
   const auto& haptic = model.node(NodeKind::haptic);
-  if (physics) row("real-time factor", fmt::format("{:.2f}", physics->real_time_factor));
   if (haptic && haptic->loop_age_ms_p50 > 0)
     row("loop age", fmt::format("{:.2f} ms", haptic->loop_age_ms_p50));
   if (haptic) row("late ticks", grouped(haptic->late));
@@ -100,19 +104,32 @@ PanelWishes controls(const PanelFacts& facts, ThresholdControl& threshold) {
   return wishes;
 }
 
+/// What the plots of the first tool may take of the height that is left, so that what follows them stays in sight; legible at least.
+float plot_height(const ViewModel& model, const PanelFacts& facts, float scale) {
+  const float line = ImGui::GetTextLineHeightWithSpacing();
+  const float plots = shows_moments(model.tools().front()) ? 1.87F : 1.0F;
+  float rows = facts.arrow_metres_per_newton > 0 ? 1.0F : 0.0F;
+  for (std::size_t i = 1; i < model.tools().size(); ++i)
+    rows += 1 + (model.tools()[i].on_hand.empty() ? 0.0F : 1.0F) + (model.tools()[i].answered ? 3.0F : 0.0F);
+  const float legends = plots > 1 ? 2.0F : 1.0F;
+  const float left = ImGui::GetContentRegionAvail().y - (rows + legends) * line - ImGui::GetStyle().ItemSpacing.y;
+  return std::clamp(left / plots, 58 * scale, 150 * scale);
+}
+
 void tool_rows(const Scene& scene, const ViewModel& model, const PanelFacts& facts, float scale) {
   for (std::size_t i = 0; i < model.tools().size(); ++i) {
     const ToolView& tool = model.tools()[i];
     ImGui::TextUnformatted(scene.tools[i].name.c_str());
     if (!tool.on_hand.empty()) row("force on the hand", fmt::format("{:.2f} N", tool.on_hand.now()));
-    if (!tool.on_tool.empty()) {
-      row("force by the tissue", fmt::format("{:.2f} N", tool.on_tool.now()));
-      row("moment x, y, z", moment_words(tool.moment));
+    if (tool.answered) {
+      row("force by the tissue", fmt::format("{:.2f} N", tool.force.norm()));
+      row("moment", moment_words(tool.moment));
       row("colliding masses", grouped(tool.n_contacts));
     }
     if (i > 0) continue;
-    force_plot(tool, 150 * scale);
-    moment_plot(tool, 130 * scale);
+    const float height = plot_height(model, facts, scale);
+    force_plot(tool, height);
+    moment_plot(tool, 0.87F * height);
   }
   if (!model.tools().empty() && facts.arrow_metres_per_newton > 0) {
     row("arrow: 1 N is", fmt::format("{:g} mm", mm_from_m(facts.arrow_metres_per_newton)));
@@ -121,17 +138,21 @@ void tool_rows(const Scene& scene, const ViewModel& model, const PanelFacts& fac
 
 /// How the mouse leads the tool.
 void pointer_rows(const Scene& scene, const ToolPointer& pointer) {
-  ImGui::Separator();
   row("mouse", fmt::format("{} {}", pointer.held() ? "holds" : "lets lie", scene.tools[pointer.tool()].name));
   if (!pointer.held()) {
-    row("take it", "T");
-    return;
+    row("take it, at the cursor", "T");
+  } else {
+    row("move it", "mouse");
+    row("deeper, finely", "wheel, Shift");
+    row("turn it", "arrows, PgUp, PgDn");
+    row("its button", "Space");
+    row("let it go", "T");
   }
-  row("move it", "mouse");
-  row("deeper, finely", "wheel, Shift");
-  row("turn it", "arrows, PgUp, PgDn");
-  row("its button", "Space");
-  row("let it go", "T");
+}
+
+void view_rows() {
+  row("turn, move the view", "drag left, right");
+  row("wires, first view, end", "W, R, Esc");
 }
 
 void warning_rows(const ViewModel& model) {
@@ -148,23 +169,46 @@ PanelWishes lay_out_panels(const Scene& scene, const ViewModel& model, const Pan
                            ThresholdControl& threshold, float scale) {
   const ImVec2 picture = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({0, 0});
-  ImGui::SetNextWindowSize({panel_width * scale, picture.y});
+  ImGui::SetNextWindowSize({panel_width_in(picture.x, scale), picture.y});
   ImGui::Begin("panels", nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
+                   ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav);
   ImGui::TextWrapped("%s", scene.title.c_str());
   row("simulated time", fmt::format("{:.2f} s", facts.t));
-  ImGui::Separator();
-  node_rows(model);
-  row("facets visible", grouped(model.facets_visible()));
-  row("of all", grouped(model.facets_total()));
+  warning_rows(model);
   ImGui::Separator();
   const PanelWishes wishes = controls(facts, threshold);
-  tool_rows(scene, model, facts, scale);
   if (facts.pointer != nullptr) pointer_rows(scene, *facts.pointer);
-  warning_rows(model);
+  if (facts.interactive) {
+    view_rows();
+    ImGui::Separator();
+  }
+  node_rows(model);
+  row("facets visible", fmt::format("{} of {}", grouped(model.facets_visible()), grouped(model.facets_total())));
+  ImGui::Separator();
+  tool_rows(scene, model, facts, scale);
   ImGui::End();
   return wishes;
+}
+
+float panel_width_in(float picture_width, float scale) { return std::min(panel_width * scale, 0.4F * picture_width); }
+
+void lay_out_hindrances(const std::vector<std::string>& lines, float scale) {
+  if (lines.empty()) return;
+  const ImVec2 picture = ImGui::GetIO().DisplaySize;
+  const float panel = panel_width_in(picture.x, scale), free = picture.x - panel;
+  const float pad = ImGui::GetStyle().WindowPadding.x;
+  float widest = 0;
+  for (const auto& line : lines) widest = std::max(widest, ImGui::CalcTextSize(line.c_str()).x);
+  const float width = std::min(widest + 2 * pad, 0.9F * free);
+  ImGui::SetNextWindowPos({panel + 0.5F * free, 0.5F * picture.y}, ImGuiCond_Always, {0.5F, 0.5F});
+  ImGui::SetNextWindowSize({width, 0});  // as high as its words
+  ImGui::Begin("hindrances", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing);
+  for (const auto& line : lines) ImGui::TextWrapped("%s", line.c_str());
+  ImGui::End();
 }
 
 }  // namespace palpate::render

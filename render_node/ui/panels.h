@@ -1,7 +1,10 @@
 #pragma once
-// The column of numbers on the left, in windows and in headless frames alike, and the wishes a hand expresses there.
+// The column of numbers on the left, in windows and in headless frames alike, and the wishes a hand expresses there. What
+// a person must know stands first; plots give way where the picture is low, and what still does not fit scrolls.
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "common/scene/scene.h"
 #include "render_node/model/threshold_control.h"
@@ -28,8 +31,14 @@ struct PanelWishes {
 
 inline constexpr float panel_width = 308;  // [px] at a picture height of 720
 
+/// Width of the column in a picture: at most two fifths of it [px].
+float panel_width_in(float picture_width, float scale);
+
 /// Lays out the column in the current ImGui frame. @param scale  of all lengths, 1 at 720 px
 PanelWishes lay_out_panels(const Scene& scene, const ViewModel& model, const PanelFacts& facts,
                            ThresholdControl& threshold, float scale);
+
+/// What hinders the hand (notices.h), in the middle of the free part of the picture. Nothing where there are no lines.
+void lay_out_hindrances(const std::vector<std::string>& lines, float scale);
 
 }  // namespace palpate::render

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render_node/ui/notices.h"
+
 namespace palpate::render {
 
 Stage::Stage(const Scene& scene, ViewModel& model, int height)
@@ -19,8 +21,10 @@ Stage::Stage(const Scene& scene, ViewModel& model, int height)
 
 PanelWishes Stage::draw(const PanelFacts& facts, int width, int height, float seconds) {
   const bool panels = scene_.render.show_panels;
-  camera_.set_picture(width, height,
-                      panels ? static_cast<int>(std::lround(panel_width * imgui_.scale())) : 0);
+  const float scale = imgui_.fit(height);
+  camera_.set_picture(
+      width, height,
+      panels ? static_cast<int>(std::lround(panel_width_in(static_cast<float>(width), scale))) : 0);
   camera_.fit(box_with_floor());
   painter_.draw(model_, camera_, options_, width, height);
   if (!panels && !facts.interactive) return {};
@@ -31,9 +35,10 @@ PanelWishes Stage::draw(const PanelFacts& facts, int width, int height, float se
   PanelFacts shown = facts;
   shown.arrow_metres_per_newton = options_.force ? painter_.arrow_metres_per_newton() : 0;
   PanelWishes wishes;
-  if (panels) wishes = lay_out_panels(scene_, model_, shown, threshold_, imgui_.scale());
+  if (panels) wishes = lay_out_panels(scene_, model_, shown, threshold_, scale);
+  if (facts.interactive) lay_out_hindrances(hindrances(scene_, model_, facts.paused, facts.pointer), scale);
   ImGui::Render();
-  if (panels) panels_.draw();
+  panels_.draw();
   return wishes;
 }
 

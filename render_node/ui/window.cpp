@@ -14,6 +14,7 @@
 #include "render_node/gl/egl_context.h"
 #include "render_node/gl/framebuffer.h"
 #include "render_node/ui/stage.h"
+#include "render_node/view/surface_under.h"
 
 namespace palpate::render {
 namespace {
@@ -26,6 +27,9 @@ constexpr int samples_per_pixel = 4;
   throw InputError(std::string("cannot open a window (") + (words == nullptr ? "no reason given" : words) +
                    "); use --headless, or a display with OpenGL 3.3");
 }
+
+/// How far before a surface a tool starts, besides what the surface's own steps ask for [m]. A point has no extent to the hand.
+double clearance(const ToolSpec& tool) { return tool.shape == ToolShape::stick ? tool.radius : 0.0; }
 
 bool variable_set(const char* name) {
   const char* value = std::getenv(name);
@@ -70,7 +74,27 @@ Window::Window(const Scene& scene, ViewModel& model, const std::vector<std::uint
       pointed_(pointed),
       last_draw_(glfwGetTime()) {
   stage_->make_current();
-  ImGui_ImplGlfw_InitForOpenGL(glfw_->window, true);
+  hear();
+  ImGui_ImplGlfw_InitForOpenGL(glfw_->window, true);  // passes events on to who heard them before
+}
+
+/// Why events: Dear ImGui 1.86 asks what is down when a picture is drawn, so that a tap between two pictures does not exist for it.
+void Window::hear() {
+  glfwSetWindowUserPointer(glfw_->window, &events_);
+  static constexpr auto events = [](GLFWwindow* window) -> HandEvents& {
+    return *static_cast<HandEvents*>(glfwGetWindowUserPointer(window));
+  };
+  glfwSetKeyCallback(glfw_->window, [](GLFWwindow* window, int key, int, int action, int) {
+    if (action != GLFW_REPEAT) events(window).key(key, action == GLFW_PRESS);
+  });
+  glfwSetMouseButtonCallback(glfw_->window, [](GLFWwindow* window, int button, int action, int) {
+    events(window).button(button, action == GLFW_PRESS);
+  });
+  glfwSetCursorPosCallback(glfw_->window,
+                           [](GLFWwindow* window, double x, double y) { events(window).cursor(x, y); });
+  glfwSetWindowFocusCallback(glfw_->window, [](GLFWwindow* window, int focused) {
+    if (focused == 0) events(window).leave();
+  });
 }
 
 Window::~Window() {
@@ -96,50 +120,62 @@ PanelWishes Window::draw(const PanelFacts& facts, Image* seen) {
   last_draw_ = now;
   lay_out_pointers();
   follow_hand(wheel, seconds);
+  events_.forget();
   if (seen != nullptr) *seen = read_pixels(width, height);
   glfwSwapBuffers(glfw_->window);
   return wishes;
 }
 
-/// A tool that is a body lies where its body is; a point lies before all bodies, in the middle of the view.
+/// A tool that is a body lies where its body is; another before the surface in the middle of the view, or before all bodies.
 void Window::lay_out_pointers() {
   if (pointed_.empty() || !pointers_.empty() || !model_.anything_to_see()) return;
   const Camera& camera = stage_->camera();
   const auto box = model_.box();
   const Vec3 before = box.center() + 0.5 * box.diagonal().norm() * camera.axes().row(2).transpose();
+  const auto middle = camera.project(camera.target());
   for (const std::uint32_t tool : pointed_) {
+    const auto surface = middle ? surface_under(model_.bodies(), camera, *middle, clearance(scene_.tools[tool]))
+                                : std::nullopt;
     const auto body = std::find_if(scene_.bodies.begin(), scene_.bodies.end(), [&](const BodySpec& spec) {
       return spec.name == scene_.tools[tool].body;
     });
-    pointers_.emplace_back(tool, body == scene_.bodies.end() ? before : body->at);
+    pointers_.emplace_back(tool, body == scene_.bodies.end() ? surface.value_or(before) : body->at);
   }
+}
+
+/// A tool that is a body starts where it lies: to jump would tear what it is in.
+std::optional<Vec3> Window::surface_under_cursor(std::uint32_t tool) const {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (scene_.tools[tool].shape == ToolShape::body || !ImGui::IsMousePosValid() || io.WantCaptureMouse) return std::nullopt;
+  return surface_under(model_.bodies(), stage_->camera(),
+                       {static_cast<double>(io.MousePos.x), static_cast<double>(io.MousePos.y)},
+                       clearance(scene_.tools[tool]));
 }
 
 void Window::follow_hand(double wheel, double seconds) {
   const ImGuiIO& io = ImGui::GetIO();
   Camera& camera = stage_->camera();
-  const bool moved = io.MouseDelta.x != 0 || io.MouseDelta.y != 0;
-  const auto dx = static_cast<double>(io.MouseDelta.x), dy = static_cast<double>(io.MouseDelta.y);
+  const Eigen::Vector2d left = events_.drag(0), right = events_.drag(1);
   const bool holds = !pointers_.empty() && pointers_[led_].held();
   if (!io.WantCaptureMouse) {
-    if (moved && io.MouseDown[0]) camera.rotate(dx, dy);
-    if (moved && io.MouseDown[1]) camera.pan(dx, dy);
+    if (!left.isZero()) camera.rotate(left.x(), left.y());
+    if (!right.isZero()) camera.pan(right.x(), right.y());
     if (wheel != 0 && !holds) camera.zoom(wheel);
   }
   if (!pointers_.empty()) lead_tool(wheel, seconds);
   if (io.WantTextInput) return;
-  if (ImGui::IsKeyPressed(GLFW_KEY_W, false)) stage_->options().wire = !stage_->options().wire;
-  if (ImGui::IsKeyPressed(GLFW_KEY_R, false)) camera.reset();
-  if (ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false)) leave_ = true;
+  if (events_.presses(GLFW_KEY_W) % 2 == 1) stage_->options().wire = !stage_->options().wire;
+  if (events_.presses(GLFW_KEY_R) > 0) camera.reset();
+  if (events_.presses(GLFW_KEY_ESCAPE) > 0) leave_ = true;
 }
 
 void Window::lead_tool(double wheel, double seconds) {
   const ImGuiIO& io = ImGui::GetIO();
-  if (!io.WantTextInput && ImGui::IsKeyPressed(GLFW_KEY_TAB, false)) {
+  for (int n = io.WantTextInput ? 0 : events_.presses(GLFW_KEY_TAB); n > 0; --n) {
     pointers_[led_].let_go();
     led_ = (led_ + 1) % pointers_.size();
   }
-  const auto key = [&](int code) { return !io.WantTextInput && ImGui::IsKeyDown(code) ? 1.0 : 0.0; };
+  const auto key = [&](int code) { return io.WantTextInput ? 0.0 : events_.held(code, seconds) / seconds; };
   PointerInput input;
   input.cursor = {static_cast<double>(io.MousePos.x), static_cast<double>(io.MousePos.y)};
   const bool in_window = ImGui::IsMousePosValid() && !io.WantCaptureMouse;
@@ -148,8 +184,9 @@ void Window::lead_tool(double wheel, double seconds) {
   input.fine = io.KeyShift;
   input.turn = {key(GLFW_KEY_DOWN) - key(GLFW_KEY_UP), key(GLFW_KEY_RIGHT) - key(GLFW_KEY_LEFT),
                 key(GLFW_KEY_PAGE_UP) - key(GLFW_KEY_PAGE_DOWN)};
-  input.toggle = !io.WantTextInput && ImGui::IsKeyPressed(GLFW_KEY_T, false);
-  input.buttons = key(GLFW_KEY_SPACE) > 0 ? 1u : 0u;
+  input.toggle = !io.WantTextInput && events_.presses(GLFW_KEY_T) % 2 == 1;
+  if (input.toggle && !pointers_[led_].held()) input.surface = surface_under_cursor(pointers_[led_].tool());
+  input.buttons = !io.WantTextInput && events_.down(GLFW_KEY_SPACE) ? 1u : 0u;
   pointers_[led_].follow(input, stage_->camera(), seconds);
 }
 

@@ -1,15 +1,17 @@
 #pragma once
-// The picture in a window. Left drag turns the object, right drag moves it, the wheel zooms; w: wires, r: first view,
+// The picture in a window. Nothing that a hand does is lost between two pictures (hand_events.h). Left drag turns the object, right drag moves it, the wheel zooms; w: wires, r: first view,
 // Esc: close. Of the tools that the mouse leads, t takes one or lets it go, Tab goes to the next; while one is held, the
 // mouse and its wheel move it, arrows and page keys turn it, Space is its button.
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "common/scene/scene.h"
 #include "render_node/image/image.h"
 #include "render_node/model/view_model.h"
+#include "render_node/ui/hand_events.h"
 #include "render_node/ui/panels.h"
 #include "render_node/view/tool_pointer.h"
 
@@ -43,10 +45,13 @@ class Window {
 
  private:
   struct Glfw;
+  void hear();
   void lay_out_pointers();
+  std::optional<Vec3> surface_under_cursor(std::uint32_t tool) const;
   void follow_hand(double wheel, double seconds);
   void lead_tool(double wheel, double seconds);
-  std::unique_ptr<Glfw> glfw_;  // first made, last gone
+  HandEvents events_;
+  std::unique_ptr<Glfw> glfw_;  // made before, and gone after, all that draws
   std::unique_ptr<Stage> stage_;
   const Scene& scene_;
   ViewModel& model_;

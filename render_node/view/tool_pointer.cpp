@@ -7,7 +7,10 @@
 namespace palpate::render {
 
 void ToolPointer::follow(const PointerInput& input, const Camera& camera, double seconds) {
-  if (input.toggle) held_ = !held_;
+  if (input.toggle) {
+    held_ = !held_;
+    if (held_ && input.surface) p_ = *input.surface;
+  }
   buttons_ = held_ ? input.buttons : 0;
   if (!held_) return;
 

@@ -1,6 +1,7 @@
 #pragma once
-// A tool led by mouse and keys: the tip follows the cursor in the plane through it that faces the camera, the wheel
-// moves that plane in depth, keys turn the tool about the axes of the camera.
+// A tool led by mouse and keys. Taken, it starts on the surface under the cursor, where there is one. Then the tip follows the
+// cursor in the plane through it that faces the camera, the wheel moves that plane in depth, keys turn the tool about the axes
+// of the camera.
 //
 //   p = eye + d r(cursor),    d := d + step (wheel towards the scene)       r(c) the ray of pixel c, 1 deep
 //
@@ -8,6 +9,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <optional>
 
 #include "common/message/messages.h"
 #include "render_node/view/camera.h"
@@ -22,6 +24,7 @@ struct PointerInput {
   bool fine = false;                // a tenth of the way per notch
   Vec3 turn = Vec3::Zero();         // keys held, -1..1 about right, up and towards the viewer
   bool toggle = false;              // take it, or let it go
+  std::optional<Vec3> surface;      // under the cursor, where a tool that is taken starts [m]; nothing: where it lies
   std::uint32_t buttons = 0;        // bit i: button i of the tool
 };
 
