@@ -19,6 +19,7 @@ step "import the head" "$bin/palpate" import "$head" --out data/cranium.h5
 window=()
 [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] || window=(--headless)
 echo "the hand presses the head: scenes/head_press.toml ${window[*]}"
+[ ${#window[@]} -gt 0 ] || echo "the window stays open: Esc, or close it, to end"
 "$bin/palpate" run scenes/head_press.toml --out "$out" "${window[@]}"
 
 echo

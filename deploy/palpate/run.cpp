@@ -13,8 +13,10 @@
 #include "common/error/error.h"
 #include "common/file/privacy.h"
 #include "common/process/checked_option.h"
+#include "common/process/command_line.h"
 #include "common/process/stop_flag.h"
 #include "common/scene/load_scene.h"
+#include "common/scene/near_miss.h"
 #include "common/scene/scene_source.h"
 #include "deploy/palpate/disk_reserve.h"
 #include "deploy/palpate/install_paths.h"
@@ -29,6 +31,7 @@
 #include "haptic_node/device/driver_library.h"
 #include "physics_node/forecast/memory_need.h"
 #include "physics_node/record/mend_record.h"
+#include "render_node/ui/window.h"
 
 namespace palpate::deploy {
 namespace fs = std::filesystem;
@@ -77,13 +80,17 @@ const std::string& driver_of(const DeviceSpec& device, const RunOptions& options
   return options.device.empty() ? device.driver : options.device;
 }
 
-/// How long a session lasts: as told, else with the mouse in a window until that is closed, else as the scene has it.
-double session_seconds(const Scene& scene, const RunOptions& options) {
-  if (options.seconds > 0) return options.seconds;
-  const bool pointed = std::any_of(scene.tools.begin(), scene.tools.end(), [&](const ToolSpec& tool) {
+/// Does a person lead a tool with the mouse? Then no time of the scene's says when all is over.
+bool any_pointed(const Scene& scene, const RunOptions& options) {
+  return std::any_of(scene.tools.begin(), scene.tools.end(), [&](const ToolSpec& tool) {
     return driver_of(scene.device(tool.device), options) == "mouse";
   });
-  return pointed && !options.headless ? std::numeric_limits<double>::infinity() : scene.natural_seconds();
+}
+
+/// How long a session lasts: as told, else as the scene has it. With a window that is only said: a person closes it.
+double session_seconds(const Scene& scene, const RunOptions& options, bool windowed) {
+  if (options.seconds > 0) return options.seconds;
+  return windowed && any_pointed(scene, options) ? std::numeric_limits<double>::infinity() : scene.natural_seconds();
 }
 
 /// The haptic node would refuse an unknown driver, too, but only after all nodes have started.
@@ -94,8 +101,10 @@ void require_drivers(const Scene& scene, const RunOptions& options, const Sessio
     const DeviceSpec& device = scene.device(tool.device);
     const std::string& driver = driver_of(device, options);
     if (std::find(present.begin(), present.end(), driver) != present.end()) continue;
-    throw InputError(fmt::format("{}: no driver \"{}\"; drivers here: {}",
+    const auto meant = near_miss(driver, present);
+    throw InputError(fmt::format("{}: no driver \"{}\"; {}drivers here: {}",
                                  options.device.empty() ? device.place.text() : "--device", driver,
+                                 meant ? fmt::format("did you mean \"{}\"? ", *meant) : "",
                                  present.empty() ? "none" : fmt::format("{}", fmt::join(present, ", "))));
   }
 }
@@ -129,6 +138,8 @@ int run(const RunOptions& options) {
   if (scene.tools.empty()) share = without_hand(std::move(share));
   if (std::find(share.here.begin(), share.here.end(), NodeKind::physics) != share.here.end())
     physics::refuse_too_large(scene, physics::usable_memory());
+  const bool windowed = !options.headless && render::display_present() &&
+                        std::find(share.here.begin(), share.here.end(), NodeKind::render) != share.here.end();
   std::optional<DiskReserve> room;
   const SessionPlan plan = {
       .nodes = share.here,
@@ -138,8 +149,9 @@ int run(const RunOptions& options) {
       .membership = {.domain = options.domain,
                      .reach = reach,
                      .identity = own_identity("supervisor", scene.path, scene.checksum)},
-      .seconds = session_seconds(scene, options),
+      .seconds = session_seconds(scene, options, windowed),
       .simulated_too = options.seconds == 0,
+      .until_closed = windowed && options.seconds == 0,
       .ending = [&room] { room.reset(); }};
   require_programs(plan);
   require_drivers(scene, options, plan);
@@ -183,14 +195,14 @@ void add_run(CLI::App& app, int& exit_code) {
   command
       ->add_option(
           "--seconds", options->seconds,
-          "how long, once all nodes run; else until the scene's length is simulated, or the mouse's window is closed")
+          "how long, once all nodes run; else until the window is closed, or without one until the scene's length is simulated")
       ->check(number_in(run_seconds));
   command->add_option("--out", options->out, "folder for results (default: out/NAME_OF_SCENE)");
   command->add_option("--set", options->settings, "table.key=value over the scene; may be repeated")
       ->allow_extra_args(false);
   command->add_option("--device", options->device, "driver instead of the scene's");
   command->add_option("--deployment", options->deployment, "all: this PC; p2, p3: see docs/two_pcs.md")
-      ->check(CLI::IsMember({"all", "p2", "p3"}));
+      ->check(one_of({"all", "p2", "p3"}));
   command->add_option("--side", options->side, "which PC of p2 or p3 this is")->check(CLI::Range(1, 2));
   command->add_option("--nodes", options->nodes, "only some of physics,haptic,render");
   command->add_option("--interface", options->interface,

@@ -77,9 +77,17 @@ class Session {
   /// True when the session is to end: a person said so, its time is up, or a node has gone or is past waiting for.
   bool over() {
     if (stop_requested() || quarrelled_) return true;
-    if (running_since_ && seconds_since(*running_since_) >= plan_.seconds && simulated_enough()) return true;
+    if (time_is_up() && !plan_.until_closed) return true;
+    if (time_is_up() && !said_up_) {
+      said_up_ = true;
+      say(fmt::format("the {:.6g} s of the scene are over; close the window or press Ctrl-C to end", plan_.seconds));
+    }
     return std::any_of(nodes_.begin(), nodes_.end(),
                        [this](RunningNode& node) { return node.child.ending() || silent_for_good(node); });
+  }
+
+  bool time_is_up() const {
+    return running_since_ && seconds_since(*running_since_) >= plan_.seconds && simulated_enough();
   }
 
   bool simulated_enough() const {
@@ -177,6 +185,7 @@ class Session {
   Clock::time_point started_ = Clock::now();
   std::optional<Clock::time_point> running_since_;
   bool silence_reported_ = false;
+  bool said_up_ = false;
   SessionResult result_;
 };
 

@@ -20,8 +20,9 @@ struct SessionPlan {
   std::filesystem::path bin;           // folder of the nodes' programs
   std::vector<std::string> arguments;  // of every node
   Membership membership;               // of the supervisor; its identity is what all others are compared with
-  double seconds = 0;                  // from the moment all nodes run
+  double seconds = 0;                  // from the moment all nodes run; only said where `until_closed`
   bool simulated_too = false;          // physics must have come so far, too: what happens slowly is seen to its end
+  bool until_closed = false;           // a window is open: it lasts until a person closes that, or presses Ctrl-C
   std::function<void()> ending;        // called before nodes are told to end; empty: nothing
 };
 

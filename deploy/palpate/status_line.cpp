@@ -1,8 +1,11 @@
 #include "deploy/palpate/status_line.h"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <cstdio>
 
 #include "deploy/palpate/nodes.h"
@@ -53,16 +56,41 @@ std::string node_text(NodeKind node, const StatusBoard::Entry& entry) {
   return text;
 }
 
+std::string times(std::uint64_t n, std::string_view what) {
+  return n == 0 ? std::string() : fmt::format("{}{}", what, n == 1 ? "" : fmt::format(" ({} times)", n));
+}
+
+/// What a node warns of, in words. The note of the hand says how its tools fare, so that its counts speak instead.
+std::string warning_text(const NodeStatus& status) {
+  if (status.warnings == 0) return {};
+  std::string words;
+  if (status.node == NodeKind::haptic) {
+    for (const auto& part : {times(status.stale_events, "physics was silent for the hand"),
+                             times(status.safe_events, "the hand was made safe"),
+                             times(status.warnings - std::min(status.warnings, status.stale_events + status.safe_events),
+                                   "the hand's loop stood still")})
+      if (!part.empty()) words += (words.empty() ? "" : ", ") + part;
+  } else {
+    words = status.note.data();
+  }
+  if (words.empty()) words = fmt::format("{} warns, and does not say of what", name_of(status.node));
+  return " | " + words;
+}
+
 }  // namespace
+
+std::string cut_to(const std::string& line, std::size_t columns) {
+  if (columns < 4 || line.size() <= columns) return line;
+  std::size_t end = columns - 3;
+  while (end > 0 && (static_cast<unsigned char>(line[end]) & 0xc0) == 0x80) --end;  // not within a character
+  return line.substr(0, end) + "...";
+}
 
 std::string status_text(const StatusBoard& board, const std::vector<NodeKind>& nodes, double seconds) {
   std::string text = fmt::format("{:6.1f} s", seconds);
-  unsigned warnings = 0;
-  for (const NodeKind node : nodes) {
-    text += node_text(node, board.at(node));
-    if (board.at(node).newest) warnings += board.at(node).newest->warnings;
-  }
-  if (warnings > 0) text += fmt::format(" | {} warning{}", warnings, warnings == 1 ? "" : "s");
+  for (const NodeKind node : nodes) text += node_text(node, board.at(node));
+  for (const NodeKind node : nodes)
+    if (board.at(node).newest) text += warning_text(*board.at(node).newest);
   return text;
 }
 
@@ -74,7 +102,9 @@ void StatusLine::show(const StatusBoard& board, const std::vector<NodeKind>& nod
   next_ = now + (terminal_ ? Clock::duration(between_updates) : Clock::duration(between_lines));
   const std::string text = status_text(board, nodes, seconds);
   if (terminal_) {
-    std::printf("\r%s\033[K", text.c_str());
+    winsize size{};
+    const std::size_t columns = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col - 1U : 0;
+    std::printf("\r%s\033[K", cut_to(text, columns).c_str());  // a longer line would not be written over
     open_ = true;
   } else {
     std::printf("%s\n", text.c_str());

@@ -2,6 +2,7 @@
 // The line that a person watches while a session runs.
 
 #include <chrono>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,11 @@
 namespace palpate::deploy {
 
 /// A hand that gets energy made out of nothing is named; a hand without forces says why.
-/// For example "  12.4 s | physics 1000 Hz x1.00 | haptic 1000 Hz loop 1.2 ms | render 30 Hz | 2 warnings".
+/// For example "  12.4 s | physics 1000 Hz x1.00 | haptic 1000 Hz loop 1.2 ms | render 30 Hz". Warnings follow in words.
 std::string status_text(const StatusBoard& board, const std::vector<NodeKind>& nodes, double seconds);
+
+/// At most so many columns, the last of them dots where it was longer; 0: any.
+std::string cut_to(const std::string& line, std::size_t columns);
 
 /// Shows the text on stdout: on a terminal over and over in one line, else a new line every two seconds.
 class StatusLine {

@@ -51,8 +51,8 @@ class SupervisedRun {
                                       "--bin-dir",
                                       (folder / "bin").string(),
                                       "--domain",
-                                      std::to_string(domain),
-                                      "--headless"};
+                                      std::to_string(domain)};
+    if (headless) words.emplace_back("--headless");
     words.insert(words.end(), extra.begin(), extra.end());
     std::vector<char*> argv;
     for (auto& word : words) argv.push_back(word.data());
@@ -117,6 +117,7 @@ class SupervisedRun {
   static std::string scene_text();
 
   int domain = own_domain();
+  bool headless = true;
   std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("palpate_run_" + std::to_string(getpid()));
   std::filesystem::path out_folder = folder / "out";

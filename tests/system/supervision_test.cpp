@@ -108,6 +108,27 @@ TEST_F(Supervision, EndsWellWhenAWindowIsClosed) {
   EXPECT_LT(told_ns("haptic"), told_ns("physics"));
 }
 
+/// The nodes are fakes, so that the window is one in name only: what counts is who ends the session.
+TEST_F(Supervision, StaysOpenWithAWindowWhenTheScenesTimeIsOver) {
+  run.headless = false;
+  run.start({"--set", "scene.seconds=0.2"}, {{"DISPLAY", ":98765"}});
+  const auto heard = [&](const char* words) {
+    for (int i = 0; i < 2000 && run.text("stderr").find(words) == std::string::npos; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    return run.text("stderr").find(words) != std::string::npos;
+  };
+  ASSERT_TRUE(heard("the 0.2 s of the scene are over; close the window or press Ctrl-C to end")) << run.text("stderr");
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  EXPECT_EQ(run.node_pids().size(), 3u) << "all nodes live on";
+  kill(run.pid, SIGINT);
+  EXPECT_EQ(run.wait(), 0) << run.text("stderr");
+}
+
+TEST_F(Supervision, EndsByItselfWithoutAWindow) {
+  run.start({"--set", "scene.seconds=0.2"}, {{"DISPLAY", ":98765"}});
+  EXPECT_EQ(run.wait(), 0) << run.text("stderr");
+}
+
 // A second is a promise to the person at the device: the least of several stops, since other programs only ever add to one.
 TEST_F(Supervision, EndsWithinASecondOfCtrlCWithWholeFiles) {
   double least_s = 1e9;

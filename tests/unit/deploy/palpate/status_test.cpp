@@ -55,6 +55,8 @@ TEST(StatusText, SaysWhatEachNodeDoes) {
   physics.rate_Hz = 999.6;
   physics.real_time_factor = 0.984;
   physics.warnings = 2;
+  const std::string trouble = "the guard brought the last good state back 1 time(s)";
+  std::copy(trouble.begin(), trouble.end(), physics.note.begin());
   auto haptic = status_of(NodeKind::haptic, NodePhase::running, 2);
   haptic.rate_Hz = 1000;
   haptic.loop_age_ms_p50 = 1.23;
@@ -62,7 +64,18 @@ TEST(StatusText, SaysWhatEachNodeDoes) {
   board.note(haptic);
   const std::vector<NodeKind> nodes = {NodeKind::physics, NodeKind::haptic, NodeKind::render};
   EXPECT_EQ(status_text(board, nodes, 12.34),
-            "  12.3 s | physics 1000 Hz x0.98 | haptic 1000 Hz loop 1.2 ms | render starting | 2 warnings");
+            "  12.3 s | physics 1000 Hz x0.98 | haptic 1000 Hz loop 1.2 ms | render starting | "
+            "the guard brought the last good state back 1 time(s)");
+  auto silent = haptic;
+  silent.warnings = 4;
+  silent.stale_events = 1;
+  silent.safe_events = 3;
+  board.note(silent);
+  EXPECT_EQ(status_text(board, {NodeKind::haptic}, 0),
+            "   0.0 s | haptic 1000 Hz loop 1.2 ms | physics was silent for the hand, the hand was made safe (3 times)");
+  EXPECT_EQ(cut_to("physics was silent", 11), "physics ...");
+  EXPECT_EQ(cut_to("physics", 7), "physics");
+  EXPECT_EQ(cut_to("physics", 0), "physics");
   haptic.surplus_J = 0.234e-3;
   board.note(haptic);
   EXPECT_EQ(status_text(board, {NodeKind::haptic}, 0),
