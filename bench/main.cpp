@@ -6,6 +6,7 @@
 
 #include "bench/subcommands.h"
 #include "common/error/error.h"
+#include "common/process/command_line.h"
 
 int main(int argc, char** argv) {
   using namespace palpate;
@@ -17,6 +18,7 @@ int main(int argc, char** argv) {
 #endif
   int exit_code = exit_ok;
   CLI::App app{"palpate bench: how fast, for how much error", "palpate bench"};
+  add_version(app, "palpate-bench");
   app.require_subcommand(0, 1);  // none: said below, so that an unknown word is named
   for (const auto add : subcommands) add(app, exit_code);
   try {
@@ -25,7 +27,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& asked_for_help) {
     return app.exit(asked_for_help);
   } catch (const CLI::ParseError& error) {
-    std::fprintf(stderr, "palpate bench: %s; see palpate bench --help\n", error.what());
+    std::fprintf(stderr, "palpate bench: %s; see palpate bench --help\n", mistake_text(app, error).c_str());
     return exit_mistake;
   } catch (const InputError& error) {
     for (const auto& line : error.complaints()) std::fprintf(stderr, "palpate bench: %s\n", line.c_str());

@@ -3,7 +3,7 @@ execute_process(COMMAND git -C ${SOURCE} describe --always --dirty --abbrev=10 O
 if(failed OR commit STREQUAL "")
   set(commit "unknown")
 endif()
-set(text "#pragma once\n#define PALPATE_COMMIT \"${commit}\"\n")
+set(text "#pragma once\n#define PALPATE_COMMIT \"${commit}\"\n#define PALPATE_VERSION \"${VERSION}\"\n")
 set(old "")
 if(EXISTS ${OUT})
   file(READ ${OUT} old)

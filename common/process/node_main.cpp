@@ -12,6 +12,7 @@
 #include "common/error/error.h"
 #include "common/file/privacy.h"
 #include "common/process/checked_option.h"
+#include "common/process/command_line.h"
 #include "common/process/other_process.h"
 #include "common/process/stop_flag.h"
 #include "common/report/log.h"
@@ -91,6 +92,7 @@ int node_main(int argc, char** argv, const char* name,
   NodeOptions options;
   std::string peers;
   CLI::App app{std::string(name) + ": one node of palpate"};
+  add_version(app, name);
   app.add_option("scene", options.scene_path, "scene file (TOML)")->required();
   app.add_option("--set", options.settings, "table.key=value over the scene; may be repeated")
       ->allow_extra_args(false);
@@ -106,8 +108,11 @@ int node_main(int argc, char** argv, const char* name,
   app.add_flag("--require-rt", options.require_rt, "fail without real-time rights");
   try {
     app.parse(argc, argv);
+  } catch (const CLI::Success& asked) {
+    return app.exit(asked);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? exit_ok : exit_mistake;
+    std::fprintf(stderr, "%s: %s; see %s --help\n", name, mistake_text(app, error).c_str(), name);
+    return exit_mistake;
   }
   try {
     options.reach.peers = comma_list(peers);

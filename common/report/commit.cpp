@@ -5,5 +5,6 @@
 namespace palpate {
 
 std::string commit() { return PALPATE_COMMIT; }
+std::string version() { return PALPATE_VERSION; }
 
 }  // namespace palpate

@@ -121,7 +121,7 @@ bool read_shape(TableReader& body, ReadContext& context, BodySpec& spec) {
     if (value == nullptr)
       body.complain_lack("\"shape\"", "write " + quoted_list(shapes));
     else
-      body.complain_value("shape", *value, quoted_list(shapes));
+      body.complain_word("shape", *value, shapes);
     return false;
   }
   if (std::holds_alternative<VolumeShape>(spec.shape)) return true;

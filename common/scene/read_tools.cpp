@@ -40,8 +40,7 @@ void read_other_shape(TableReader& reader, ToolSpec& spec) {
   else if (shape != nullptr && shape->value_or(std::string()) == "stick")
     spec.shape = ToolShape::stick;
   else if (shape != nullptr && shape->value_or(std::string()) != "point")
-    reader.complain_value("shape", *shape,
-                          quoted_list(tool_shapes) + ", or body = the name of a [[body]] instead");
+    reader.complain_word("shape", *shape, tool_shapes, ", or body = the name of a [[body]] instead");
 }
 
 /// The body of a tool: there is one, a hand can hold it, and nobody else does.

@@ -115,6 +115,13 @@ void TableReader::complain_value(std::string_view key, const toml::node& value, 
               fmt::format("\"{}\" in {} is {}; write {}", key, title_, described(value), expected));
 }
 
+void TableReader::complain_word(std::string_view key, const toml::node& value,
+                                const std::vector<std::string>& words, std::string_view more) {
+  const auto meant = near_miss(value.value_or(std::string()), words);
+  complain_value(key, value,
+                 fmt::format("{}{}{}", quoted_list(words), more, meant ? fmt::format(" (did you mean \"{}\"?)", *meant) : ""));
+}
+
 void TableReader::complain_lack(std::string_view what, std::string_view advice) {
   complain_at(place_, fmt::format("{} lacks {}; {}", title_, what, advice));
 }
@@ -182,7 +189,7 @@ std::optional<std::size_t> TableReader::read_word(std::string_view key,
     const auto found = std::find(words.begin(), words.end(), text->get());
     if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
   }
-  complain_value(key, *value, quoted_list(words));
+  complain_word(key, *value, words);
   return std::nullopt;
 }
 
@@ -195,7 +202,7 @@ std::optional<std::vector<bool>> TableReader::read_words(std::string_view key,
     const auto* text = item.as_string();
     const auto found = text == nullptr ? words.end() : std::find(words.begin(), words.end(), text->get());
     if (found == words.end())
-      complain_value(key, item, quoted_list(words));
+      complain_word(key, item, words);
     else
       chosen[static_cast<std::size_t>(found - words.begin())] = true;
   }

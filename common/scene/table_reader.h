@@ -71,6 +71,9 @@ class TableReader {
 
   /// '"key" in TITLE is VALUE; write EXPECTED', at the value.
   void complain_value(std::string_view key, const toml::node& value, std::string_view expected);
+  /// The same of a word that is none of `words`, with the one that was probably meant. @param more  after the words
+  void complain_word(std::string_view key, const toml::node& value, const std::vector<std::string>& words,
+                     std::string_view more = "");
   /// Anything about a key, at its value if it is there, else at the table.
   void complain(std::string_view key, const std::string& what);
   /// Anything about some place in the table.

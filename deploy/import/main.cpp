@@ -11,6 +11,7 @@
 #include "common/file/privacy.h"
 #include "common/math/units.h"
 #include "common/process/checked_option.h"
+#include "common/process/command_line.h"
 #include "common/process/machine_memory.h"
 #include "common/record/part_file.h"
 #include "deploy/import/brain_phantom.h"
@@ -45,7 +46,7 @@ Command parse(CLI::App& app, int argc, char** argv) {
       app.add_option(
              "--phantom", phantom,
              "instead of an image: a made angiogram (size 336,336,140), or a brain as PNG slices in a folder")
-          ->check(CLI::IsMember({"aneurysm", "brain"}))
+          ->check(one_of({"aneurysm", "brain"}))
           ->excludes(image);
   app.add_option("--out", command.out, "the volume to write; of a brain, the folder")->required();
   app.add_option("--size", size, "raw, phantom: cells nx,ny,nz")->delimiter(',')->expected(3);
@@ -54,11 +55,11 @@ Command parse(CLI::App& app, int argc, char** argv) {
       ->expected(3)
       ->excludes(phantom_option);
   app.add_option("--type", type, "raw: kind of number")
-      ->check(CLI::IsMember({"int16", "uint8", "uint16", "float32"}))
+      ->check(one_of({"int16", "uint8", "uint16", "float32"}))
       ->excludes(phantom_option);
   auto* header_option = app.add_option("--header", header, "raw: bytes to skip")->excludes(phantom_option);
   app.add_option("--partition", partition, "resample to nx,ny,nz cells")->delimiter(',')->expected(3);
-  app.add_option("--transfer", command.options.transfer, "colours")->check(CLI::IsMember({"ct", "grey"}));
+  app.add_option("--transfer", command.options.transfer, "colours")->check(one_of({"ct", "grey"}));
   double gigabytes = 0.5e-9 * static_cast<double>(machine_memory());
   app.add_option("--memory-limit", gigabytes, "most memory that it may take [GB]; else half of the machine's")
       ->check(number_in({.lo = 1e-9 * least_memory, .hi = 1e6}));
@@ -80,10 +81,21 @@ Command parse(CLI::App& app, int argc, char** argv) {
   return command;
 }
 
+/// Without the endings of image files, so that "head.nii.gz" becomes "head".
+std::string stem_of(std::filesystem::path path) {
+  while (path.has_extension() && path.extension().string().size() <= 5) path.replace_extension();
+  return path.string();
+}
+
+/// @throws InputError if the name would lie about what is in the file, or cannot be written
 void check_output(const Command& command) {
   std::error_code ignored;
   if (!command.options.phantom && std::filesystem::equivalent(command.options.input, command.out, ignored))
     throw InputError(command.out + ": is the image itself; name another file to write");
+  const std::string ending = std::filesystem::path(command.out).extension().string();
+  if (ending != ".h5" && ending != ".hdf5")
+    throw InputError(fmt::format(
+        "{}: a volume is an HDF5 file, and its name should say so; write --out {}.h5", command.out, stem_of(command.out)));
   check_can_write(command.out);
 }
 
@@ -95,6 +107,9 @@ void report(const Command& command, const Volume& volume) {
 }
 
 void make_brain(const Command& command) {
+  if (const auto path = std::filesystem::path(command.out); path.extension() == ".h5" || path.extension() == ".png")
+    throw InputError(
+        fmt::format("{}: slices are PNG files in a folder; write --out {}", command.out, stem_of(command.out)));
   write_brain_phantom(command.out);
   if (command.quiet) return;
   fmt::print(
@@ -156,12 +171,13 @@ int import(const Command& command) {
 int main(int argc, char** argv) {
   CLI::App app{"palpate import: an image becomes a volume"};
   Command command;
+  add_version(app, "palpate-import");
   try {
     command = parse(app, argc, argv);
   } catch (const CLI::Success& wanted) {
     return app.exit(wanted);
   } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "palpate import: {}; palpate import --help tells more\n", error.what());
+    fmt::print(stderr, "palpate import: {}; see palpate import --help\n", mistake_text(app, error));
     return exit_mistake;
   }
   const int code = run_in_child([&] { return import(command); });

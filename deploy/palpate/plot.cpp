@@ -37,7 +37,9 @@ void add_plot(CLI::App& app, int& exit_code) {
           "{}: has no summary.json; give the folder that palpate run or simulate wrote", *folder));
     }
     keep_as_private_as(files_in(*folder));
-    exit_code = draw_plots(*folder) ? exit_ok : exit_failed;
+    const bool drawn = draw_plots(*folder);
+    if (drawn) say_plots(*folder);
+    exit_code = drawn ? exit_ok : exit_failed;
   });
 }
 

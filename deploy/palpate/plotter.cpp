@@ -1,6 +1,8 @@
 #include "deploy/palpate/plotter.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <vector>
 
 #include "deploy/palpate/child.h"
 #include "deploy/palpate/install_paths.h"
@@ -29,6 +31,18 @@ bool draw_plots(const std::filesystem::path& folder) {
     return false;
   }
   return Child(python, {program.string(), folder.string()}).wait().clean();
+}
+
+void say_plots(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> plots;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    const bool ours = name == "energy.png" || name.starts_with("force");
+    if (ours && entry.path().extension() == ".png") plots.push_back(entry.path());
+  }
+  std::sort(plots.begin(), plots.end());
+  for (const auto& plot : plots) std::printf("plot     %s\n", plot.c_str());
+  if (plots.empty()) std::printf("plot     none: the session had no tool and recorded no energy\n");
 }
 
 }  // namespace palpate::deploy

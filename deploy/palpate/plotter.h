@@ -15,4 +15,7 @@ std::filesystem::path plotter_program();
 /// @return true if all went well
 bool draw_plots(const std::filesystem::path& folder);
 
+/// Names on stdout the plots that are in DIR, one line each; one line, too, where there is nothing to draw.
+void say_plots(const std::filesystem::path& folder);
+
 }  // namespace palpate::deploy

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "common/error/error.h"
+#include "common/scene/near_miss.h"
 
 namespace palpate::haptic {
 namespace fs = std::filesystem;
@@ -35,9 +36,11 @@ bool is_driver_name(const std::string& name) {
   std::vector<std::string> searched;
   for (const auto& folder : folders) searched.push_back(folder.string());
   const auto present = drivers_present(folders);
+  const auto meant = near_miss(name, present);
   throw InputError(
-      fmt::format("{}{}driver \"{}\": {}; searched {}; drivers there: {}", place, place.empty() ? "" : ": ",
-                  name, why, fmt::join(searched, ", "),
+      fmt::format("{}{}driver \"{}\": {}; {}searched {}; drivers there: {}", place, place.empty() ? "" : ": ",
+                  name, why, meant && *meant != name ? fmt::format("did you mean \"{}\"? ", *meant) : "",
+                  fmt::join(searched, ", "),
                   present.empty() ? std::string("none") : fmt::format("{}", fmt::join(present, ", "))));
 }
 
