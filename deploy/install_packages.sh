@@ -34,12 +34,36 @@ if [ "$(id -u)" -ne 0 ]; then
   as_root=(sudo)
 fi
 
+[ ${#as_root[@]} -eq 0 ] || sudo true  # its question before anything is written over it
+started=$SECONDS
+line_every_s=${PALPATE_LINE_EVERY_S:-10}
 log=$(mktemp)
-trap 'rm -f "$log"' EXIT
-apt() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty=0 "$@" >>"$log" 2>&1; }
+trap 'rm -f "$log"; kill $(jobs -p) 2>/dev/null || true' EXIT
+# Quiet while all is well, but not silent: what apt does now shows in place on a terminal, elsewhere in a line every ten seconds.
+progress() {
+  local shown=$SECONDS last
+  while sleep 0.5; do
+    last=$(tail -n 1 "$log" | tr -d '\r\t\033')
+    if [ -t 1 ]; then
+      printf '\r\033[Kpackages: %d s  %.80s' $((SECONDS - started)) "$last"
+    elif [ $((SECONDS - shown)) -ge "$line_every_s" ]; then
+      shown=$SECONDS
+      printf 'packages: %d s  %.80s\n' $((SECONDS - started)) "$last"
+    fi
+  done
+}
+# Behind it the watcher, not apt: so that Ctrl-C and sudo's question reach apt.
+apt() {
+  local watcher code=0
+  progress &
+  watcher=$!
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -o Dpkg::Use-Pty=0 "$@" >>"$log" 2>&1 || code=$?
+  kill "$watcher" 2>/dev/null && wait "$watcher" 2>/dev/null || true
+  [ ! -t 1 ] || printf '\r\033[K'
+  return "$code"
+}
 why() { grep -m 1 '^E:' "$log" || tail -n 1 "$log"; }
 
-started=$SECONDS
 echo "packages: installing ${#missing[@]} of $wanted and what they need"
 apt update || fail "apt-get update failed: $(why); check the network and /etc/apt"
 apt install --yes --no-install-recommends "${missing[@]}" || fail "apt-get install failed: $(why)"

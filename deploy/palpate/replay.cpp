@@ -74,19 +74,20 @@ class Rerun {
   int run() {
     const double whole =
         std::min(options_.until, static_cast<double>(record_.frames()) * world_->frame_seconds());
+    Progress progress(whole);
     const auto begin = std::chrono::steady_clock::now();
-    while (!stop_requested() && world_->t() < whole - 1e-9 && replay_->frame()) note(whole);
+    while (!stop_requested() && world_->t() < whole - 1e-9 && replay_->frame()) note(progress);
     const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    show_progress(whole, whole);
+    progress.show(whole);
     if (recorder_) leave(wall_s);
     return tell(wall_s);
   }
 
  private:
-  void note(double whole) {
+  void note(Progress& progress) {
     const auto& hands = replay_->hands();
     if (recorder_) recorder_->frame(*world_, hands);
-    if (world_->report().frames % 50 == 0) show_progress(world_->t(), whole);
+    if (world_->report().frames % 50 == 0) progress.show(world_->t());
     if (!eye_) return;
     for (std::uint32_t n = 0; n < hands.size(); ++n)
       if (hands[n]) eye_->take(n, seen(*hands[n], world_->t()));

@@ -45,7 +45,8 @@ int simulate(SimulateOptions options) {
   session.leave_in(out, source_of(scene, options.settings));
   const std::vector<std::string> known = session.remarks();
   for (const auto& remark : known) fmt::print(stderr, "palpate: {}\n", remark);
-  session.run(seconds, [&](double t) { show_progress(t, seconds); });
+  Progress progress(seconds);
+  session.run(seconds, [&](double t) { progress.show(t); });
   const nlohmann::json summary = session.finish();
   write_json((out / "summary.json").string(), summary);
   std::filesystem::remove(out / "parts");  // the nodes' folder, empty here
