@@ -85,7 +85,9 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
   if (dt_ > stable_dt_) {
     remarks_.push_back(
         fmt::format("{}: a step of {:.4g} ms is above the stable {:.4g} ms; expect the guard to act",
-                    scene.physics.place.text(), 1e3 * dt_, 1e3 * stable_dt_));
+                    scene.physics.place.line == 0 && scene.physics.place.file.empty() ? scene.path + ": [physics]"
+                                                                                      : scene.physics.place.text(),
+                    1e3 * dt_, 1e3 * stable_dt_));
   }
   restart_ledger();
 }

@@ -73,6 +73,7 @@ class World {
   bool has_stopped() const noexcept { return given_up_.has_value(); }
   /// What a person should know about this scene: one line each.
   const std::vector<std::string>& remarks() const { return remarks_; }
+  void add_remarks(std::vector<std::string> more) { remarks_.insert(remarks_.end(), more.begin(), more.end()); }
 
  private:
   void step(double dt, double done, bool watch) noexcept;

@@ -4,9 +4,14 @@
 
 #include <string>
 
+#include "common/scene/scene.h"
+
 namespace palpate::deploy {
 
 std::string info_scene(const std::string& path);   // a scene (.toml)
+/// What a person should know before the scene runs, one line each; empty: nothing. Builds the bodies, and says what hinders that,
+/// such as an image that has not been imported yet.
+std::string remarks_text(const Scene& scene);
 std::string info_volume(const std::string& path);  // an imported volume (.h5)
 std::string info_record(const std::string& path);  // any other HDF5 file: its datasets
 

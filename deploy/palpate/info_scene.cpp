@@ -146,7 +146,7 @@ std::string info_scene(const std::string& path) {
   for (const auto& body : scene.bodies) text += body_text(body);
   for (const auto& material : scene.materials) text += material_text(material);
   for (const auto& tool : scene.tools) text += tool_text(tool, scene);
-  return text;
+  return text + remarks_text(scene);
 }
 
 }  // namespace palpate::deploy

@@ -8,6 +8,7 @@
 #include "common/report/commit.h"
 #include "common/report/json_file.h"
 #include "common/report/warnings.h"
+#include "deploy/palpate/hand_warnings.h"
 #include "deploy/palpate/nodes.h"
 
 namespace palpate::deploy {
@@ -49,6 +50,7 @@ json merged_summary(const fs::path& out, const Scene& scene, const SessionResult
   }
   summary["warnings"] = json::array();
   add_warnings(summary, warnings);
+  add_warnings(summary, hand_warnings(summary));
   const json ours = {
       {"scene", scene.path}, {"commit", commit()}, {"seed", scene.seed}, {"wall_s", result.wall_s}};
   for (const auto& [key, value] : ours.items()) {

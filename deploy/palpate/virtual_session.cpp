@@ -6,6 +6,8 @@
 
 #include "common/process/stop_flag.h"
 #include "common/report/warnings.h"
+#include "deploy/palpate/hand_warnings.h"
+#include "physics_node/remarks/remarks.h"
 #include "physics_node/report/physics_summary.h"
 
 namespace palpate::deploy {
@@ -17,6 +19,7 @@ VirtualSession::VirtualSession(const Scene& scene, const VirtualOptions& options
       patches_(scene.tools.size()),
       wrenches_(scene.tools.size()),
       states_(scene.tools.size()) {
+  world_.add_remarks(physics::remarks_about(world_));
   for (std::uint32_t n = 0; n < scene_.tools.size(); ++n) {
     hands_.push_back(
         std::make_unique<haptic::HapticSession>(scene_, n, options.device, &VirtualSession::clock, this));
@@ -91,6 +94,7 @@ nlohmann::json VirtualSession::finish() {
   }
   add_warnings(summary, faults);
   if (eye_) summary["render"] = eye_->summary(wall_s_);
+  add_warnings(summary, hand_warnings(summary));
   return summary;
 }
 

@@ -17,6 +17,7 @@
 #include "common/wire/refusals.h"
 #include "common/wire/wire_report.h"
 #include "physics_node/record/earlier_record.h"
+#include "physics_node/remarks/remarks.h"
 #include "physics_node/report/physics_summary.h"
 
 namespace palpate::physics {
@@ -50,6 +51,7 @@ PhysicsLoop::PhysicsLoop(const NodeOptions& options, const Scene& scene)
 
   const std::int64_t begin = now_ns();
   world_ = std::make_unique<World>(scene_, scene_.tools.empty() ? 0 : cores_of_the_hand);
+  world_->add_remarks(remarks_about(*world_));
   appearance_ = std::make_unique<Appearance>(*world_, scene_.render.threshold, Remake::beside);
   newcomer_
       .settle();  // before an earlier record is set aside, and before the hand and the eye are told anything

@@ -60,6 +60,14 @@ TEST_F(Summary, HoldsTheWarningsOfAllParts) {
   EXPECT_EQ(merged_summary(folder.path(), scene, result)["warnings"], (nlohmann::json{"one", "two", "three"}));
 }
 
+TEST_F(Summary, SaysInWordsWhatTheCountsOfTheHandMean) {
+  folder.write("parts/haptic.json", R"({"haptic": {"stale_events": 3, "safe_events": 0, "faults": 1, "watchdog_stops": 0}})");
+  const auto warnings = merged_summary(folder.path(), scene, result)["warnings"];
+  ASSERT_EQ(warnings.size(), 2u) << warnings;
+  EXPECT_EQ(warnings[0].get<std::string>().find("physics was silent for the hand 3 time(s)"), 0u);
+  EXPECT_EQ(warnings[1].get<std::string>().find("a device had 1 fault(s)"), 0u);
+}
+
 TEST_F(Summary, HasWarningsWhereNobodyWarns) {
   folder.write("parts/physics.json", R"({"warnings": "not an array"})");
   EXPECT_EQ(merged_summary(folder.path(), scene, result)["warnings"], nlohmann::json::array());

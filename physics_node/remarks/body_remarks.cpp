@@ -1,0 +1,120 @@
+// What holds bodies, and what they begin in.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "physics_node/remarks/enclosure.h"
+#include "physics_node/remarks/remarks.h"
+
+namespace palpate::physics {
+namespace {
+
+std::string who(const Scene& scene, std::size_t b) {
+  return fmt::format("{}: body \"{}\"", scene.bodies[b].place.text(), scene.bodies[b].name);
+}
+
+bool anything_moves(const Scene& scene) {
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const BodySpec& body) { return !body.velocity.isZero(); });
+}
+
+void add_holds(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const Body& body = bodies[b]->body();
+    const BodySpec& spec = scene.bodies[b];
+    if (is_tool(scene, body)) continue;
+    if (body.n_held == body.lattice.n_masses())
+      remarks.push_back(who(scene, b) + " is held at all of its masses: nothing of it moves; hold a face, or a smaller box");
+    for (const FixedBox& box : spec.fixed_boxes) {
+      const Eigen::AlignedBox3d held(box.min, box.max);
+      const bool any = std::any_of(body.lattice.masses.begin(), body.lattice.masses.end(),
+                                   [&](Index cell) { return held.contains(body.lattice.rest_position(cell)); });
+      if (!any) remarks.push_back(who(scene, b) + ": a box of \"fixed\" holds none of its masses; lengths are in millimetres");
+    }
+    if (body.n_held > 0) continue;
+    if (falls_for_ever(scene))
+      remarks.push_back(who(scene, b) + " falls: nothing holds it and nothing lies below; give it fixed = [\"-z\"], a [floor], or "
+                                        "gravity_m_per_s2 = [0, 0, 0]");
+    else if (scene.gravity.isZero() && !scene.floor && scene.walls.empty() && !anything_moves(scene))
+      remarks.push_back(who(scene, b) + " drifts away once it is touched: nothing holds it; give it fixed = [\"-z\"]");
+  }
+}
+
+void add_voxels(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
+  constexpr double most_filled = 0.95;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const Body& body = bodies[b]->body();
+    const auto* image = std::get_if<VolumeShape>(&scene.bodies[b].shape);
+    if (image == nullptr || !body.cells) continue;
+    const Cells& cells = *body.cells;
+    const DeformableRegion& region = image->deformable;
+    const auto [i, j, k] = region.center_voxel;
+    if (!region.all && !region.gravity_center && !cells.inside(i, j, k))
+      remarks.push_back(fmt::format("{}: center_voxel = [{}, {}, {}] lies outside its {} x {} x {} cells; they count from 0, in the "
+                                    "partition",
+                                    who(scene, b), i, j, k, cells.size.x(), cells.size.y(), cells.size.z()));
+    const double filled = static_cast<double>(cells.n_filled()) / static_cast<double>(cells.filled.size());
+    if (filled > most_filled)
+      remarks.push_back(fmt::format("{}: \"keep\" takes {:.0f} % of the image, the air round the tissue as well, it seems; palpate info "
+                                    "shows how intensities are spread",
+                                    who(scene, b), 100 * filled));
+  }
+}
+
+void add_planes(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
+  struct Behind {
+    Vec3 point, normal;
+    std::string what;
+  };
+  std::vector<Behind> planes;
+  if (scene.floor) planes.push_back({{0, 0, scene.floor->height}, Vec3::UnitZ(), "below the floor"});
+  for (const WallSpec& wall : scene.walls) planes.push_back({wall.point, wall.normal, "behind a wall"});
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const Body& body = bodies[b]->body();
+    if (is_tool(scene, body)) continue;
+    for (const Behind& plane : planes) {
+      double deepest = 0;
+      for (const Index cell : body.lattice.masses)
+        if (body.inverse_mass[static_cast<std::size_t>(cell)] > 0)
+          deepest = std::max(deepest, (plane.point - body.lattice.rest_position(cell)).dot(plane.normal));
+      if (deepest > 0.5 * body.lattice.spacing())
+        remarks.push_back(fmt::format("{} begins {:.3g} mm {}; move it by its at_mm", who(scene, b), 1e3 * deepest, plane.what));
+    }
+  }
+}
+
+/// Two bodies in one place are pushed apart like an explosion.
+void add_overlaps(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
+  constexpr std::size_t most_looked_at = 2000;
+  for (std::size_t a = 0; a < bodies.size(); ++a)
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      if (a == b || !scene.contact.enabled) continue;
+      const Body &inner = bodies[a]->body(), &outer = bodies[b]->body();
+      const auto box = box_of(outer);
+      if (box.intersection(box_of(inner)).isEmpty()) continue;
+      std::vector<Vec3> places;
+      for (const Index cell : inner.lattice.masses)
+        if (const Vec3 p = inner.lattice.rest_position(cell); box.contains(p)) places.push_back(p);
+      if (places.empty()) continue;
+      const Enclosure enclosure(*bodies[b]);
+      const std::size_t stride = 1 + places.size() / most_looked_at;
+      std::size_t inside = 0;
+      for (std::size_t n = 0; n < places.size(); n += stride) inside += enclosure.contains(places[n]) ? stride : 0;
+      if (inside > 0)
+        remarks.push_back(fmt::format("{} begins inside body \"{}\" with some {} of its masses; move one of them by its at_mm",
+                                      who(scene, a), outer.name, inside));
+    }
+}
+
+}  // namespace
+
+Remarks body_remarks(const Scene& scene, const Bodies& bodies) {
+  Remarks remarks;
+  add_holds(scene, bodies, remarks);
+  add_voxels(scene, bodies, remarks);
+  add_planes(scene, bodies, remarks);
+  add_overlaps(scene, bodies, remarks);
+  return remarks;
+}
+
+}  // namespace palpate::physics

@@ -1,0 +1,162 @@
+// Where tools begin and where their paths lead. Only paths that the scene writes down are known before the start.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "physics_node/remarks/enclosure.h"
+#include "physics_node/remarks/remarks.h"
+
+namespace palpate::physics {
+namespace {
+
+constexpr double fastest_hand = 3;      // [m/s]: a throw; pressing and cutting stay below 1
+constexpr double far_away = 10;         // times the size of the bodies
+constexpr double touch = 0.8;           // of the spacing: from anywhere on a facet a vertex is within 0.71 of it
+constexpr std::size_t most_samples = 4000;
+
+std::vector<Vec3> samples_of(const DeviceSpec& device, double apart) {
+  std::vector<Vec3> samples;
+  double length = 0;
+  for (std::size_t n = 1; n < device.waypoints.size(); ++n)
+    length += (device.waypoints[n].p - device.waypoints[n - 1].p).norm();
+  apart = std::max(apart, length / static_cast<double>(most_samples));
+  for (std::size_t n = 1; n < device.waypoints.size(); ++n) {
+    const Vec3 &from = device.waypoints[n - 1].p, &to = device.waypoints[n].p;
+    const int parts = std::max(1, static_cast<int>(std::ceil((to - from).norm() / apart)));
+    for (int i = 0; i < parts; ++i) samples.push_back(from + (to - from) * i / parts);
+  }
+  if (!device.waypoints.empty()) samples.push_back(device.waypoints.back().p);
+  return samples;
+}
+
+/// Of a tool, about its tip: the tip, points along a stick, or the surface of its body.
+std::vector<Vec3> shape_of(const ToolSpec& tool, const Scene& scene, const Bodies& bodies, double apart) {
+  if (tool.shape == ToolShape::point) return {Vec3::Zero()};
+  std::vector<Vec3> points;
+  if (tool.shape == ToolShape::stick) {
+    const Vec3 axis = -(tool.attitude * Vec3::UnitZ());
+    for (double s = 0; s < tool.length; s += apart) points.push_back(s * axis);
+    points.push_back(tool.length * axis);
+    return points;
+  }
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (scene.bodies[b].name != tool.body) continue;
+    const Enclosure own(*bodies[b]);
+    for (const Vec3& vertex : own.vertices()) points.push_back(vertex - bodies[b]->body().tip);
+  }
+  return points;
+}
+
+double reach_of(const ToolSpec& tool, double spacing) {
+  return touch * spacing + (tool.shape == ToolShape::stick ? tool.radius : 0.0);
+}
+
+/// Could a body come to the tool, wherever that is?
+bool any_flies(const Scene& scene, const Bodies& bodies) {
+  return std::any_of(bodies.begin(), bodies.end(), [&](const auto& body) {
+    return !is_tool(scene, body->body()) && body->body().n_held == 0 &&
+           (!scene.gravity.isZero() || !body->body().velocity.isZero());
+  });
+}
+
+class ToolLook {
+ public:
+  ToolLook(const Scene& scene, const Bodies& bodies, const ToolSpec& tool)
+      : scene_(scene), bodies_(bodies), tool_(tool), device_(scene.device(tool.device)) {
+    for (const auto& body : bodies)
+      if (body->body().name != tool.body || tool.shape != ToolShape::body) others_.emplace_back(*body);
+    for (const Enclosure& other : others_) {
+      finest_ = std::min(finest_, other.spacing());
+      box_.extend(other.box());
+    }
+  }
+
+  Remarks remarks() {
+    if (others_.empty() || device_.waypoints.empty() || device_.driver != "simulated") return {};
+    shape_ = shape_of(tool_, scene_, bodies_, 0.5 * finest_);
+    Remarks found;
+    const Vec3 start = device_.waypoints.front().p;
+    const bool inside = tool_.shape != ToolShape::body && begins_inside(start);
+    if (inside)
+      found.push_back(fmt::format("{} begins inside tissue, and forces come on only outside of it; begin its path outside", who()));
+    const double away = box_.exteriorDistance(start), size = box_.diagonal().norm();
+    if (away > far_away * size) {
+      found.push_back(fmt::format("{} begins {:.3g} m away from bodies of {:.3g} m; waypoints are in millimetres", who(), away, size));
+    } else if (!inside && !any_flies(scene_, bodies_) && !touches()) {
+      found.push_back(fmt::format("{}: its path never touches a body and stays {:.3g} mm away at the least; lead it to the surface", who(),
+                                  1e3 * least_distance()));
+    }
+    add_pace(found);
+    return found;
+  }
+
+ private:
+  std::string who() const { return fmt::format("{}: tool \"{}\"", tool_.place.text(), tool_.name); }
+
+  bool begins_inside(const Vec3& start) const {
+    return std::any_of(shape_.begin(), shape_.end(), [&](const Vec3& p) {
+      return std::any_of(others_.begin(), others_.end(), [&](const Enclosure& other) { return other.contains(start + p); });
+    });
+  }
+
+  bool touches() const {
+    for (const Vec3& at : samples_of(device_, 0.5 * finest_))
+      for (const Enclosure& other : others_)
+        for (const Vec3& p : shape_)
+          if (touches_at(other, at + p)) return true;
+    return false;
+  }
+  bool touches_at(const Enclosure& other, const Vec3& p) const {
+    // A stick thicker than a cell: the nearest vertex may be further than the bins reach.
+    const double reach = reach_of(tool_, other.spacing());
+    if (reach <= other.spacing()) return other.is_near(p, reach);
+    return other.box().exteriorDistance(p) <= reach && other.distance(p) <= reach;
+  }
+
+  double least_distance() const {
+    double least = std::numeric_limits<double>::infinity();
+    const auto samples = samples_of(device_, std::max(4 * finest_, 1e-3 * box_.diagonal().norm()));
+    const std::size_t stride = 1 + shape_.size() / 50;
+    for (const Vec3& at : samples)
+      for (const Enclosure& other : others_)
+        for (std::size_t n = 0; n < shape_.size(); n += stride) least = std::min(least, other.distance(at + shape_[n]));
+    return least;
+  }
+
+  void add_pace(Remarks& found) const {
+    const auto& path = device_.waypoints;
+    for (std::size_t n = 1; n < path.size(); ++n) {
+      const double speed = (path[n].p - path[n - 1].p).norm() / (path[n].t - path[n - 1].t);
+      if (speed <= fastest_hand) continue;
+      found.push_back(fmt::format("{} is led at {:.3g} m/s from {:.3g} to {:.3g} s, faster than a hand; waypoints are [s, mm, mm, mm]",
+                                  who(), speed, path[n - 1].t, path[n].t));
+      break;
+    }
+    if (scene_.seconds && path.back().t > *scene_.seconds + 1e-9)
+      found.push_back(fmt::format("{}: its path takes {:.4g} s, the scene ends after {:.4g}; give [scene] seconds = {:.4g}", who(),
+                                  path.back().t, *scene_.seconds, path.back().t));
+  }
+
+  const Scene& scene_;
+  const Bodies& bodies_;
+  const ToolSpec& tool_;
+  const DeviceSpec& device_;
+  std::vector<Enclosure> others_;
+  std::vector<Vec3> shape_;
+  double finest_ = std::numeric_limits<double>::infinity();
+  Eigen::AlignedBox3d box_;
+};
+
+}  // namespace
+
+Remarks tool_remarks(const Scene& scene, const Bodies& bodies) {
+  Remarks all;
+  for (const ToolSpec& tool : scene.tools)
+    for (auto& remark : ToolLook(scene, bodies, tool).remarks()) all.push_back(std::move(remark));
+  return all;
+}
+
+}  // namespace palpate::physics
