@@ -19,9 +19,21 @@ extern "C" void pass_on(int signal) {
   if (child > 0) kill(child, signal);
 }
 
+std::atomic<bool> rang{false};
+
+extern "C" void ring(int) { rang = true; }
+
+/// From now on SIGALRM ends a wait instead of the program.
+void let_alarms_ring() {
+  struct sigaction action = {};
+  action.sa_handler = ring;  // without SA_RESTART
+  sigaction(SIGALRM, &action, nullptr);
+}
+
 }  // namespace
 
-int run_in_child(const std::function<int()>& work) {
+int run_in_child(const std::function<int()>& work, const std::function<void(int)>& waiting,
+                 unsigned every_s) {
   std::fflush(nullptr);
   child = fork();
   if (child < 0) return work();  // no room for another process: then without its protection
@@ -33,9 +45,15 @@ int run_in_child(const std::function<int()>& work) {
   }
   std::signal(SIGINT, pass_on);
   std::signal(SIGTERM, pass_on);
-  int status = 0;
+  let_alarms_ring();
+  alarm(every_s);
+  int status = 0, waited_s = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    if (!rang.exchange(false)) continue;
+    waiting(waited_s += static_cast<int>(every_s));
+    alarm(every_s);
   }
+  alarm(0);
   return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
 

@@ -180,7 +180,11 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "palpate import: {}; see palpate import --help\n", mistake_text(app, error));
     return exit_mistake;
   }
-  const int code = run_in_child([&] { return import(command); });
+  const auto still_there = [&](int seconds) {
+    if (!command.quiet)
+      fmt::print(stderr, "palpate import: {} s so far with {}\n", seconds, command.options.input);
+  };
+  const int code = run_in_child([&] { return import(command); }, still_there);
   if (code >= 0) return code;
   remove_part(command.out);
   if (code == -SIGINT || code == -SIGTERM) return exit_failed;  // as the person wished
