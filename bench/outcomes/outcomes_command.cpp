@@ -59,7 +59,7 @@ int run_outcomes(const Options& options) {
                           {{"smash_largest", physics::smash_largest},
                            {"disunion_largest", physics::disunion_largest},
                            {"disunion_second", physics::disunion_second},
-                           {"crack_broken", physics::crack_broken},
+                           {"crack_cut", physics::crack_cut},
                            {"crush_yielded", physics::crush_yielded},
                            {"crush_shape", physics::crush_shape}}}};
   std::map<std::string, int> counts;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "physics_node/fragments/measure_fragments.h"
+#include "physics_node/fragments/section.h"
 
 namespace palpate::physics {
 namespace {
@@ -23,7 +24,7 @@ Outcome classify(const OutcomeMeasures& m) {
   if (!m.touched && m.broken == 0 && m.yielded == 0) return Outcome::original;
   if (m.largest < smash_largest) return Outcome::smash;
   if (m.largest < disunion_largest || m.second >= disunion_second) return Outcome::disunion;
-  if (m.broken >= crack_broken) return Outcome::crack;
+  if (m.cut >= crack_cut) return Outcome::crack;
   if (m.yielded >= crush_yielded || m.shape >= crush_shape) return Outcome::crush;
   return Outcome::restitution;
 }
@@ -35,6 +36,8 @@ OutcomeMeasures measure_outcome(const MovingBody& moving, const Fragments* fragm
   m.touched = moving.touched();
   if (counts.elements > 0)
     m.broken = 1 - static_cast<double>(counts.live_elements) / static_cast<double>(counts.elements);
+  if (m.broken > 0)
+    m.cut = static_cast<double>(counts.elements - counts.live_elements) / static_cast<double>(middle_section(lattice));
   m.yielded = static_cast<double>(counts.yielded_masses) / static_cast<double>(lattice.n_masses());
   const double size = radius_of_gyration(lattice);
   double shape = counts.shape_rms;

@@ -16,6 +16,7 @@ inline const char* name_of(Outcome outcome) { return outcome_names[static_cast<i
 struct OutcomeMeasures {
   bool touched = false;  // by floor, tool or another body, since the start
   double broken = 0;     // share of the elements
+  double cut = 0;        // elements broken over those that a plane through the middle cuts (section.h)
   double yielded = 0;    // share of the masses
   int fragments = 1;
   double largest = 1;  // share of mass of the heaviest fragment
@@ -25,13 +26,15 @@ struct OutcomeMeasures {
 };
 
 /// Thresholds, in the order in which they are asked. docs/images/outcomes.png shows the regions that they separate.
-// No piece holds a third of the mass: there is no body any more.
-inline constexpr double smash_largest = 1.0 / 3;
-// A quarter of the mass has left the largest piece, or one other piece holds a tenth: a part, not a splinter.
+// No piece holds a tenth of the mass: splinters and dust, no part among them.
+inline constexpr double smash_largest = 0.1;
+// A quarter of the mass has left the largest piece, or one other piece holds a twentieth: a part, not a splinter. A bar in three
+// pieces of which the ends are short is in pieces, too.
 inline constexpr double disunion_largest = 0.75;
-inline constexpr double disunion_second = 0.1;
-// Of the elements: a third of what a cut through a sphere 12 masses wide takes.
-inline constexpr double crack_broken = 0.02;
+inline constexpr double disunion_second = 0.05;
+// Of the elements that a plane through the middle cuts. Not a share of all elements: the finer the lattice, the fewer of those a
+// cut takes.
+inline constexpr double crack_cut = 1.0 / 3;
 // Most of the body has yielded, or it is out of shape by a tenth of its size.
 inline constexpr double crush_yielded = 0.5;
 inline constexpr double crush_shape = 0.1;

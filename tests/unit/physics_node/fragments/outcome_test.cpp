@@ -3,15 +3,21 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <functional>
+#include <vector>
+
 #include "physics_node/fragments/measure_fragments.h"
 #include "tests/support/physics/small_worlds.h"
 
 namespace palpate::physics::test {
 namespace {
 
+/// The sphere of the falls: a plane through its middle cuts a fifteenth of its elements.
 OutcomeMeasures touched(double broken, double yielded, double largest, double second, double shape) {
   return {.touched = true,
           .broken = broken,
+          .cut = 15 * broken,
           .yielded = yielded,
           .largest = largest,
           .second = second,
@@ -30,8 +36,73 @@ TEST(Outcome, FollowsFromTheMeasures) {
   // Edges.
   EXPECT_EQ(classify(touched(0.5, 1, 0.88, 0.11, 1)), Outcome::disunion) << "a second part";
   EXPECT_EQ(classify(touched(0.5, 1, 0.7, 0.01, 1)), Outcome::disunion) << "a third has gone, in splinters";
+  EXPECT_EQ(classify(touched(0.03, 0.1, 0.86, 0.07, 0.1)), Outcome::disunion) << "a bar in three pieces, its ends short";
+  EXPECT_EQ(classify(touched(0.6, 1, 0.3, 0.28, 1)), Outcome::disunion) << "three parts and splinters";
+  EXPECT_EQ(classify(touched(0.9, 1, 0.09, 0.08, 1)), Outcome::smash);
   EXPECT_EQ(classify(touched(0, 0, 1, 0, 0.3)), Outcome::crush) << "turned over, though nothing has yielded";
   EXPECT_NE(classify({.broken = 0.1}), Outcome::original) << "broken by its own weight";
+}
+
+/// Where a mass at p is while the bar is cut.
+using Opening = std::function<Vec3(const Vec3& p)>;
+
+/// A bar of soft tissue, 12 times as long as thick, opened and closed again: what was stretched too far has broken.
+OutcomeMeasures cut_bar(double spacing_mm, const Opening& opening) {
+  Recipe recipe;
+  recipe.material = "density_kg_per_m3 = 1000\nmodulus_kPa = 10\nyield_ratio = 1.05\nbreak_ratio = 1.1";
+  recipe.shape = Recipe::box(240, 20, 20);
+  recipe.spacing_mm = spacing_mm;
+  const auto moving = make_moving_body(body_of(recipe), Precision::double_);
+  Fragments fragments(*moving);
+  moving->element_forces_and_integrate({.dt = 0});
+  for (const Opening& place : {opening, Opening([](const Vec3& p) { return p; })}) {
+    for (const Index cell : moving->body().lattice.masses) {
+      const Vec3 p = moving->body().lattice.rest_position(cell);
+      moving->place(cell, place(p) - p, Vec3::Zero());
+    }
+    moving->element_forces_and_integrate({.dt = 0});
+    fragments.update(*moving);
+  }
+  OutcomeMeasures measures = measure_outcome(*moving, &fragments);
+  measures.touched = true;
+  return measures;
+}
+
+/// Pulled apart at these places along it.
+Opening gaps(std::initializer_list<double> at) {
+  return [at = std::vector<double>(at)](const Vec3& p) {
+    const auto before = std::count_if(at.begin(), at.end(), [&](double x) { return p.x() > x; });
+    return Vec3(p + Vec3(0.05 * static_cast<double>(before), 0, 0));
+  };
+}
+
+/// Bent open about a line at z, in the middle: cut down to there.
+Opening bend(double z) {
+  return [z](const Vec3& p) {
+    const Vec3 hinge(0.003, 0, z);
+    if (p.x() < hinge.x()) return p;
+    return Vec3(hinge + Eigen::AngleAxisd(0.5, -Vec3::UnitY()) * (p - hinge));
+  };
+}
+
+TEST(Outcome, OfABarInPiecesIsDisunionHoweverFineItIs) {
+  for (const double spacing_mm : {10.0, 5.0, 3.3}) {
+    const OutcomeMeasures three = cut_bar(spacing_mm, gaps({-0.101, 0.101}));  // the ends hold 8 % each
+    EXPECT_EQ(three.fragments, 3);
+    EXPECT_GT(three.largest, 0.75);
+    EXPECT_EQ(classify(three), Outcome::disunion) << spacing_mm << " mm: " << three.largest << " " << three.second;
+    EXPECT_NEAR(three.cut, 2, 0.35) << "two cuts";
+    EXPECT_EQ(classify(cut_bar(spacing_mm, gaps({0.003}))), Outcome::disunion);
+  }
+}
+
+TEST(Outcome, OfABodyCutHalfThroughIsACrackHoweverFineItIs) {
+  for (const double spacing_mm : {10.0, 5.0, 3.3}) {
+    const OutcomeMeasures half = cut_bar(spacing_mm, bend(-0.002));
+    EXPECT_EQ(half.fragments, 1);
+    EXPECT_LT(half.broken, 0.1);
+    EXPECT_EQ(classify(half), Outcome::crack) << spacing_mm << " mm: " << half.cut;
+  }
 }
 
 TEST(FragmentMeasures, AddUpToTheBody) {

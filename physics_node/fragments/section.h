@@ -1,0 +1,14 @@
+#pragma once
+// How many elements it takes to cut a body through.
+
+#include <cstdint>
+
+#include "physics_node/lattice/lattice.h"
+
+namespace palpate::physics {
+
+/// Elements of the body at rest that cross the plane through its centre of mass across its longest principal axis: what a cut
+/// through its middle breaks. At least 1. Cost: two passes over the masses; for reports.
+std::int64_t middle_section(const Lattice& lattice);
+
+}  // namespace palpate::physics
