@@ -142,7 +142,7 @@ TEST(YieldedShare, CountsLiveElements) {
   const Index pushed = lattice.mass_at({4, 4, 4}), behind = lattice.mass_at({3, 4, 3});
   const auto strain = [&](double share) {
     moving->place(pushed, Vec3(share * lattice.rest_length[0], 0, 0), Vec3::Zero());
-    moving->element_forces_and_integrate({1e-9, Vec3::Zero(), 1, false, true});
+    moving->element_forces_and_integrate({.dt = 1e-9, .watch = true});
   };
   EXPECT_EQ(moving->yielded_share(pushed), 0);
   strain(0.3);

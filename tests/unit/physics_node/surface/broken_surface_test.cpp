@@ -25,7 +25,7 @@ Recipe fragile(const std::string& lattice, const std::string& shape) {
 /// Pulls these masses a metre away, all by the same, so that they lose every element to the others.
 void pull(MovingBody& moving, const std::vector<Index>& masses) {
   for (const Index mass : masses) moving.place(mass, Vec3(0, 0, 1), Vec3::Zero());
-  moving.element_forces_and_integrate({1e-9, Vec3::Zero(), 1, false, true});
+  moving.element_forces_and_integrate({.dt = 1e-9, .watch = true});
 }
 
 double volume_inside(const Surface& surface) {
@@ -123,7 +123,7 @@ TEST_P(LooseParts, KeepALoneElementAndALoneMassInSight) {
   const Index alone = lattice.mass_at({8, 8, 8});
   pull(*moving, {first, other});
   moving->place(alone, Vec3(0, 1, 0), Vec3::Zero());
-  moving->element_forces_and_integrate({1e-9, Vec3::Zero(), 1, false, true});
+  moving->element_forces_and_integrate({.dt = 1e-9, .watch = true});
   const LiveElements live(*moving);
   const auto parts = loose_parts(moving->body(), live);
   ASSERT_EQ(parts.size(), 2u);
