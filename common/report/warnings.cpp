@@ -20,6 +20,8 @@ void add_warnings(nlohmann::json& summary, std::span<const std::string> texts) {
   for (const std::string& text : texts) add_warning(summary, text);
 }
 
+void count_warnings(nlohmann::json& summary) { summary["guard"][key] = warnings_of(summary).size(); }
+
 std::vector<std::string> warnings_of(const nlohmann::json& summary) {
   std::vector<std::string> texts;
   const auto lines = summary.find(key);

@@ -13,6 +13,9 @@ namespace palpate {
 void add_warning(nlohmann::json& summary, std::string text);
 void add_warnings(nlohmann::json& summary, std::span<const std::string> texts);
 
+/// Writes how many lines there are into summary["guard"]["warnings"], for tools that count; once, after the last line.
+void count_warnings(nlohmann::json& summary);
+
 /// The lines of summary["warnings"]; none where there is no such key, or one of another kind.
 std::vector<std::string> warnings_of(const nlohmann::json& summary);
 

@@ -95,6 +95,7 @@ nlohmann::json VirtualSession::finish() {
   add_warnings(summary, faults);
   if (eye_) summary["render"] = eye_->summary(wall_s_);
   add_warnings(summary, hand_warnings(summary));
+  count_warnings(summary);
   return summary;
 }
 

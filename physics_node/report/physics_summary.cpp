@@ -175,6 +175,7 @@ nlohmann::json physics_summary(const World& world, const Recorder* recorder, dou
   part["warnings"] = nlohmann::json::array();
   add_warnings(part, all_warnings(world));
   if (inside && inside->any() && !world.inside_others()->any()) add_warning(part, inside_text(world, *inside));
+  count_warnings(part);
   return part;
 }
 

@@ -57,7 +57,9 @@ TEST_F(Summary, HoldsTheWarningsOfAllParts) {
   folder.write("parts/physics.json", R"({"warnings": ["one", "two"]})");
   folder.write("parts/haptic.json", R"({"warnings": ["three", "one"], "haptic": {}})");
   folder.write("parts/render.json", R"({"render": {}})");
-  EXPECT_EQ(merged_summary(folder.path(), scene, result)["warnings"], (nlohmann::json{"one", "two", "three"}));
+  const nlohmann::json summary = merged_summary(folder.path(), scene, result);
+  EXPECT_EQ(summary["warnings"], (nlohmann::json{"one", "two", "three"}));
+  EXPECT_EQ(summary["guard"]["warnings"], 3);
 }
 
 TEST_F(Summary, SaysInWordsWhatTheCountsOfTheHandMean) {

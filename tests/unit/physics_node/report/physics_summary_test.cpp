@@ -56,7 +56,8 @@ TEST(PhysicsSummary, HasTheKeysPromised) {
                "tool_work", "exchanged", "balance_error"},
               "energy");
   expect_keys(summary.at("momentum"), {"linear", "angular"}, "momentum");
-  expect_keys(summary.at("guard"), {"nonfinite", "grown", "restored", "halved", "unsolved"}, "guard");
+  expect_keys(summary.at("guard"), {"nonfinite", "grown", "restored", "halved", "unsolved", "warnings"}, "guard");
+  EXPECT_EQ(summary.at("guard").at("warnings"), 0);
   EXPECT_FALSE(summary.at("guard").contains("stopped"));
   EXPECT_EQ(summary.at("warnings"), json::array()) << "nothing is wrong with it";
   expect_keys(summary.at("tools").at("tip"),
@@ -108,6 +109,7 @@ TEST(PhysicsSummary, SaysInWordsWhatIsWrong) {
   ASSERT_GT(world.report().restored, 0);
   const json warnings = physics_summary(world, nullptr, 1.0).at("warnings");
   ASSERT_EQ(warnings.size(), 2u) << warnings;
+  EXPECT_EQ(physics_summary(world, nullptr, 1.0).at("guard").at("warnings"), 2);
   EXPECT_EQ(warnings[0], world.remarks().at(0));
   EXPECT_NE(warnings[1].get<std::string>().find("the guard brought"), std::string::npos) << warnings[1];
 }
