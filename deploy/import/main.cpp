@@ -93,7 +93,7 @@ void check_output(const Command& command) {
   if (!command.options.phantom && std::filesystem::equivalent(command.options.input, command.out, ignored))
     throw InputError(command.out + ": is the image itself; name another file to write");
   const std::string ending = std::filesystem::path(command.out).extension().string();
-  if (ending != ".h5" && ending != ".hdf5")
+  if (ending != ".h5" && ending != ".hdf5" && !std::filesystem::is_directory(command.out, ignored))
     throw InputError(fmt::format(
         "{}: a volume is an HDF5 file, and its name should say so; write --out {}.h5", command.out, stem_of(command.out)));
   check_can_write(command.out);

@@ -36,7 +36,8 @@ class Rubbish {
 
   /// A whole patch that is often nearly right.
   ContactPatch patch() {
-    ContactPatch patch = flat_patch(random_());
+    // A tick of nonsense that is accepted after a silence shuts the next ones out until the next silence.
+    ContactPatch patch = flat_patch(pick(50) == 0 ? random_() : tick_ += 1 + pick(3));
     patch.contact_set = pick(3);
     patch.n_facets = pick(4) == 0 ? static_cast<std::uint32_t>(random_()) : pick(5);
     const std::uint32_t spoilt = pick(4);

@@ -23,7 +23,10 @@ using palpate::test::Dice;
 Scene small_scene() {
   Scene scene;
   scene.bodies.resize(2);
+  scene.devices.resize(1);
+  scene.devices[0].name = "hand";
   scene.tools.resize(2);
+  for (ToolSpec& tool : scene.tools) tool.device = "hand";
   return scene;
 }
 

@@ -12,11 +12,11 @@ using test::Recipe;
 
 /// Two bodies of two masses each, 10 mm apart, whose elements are so soft that they do next to nothing.
 Recipe two_pairs(double other_mass_g) {
-  Recipe recipe = test::pair_of_masses("mass_g = 1\nk1_N_per_m = 1e-15");
+  Recipe recipe = test::pair_of_masses("mass_g = 1\nk1_N_per_m = 1e-12");
   recipe.shape = Recipe::box(7.2, 7.2, 1);
   recipe.spacing_mm = 10;
   recipe.physics = "sleep = false";
-  recipe.world = "[contact]\ndistance = \"paper\"\n[material.n]\nk1_N_per_m = 1e-15\nmass_g = " +
+  recipe.world = "[contact]\ndistance = \"paper\"\n[material.n]\nk1_N_per_m = 1e-12\nmass_g = " +
                  std::to_string(other_mass_g) +
                  "\n[[body]]\nname = \"other\"\nlattice = \"fcc\"\nspacing_mm = 10\nmaterial = \"n\"\n" +
                  recipe.shape + "\nat_mm = [0, 0, 12]\n";
