@@ -202,9 +202,9 @@ SweptReport SweptContact::step(const std::vector<ContactBody>& bodies, std::span
       }
       return sum;
     };
-    const double before = kinetic();
+    const double before = kinetic() - impulses.driven_work();
     move_zones_together(bodies, impulses);
-    report.lost += before - kinetic();
+    report.lost += before - (kinetic() - impulses.driven_work());  // what hands gave to it, too
   }
   report.stopped = static_cast<std::int64_t>(zoned_.size());
   for (const PairEnd& at : zoned_) {
