@@ -129,23 +129,25 @@ std::vector<std::size_t> World::make_tools() {
 void World::restart_ledger() {
   for (auto& body : bodies_) body->restart_momentum();
   account_.restart(bodies_, scene_.gravity, report_);
+  watched_ = Booked(report_);
+  is_watched_ = false;
   save_all(false);
   save_all(true);
 }
 
 EnergyLedger World::ledger() const {
-  return account_.book(sum_energies(bodies_, scene_.gravity), sum_losses(bodies_), report_);
+  return account_.book(sum_energies(bodies_, scene_.gravity), sum_losses_and_due(bodies_), Booked(report_));
 }
 
 EnergyLedger World::watched_ledger() const noexcept {
   Energies now;
   for (const auto& body : bodies_) {
     const Watch watch = body->watch();
-    now.kinetic += watch.kinetic;
+    now.between += watch.between;
     now.elastic += watch.elastic;
-    now.gravitational -= watch.fallen;
+    now.gravitational -= watch.fallen_before;
   }
-  return account_.book(now, sum_losses(bodies_), report_);
+  return account_.book(now, sum_losses(bodies_), watched_);
 }
 
 void World::move_bodies_implicitly(double dt, bool watch) noexcept {
@@ -195,7 +197,8 @@ void World::move_bodies(double dt, bool watch) noexcept {
                          .team = team_.get(),
                          .threads = choice_.threads(),
                          .verlet = scene_.physics.integrator == Integrator::velocity_verlet,
-                         .watch = watch};
+                         .watch = watch,
+                         .exact = may_be_struck()};
   const std::int64_t before = report_[Stage::element_forces].total_ns;
   {
     const StageTimer timer(report_, Stage::element_forces);
@@ -215,7 +218,7 @@ void World::touch(double dt, double done) noexcept {
   }
   const StageTimer timer(report_, Stage::contact_forces);
   for (const auto& tool : tools_)
-    if (!implicit && !tool->forces().empty()) book_work(bodies_[tool->touched_body()]->kick(tool->forces(), dt));
+    if (!implicit && !tool->forces().empty()) bodies_[tool->touched_body()]->kick(tool->forces(), dt);
   for (LedTool* tool : led_tools_) {
     const LeadWork led = tool->lead(done, dt);
     book_work(led.work);
@@ -231,16 +234,30 @@ void World::touch(double dt, double done) noexcept {
     for (auto& body : bodies_) report_.contact_lost += body->bounce_off(plane, scene_.contact.restitution, dt).lost;
 }
 
+/// Of the forces of tools that give any. [W]
+double World::tools_power() const noexcept {
+  double sum = 0;
+  for (const auto& tool : tools_)
+    if (!tool->forces().empty()) sum += bodies_[tool->touched_body()]->power(tool->forces());
+  return sum;
+}
+
 void World::step(double dt, double done, bool watch) noexcept {
-  if (near_ || stick_near_ || !planes_.empty())
+  const bool implicit = scene_.physics.integrator == Integrator::backward_euler;
+  if (may_be_struck())
     for (auto& body : bodies_) body->remember_velocities();
-  if (scene_.physics.integrator == Integrator::backward_euler) {
+  double power = 0;
+  if (implicit) {
     move_bodies_implicitly(dt, watch);
   } else {
+    for (LedTool* tool : led_tools_) tool->begin_step();
+    power = tools_power();
     move_bodies(dt, watch);
   }
   follow_breaks();
+  if (watch) watched_ = Booked(report_);
   touch(dt, done);
+  if (!implicit && power + tools_power() != 0) book_work(0.5 * dt * (power + tools_power()));
   ++report_.steps;
 }
 
@@ -262,6 +279,8 @@ void World::guard() noexcept {
     energy += watch.energy();
     fallen += watch.fallen;
   }
+  account_.note(fallen);
+  is_watched_ = true;
   const double put_in = account_.put_in(fallen, report_);
   // The kernels saw elastic energy before the last step; what grows fast is looked at once more, as it is now.
   if (!(energy <= suspicious_growth * put_in + negligible_energy)) {
@@ -280,6 +299,7 @@ void World::guard() noexcept {
 }
 
 void World::recover(std::size_t culprit) noexcept {
+  is_watched_ = false;
   // Tools and gravity did work on a state that is thrown away: what is booked starts anew from the state restored.
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     bodies_[b]->restore();

@@ -63,9 +63,11 @@ class World {
   std::uint64_t state_hash() const noexcept;
   /// Where the energy went; a pass over all elements.
   EnergyLedger ledger() const;
-  /// The same from what the kernels saw in the last step of the frame: elastic energy before it, kinetic energy before the
-  /// push of the tools. A sum over rows.
+  /// The same as the kernels saw it when the last step of the frame began, before tools, contact and floor acted. A sum over
+  /// rows.
   EnergyLedger watched_ledger() const noexcept;
+  /// Has a frame ended as it should since the ledger began? Else nobody has watched yet, or what was watched was thrown away.
+  bool is_watched() const noexcept { return is_watched_; }
   /// Begins the ledger, and what the guard measures growth by, from the present state; for who has placed masses.
   void restart_ledger();
   /// Why the scene was given up, if it was: then frames no longer move anything, and the state is the last good one.
@@ -80,10 +82,13 @@ class World {
   void move_bodies(double dt, bool watch) noexcept;
   void move_bodies_implicitly(double dt, bool watch) noexcept;
   void touch(double dt, double done) noexcept;
+  double tools_power() const noexcept;
   void take_tools(std::span<const std::optional<ToolState>> tools) noexcept;
   void find_contacts() noexcept;
   int substeps_of_frame() const noexcept;
   std::vector<std::size_t> make_tools();  // @return bodies whose impulses somebody feels
+  /// May a velocity jump in this frame? Then contact and the books want to know what it was.
+  bool may_be_struck() const noexcept { return near_ || stick_near_ || !planes_.empty(); }
   std::span<const NodalForce> gathered(std::size_t body) noexcept;  // forces of all tools on a body
   void guard() noexcept;
   void save_all(bool good) noexcept;
@@ -105,6 +110,8 @@ class World {
   std::vector<NodalForce> gathered_;
   StepReport report_;
   EnergyAccount account_;
+  Booked watched_;  // by tools and contact before the last step of the frame
+  bool is_watched_ = false;
   std::vector<std::string> remarks_;
   double t_ = 0;
   double frame_dt_ = 0;

@@ -15,6 +15,7 @@ class BodyTool final : public LedTool {
   void find_contact(double) noexcept override {}
   void reset() noexcept override;
 
+  void begin_step() noexcept override { handle_.note(moving_); }
   LeadWork lead(double done, double dt) noexcept override;
   /// What the body took from others in the frame. Force and moment are the impulses over the time, so that they do not
   /// depend on the step; then low-passed twice at low_pass_Hz.

@@ -22,7 +22,10 @@ Handle::Handle(const Body& body) : tip_(body.tip), cell_(body.handle) {
   for (auto* array : {&x_, &v_, &v_move_, &v_0_}) array->assign(cell_.size(), Vec3::Zero());
 }
 
-void Handle::reset() noexcept { std::fill(v_0_.begin(), v_0_.end(), Vec3::Zero()); }
+void Handle::note(const MovingBody& moving) noexcept {
+  moving.read(all_, cell_, rest_, 0, x_, v_, v_0_);
+  noted_ = true;
+}
 
 HandleWork Handle::lead(MovingBody& moving, const Pose& pose, double dt) noexcept {
   HandleWork sum;
@@ -32,13 +35,13 @@ HandleWork Handle::lead(MovingBody& moving, const Pose& pose, double dt) noexcep
     const Vec3 target = pose.p + R * (rest_[n] - tip_);
     const Vec3 dv = (target - x_[n]) / dt;  // on the velocity that moves the mass
     const Vec3 v = v_move_[n] + dv;
-    moving.push(cell_[n], dv, dt, true);
+    moving.push(cell_[n], dv, dt);
     const double m = mass_[n];
-    sum.work += m * (dv.dot(v) + 0.5 * (v.squaredNorm() - v_0_[n].squaredNorm()) - (v - v_0_[n]).dot(v));
+    sum.work += 0.5 * m * dv.dot(v + (noted_ ? v_0_[n] : v_move_[n]));
     sum.linear += m * dv;
     sum.angular += m * target.cross(dv);
-    v_0_[n] = v;
   }
+  noted_ = false;
   return sum;
 }
 

@@ -32,12 +32,12 @@ class Handle {
   /// After the elements have moved everything by dt: puts each mass of the handle where the pose wants it, by the velocity
   /// that leads there from where it was at the beginning of the step,
   ///   v := (p + R (X - X_tip) - x_0) / dt,   x := x_0 + dt v.
-  /// The hand's work is its force m (v - v_1) / dt along dt v, v_1 as the elements left it, and what the change of speed from
-  /// v_0 took: m (v - v_1) . v + m (v^2 - v_0^2) / 2 - m (v - v_0) . v.
-  /// @param v_0  is remembered from the step before
+  /// The hand's work is that of the impulse m (v - v_1), v_1 as the elements left it: m (v - v_1) . (v_0 + v) / 2, with v_0 from
+  /// note() before the step; where nobody noted it, as with backward_euler, which has impulses act at its end, with v_1.
   HandleWork lead(MovingBody& moving, const Pose& pose, double dt) noexcept;
-  /// Stands still, as at rest.
-  void reset() noexcept;
+  /// Remembers how fast its masses move.
+  void note(const MovingBody& moving) noexcept;
+  void reset() noexcept { noted_ = false; }
 
   std::size_t size() const { return cell_.size(); }
 
@@ -47,6 +47,7 @@ class Handle {
   std::vector<std::uint32_t> all_;  // 0, 1, 2 ...
   std::vector<Vec3> rest_, x_, v_, v_move_, v_0_;
   std::vector<double> mass_;
+  bool noted_ = false;
 };
 
 }  // namespace palpate::physics

@@ -15,6 +15,8 @@ struct LeadWork {
 
 class LedTool : public Tool {
  public:
+  /// Before an explicit step moves anything.
+  virtual void begin_step() noexcept {}
   /// A step of dt that ends after `done` of the frame, in (0, 1], after the elements have moved everything.
   virtual LeadWork lead(double done, double dt) noexcept = 0;
   /// At the end of a frame. @param collisions  of all bodies; null: nothing could touch

@@ -112,16 +112,11 @@ LeadWork StickTool::lead_body(Near& near, const Stick& before, const Stick& now,
     const double dv = depth / dt, m = near.mass[i];
     const bool carried =
         (near.x[i] - before.axis_point(before.nearest(near.x[i]))).norm() < radius_ + on_surface;
-    near.moving->push(near.cell[i], dv * n, dt, carried);
-    if (carried) {
-      // As of a mass that is led (handle.h), along n only: the rest of its motion is its own.
-      const double v = n.dot(near.v_move[i]) + dv, v_0 = n.dot(2 * near.v[i] - near.v_move[i]);
-      sum.work += m * (dv * v + 0.5 * (v * v - v_0 * v_0) - (v - v_0) * v);
-    } else {
-      const double J = m * dv;
-      sum.work += J * v_s;
-      sum.lost += J * v_s - J * n.dot(near.v[i]) - 0.5 * J * dv;
-    }
+    near.moving->push(near.cell[i], dv * n, dt);
+    const double J = m * dv, given = J * (n.dot(near.v[i]) + 0.5 * dv);
+    // A mass that is carried takes all that the hand gives; one that is struck leaves a part.
+    sum.work += carried ? given : J * v_s;
+    sum.lost += carried ? 0 : J * v_s - given;
     const Vec3 at = near.x[i] + dt * (near.v_move[i] + dv * n);
     sum_.add(-m * dv * n, at - to_.p);
     ++contacts_;

@@ -1,6 +1,5 @@
 #include "physics_node/step/bounce.h"
 
-#include "physics_node/step/damper_impulse.h"
 #include "physics_node/step/rebound.h"
 
 namespace palpate::physics {
@@ -27,7 +26,6 @@ Bounces bounce(const Body& body, LatticeState<Real>& state, const Three<Real>& m
           plane.n.dot(before == nullptr ? v_move : Vec3(0.5 * (v_move + vector_of(*before, cell))));
       if (v_n >= 0) continue;
       const double dv = rebound(e, v_n, plane.n.dot(v_move));
-      state.ledger[r].viscous -= booked_too_much(body, state, cell, dv * plane.n, dt, verlet);
       for (std::size_t a = 0; a < 3; ++a) {
         const Real d = static_cast<Real>(dv * plane.n[static_cast<Eigen::Index>(a)]);
         state.v[a][c] += d;

@@ -36,7 +36,7 @@ struct SlotList {
 struct RowLedger {
   double viscous = 0;  // [J] lost in dampers, in all
   double plastic = 0;  // [J] lost in yielding, in all
-  double numerical = 0;  // [J] lost to the integrator, in all; only backward_euler
+  double numerical = 0;  // [J] lost to the way time is stepped, in all; either sign
   double broken = 0;   // [J] elastic energy of elements when they broke, in all
   std::int64_t breaks = 0;
   std::int64_t mirrored = 0;  // breaks that both ends of their elements know of
@@ -44,8 +44,10 @@ struct RowLedger {
   // when last watched:
   double speed2 = 0;         // largest of the row [m^2/s^2]
   double acceleration2 = 0;  // largest of the row [m^2/s^4]
-  double kinetic = 0;        // [J]
+  double kinetic = 0;        // with the velocities after the step [J]
+  double between = 0;        // kinetic, with those before and after the step: sum of m v(-) . v(+) / 2 [J]
   double fallen = 0;         // energy that gravity has given, sum of m g . u [J]
+  double fallen_before = 0;  // the same before the step [J]
   double elastic = 0;        // of its elements, before the step [J]
   double elastic_up = 0;     // part of it in elements to the next plane, where these are a sweep of their own [J]
 };
@@ -69,6 +71,9 @@ struct ElementContext {
   Real* v[3];                         // velocity [m/s]                    (n_cells)
   Real* f[3];                         // force so far; zero between steps  (n_cells)
   Real* v_half[3];                    // velocity half a step ago; only velocity_verlet (n_cells)
+  const Real* kicked[3];              // the velocity that the kick adds to; only velocity_verlet (n_cells)
+  const Real* moved[3];               // the velocity that moved the masses to where they are     (n_cells)
+  Real* v_seen[3];                    // the velocity that dampers saw one step ago; only KernelKind::exact (n_cells)
   const Real* inverse_mass;           // 0: held or empty [1/kg]           (n_cells)
   Mask* mask;                         // live elements                     (n_cells)
   Real* l_c[max_half];                // plastic stretch [m]; only with yield             (n_cells)
@@ -79,11 +84,15 @@ struct ElementContext {
   const Real* yield[max_half];
   const Real* snap[max_half];
   Real dt, g[3];
+  Real dt_before;     // of the step before; 0: there was none
   Real kick;          // dt, or dt / 2 in the first step of velocity_verlet
   Real drag;                // of every mass [N s/m]
   const Real* drag_of;      // of each mass, where they differ; else null [N s/m]  (n_cells)
   bool relative;            // which of the papers' other dampers: c (v_j - v_i), or c v_i
   bool watch;               // note speeds, accelerations and energies in the ledger
+  bool exact;               // something may be struck: books what is small elsewhere
+  bool exact_axial;         // dampers along elements, and KernelKind::exact
+  bool begins;              // the step before was of another dt, or there was none: books what that changes
 };
 
 /// axial: c l' u; other: c (v_j - v_i) or c v_i, as printed in the papers.
@@ -95,6 +104,7 @@ struct KernelKind {
   bool yields = false;
   bool varied = false;  // several materials: constants by element
   bool verlet = false;
+  bool exact = false;   // books the work of dampers as the integrator does it: see element_step.h
 };
 
 /// Which elements of the rows to compute.

@@ -20,6 +20,7 @@ struct Masses {
   typename Pack<Real>::I mask;
   V u[3], v[3], f[3];
   V viscous{};                 // power lost in dampers so far [W]
+  V passed{};                  // the same as the step before did it: mean force then and now times motion; only exact [W]
   V elastic{};                 // energy so far, only where it is watched [J]
 };
 
@@ -27,6 +28,7 @@ struct Masses {
 template <class Real>
 struct Streams {
   Real *u[3], *v[3], *f[3];
+  const Real *moved[3], *seen[3];  // as in ElementContext
 };
 
 /// The pack's elements in one direction, at their present length.
@@ -44,12 +46,33 @@ typename Pack<Real>::V constant(const Real* of_each, Real of_all, Index owner) {
   return Pack<Real>::all(of_all);
 }
 
+/// By how much an element has become longer in the step that led here, dt l', and what its damper did in it after its last kick.
+struct LastStep {
+  double longer = 0;   // [m]
+  double damper = 0;   // [J]
+};
+template <class Real>
+__attribute__((noinline)) LastStep last_step(const ElementContext<Real>& m, const ElementSlot<Real>& e, Index i, Real stretch,
+                                             Real c) {
+  Real seen = 0, moved = 0;
+  for (int a = 0; a < 3; ++a) {
+    const Real x = e.D[a] + m.u[a][i + e.offset] - m.u[a][i];
+    moved += x * (m.moved[a][i + e.offset] - m.moved[a][i]);
+    if (m.exact_axial) seen += x * (m.v_seen[a][i + e.offset] - m.v_seen[a][i]);
+  }
+  const double l = static_cast<double>(e.L + stretch), longer = static_cast<double>(m.dt_before * moved) / l;
+  return {longer, 0.5 * static_cast<double>(c * seen) / l * longer};
+}
+
 /// Stage 2 and 3 of the law, lane by lane, for the few elements that are there: commits l_c and the yield stretch from the
 /// static force, books what is lost, and takes broken elements out of the mask. (EQUATIONS C-2 to C-6)
 ///
 ///   stretch s = l - L,  s_y = yield + hardening,  f_s = k1 (s_y - l_c) + k2 (s - s_y)
 ///   lost in yielding: (f_y + f_s) / 2 (1 - k2 / k1) (s - s_y);   then  s_y := s,  l_c := s - f_s / k1
 ///   s > snap: gone, with its elastic energy f_s^2 / (2 k1)
+/// With s_0 = s - dt l' the stretch one step ago, the trapezoid of the forces then and now took less than the path over the corner at
+/// s_y, by (k1 - k2) (s_y - s_0) (s - s_y) / 2: booked where something may be struck. An element that is gone does not pull any more,
+/// which leaves f_s (s - s_0) / 2, nor does its damper have its last half step.
 template <class Real, bool varied>
 __attribute__((noinline)) void commit_yield(const ElementContext<Real>& m, const ElementSlot<Real>& e, Index i,
                                             typename Pack<Real>::I beyond, typename Pack<Real>::V stretch,
@@ -65,14 +88,31 @@ __attribute__((noinline)) void commit_yield(const ElementContext<Real>& m, const
     const Real f_s = f_y + k2 * (stretch[lane] - s_y);
     ledger.plastic += 0.5 * static_cast<double>(f_y + f_s) * (1 - static_cast<double>(k2 / k1)) *
                       static_cast<double>(stretch[lane] - s_y);
+    const bool gone = stretch[lane] > pick(m.snap[e.half], e.snap, owner);
+    if (m.exact || gone) {
+      const LastStep last = last_step<Real>(m, e, i + lane, stretch[lane], pick(m.c[e.half], e.c, owner));
+      const double over = static_cast<double>(stretch[lane] - s_y), before = last.longer > over ? last.longer - over : 0.0;
+      ledger.numerical -= 0.5 * static_cast<double>(k1 - k2) * before * over;
+      if (gone) ledger.numerical -= 0.5 * static_cast<double>(f_s) * last.longer - last.damper;
+    }
     m.hardening[e.half][owner] += stretch[lane] - s_y;
     ++ledger.yields;
     m.l_c[e.half][owner] = stretch[lane] - f_s / k1;
-    if (!(stretch[lane] > pick(m.snap[e.half], e.snap, owner))) continue;
+    if (!gone) continue;
     ledger.broken += static_cast<double>(f_s) * static_cast<double>(f_s) / (2 * static_cast<double>(k1));
     ++ledger.breaks;
     m.mask[i + lane] &= ~e.bit;
   }
+}
+
+/// l l' of the pack's elements with other velocities than now.
+template <class Real>
+inline __attribute__((always_inline)) typename Pack<Real>::V rate_with(const Real* const v[3], Index i, Index j,
+                                                                       const Elements<Real>& at) {
+  using P = Pack<Real>;
+  typename P::V rate{};
+  for (int a = 0; a < 3; ++a) rate = P::fma(P::load(v[a] + j) - P::load(v[a] + i), at.x[a], rate);
+  return rate;
 }
 
 /// Static force over length, f_s / l, of elements that may yield; commits what yields. `live` loses what breaks.
@@ -116,8 +156,19 @@ inline __attribute__((always_inline)) void watch_elastic(const ElementContext<Re
   }
 }
 
+/// Power of the dampers over the step that led here: c (w + w_before) / 2 times the rate at which it moved, w = l'.
+template <class Real, bool verlet>
+inline __attribute__((always_inline)) typename Pack<Real>::V passed_power(const Streams<Real>& at_mass, Index i, Index j,
+                                                                          const Elements<Real>& at,
+                                                                          typename Pack<Real>::V c,
+                                                                          typename Pack<Real>::V rate) {
+  const auto seen = rate_with<Real>(at_mass.seen, i, j, at);
+  const auto moved = verlet ? rate_with<Real>(at_mass.moved, i, j, at) : rate;
+  return Real(0.5) * c * (rate + seen) * moved / at.l2;
+}
+
 /// Adds the forces of one kind of element at both of its ends.
-template <class Real, DamperKind damper, bool yields, bool varied>
+template <class Real, DamperKind damper, bool yields, bool varied, bool verlet, bool exact>
 inline __attribute__((always_inline)) void add_elements(const ElementContext<Real>& m,
                                                         const Streams<Real>& at_mass,
                                                         const ElementSlot<Real>& e, Masses<Real>& p,
@@ -150,6 +201,7 @@ inline __attribute__((always_inline)) void add_elements(const ElementContext<Rea
       const V viscous = c * rate / at.l2;
       s += viscous;
       p.viscous += P::where(live, viscous * rate);
+      if constexpr (exact) p.passed += P::where(live, passed_power<Real, verlet>(at_mass, p.i, j, at, c, rate));
     } else {
       const V k1 = constant<Real, varied>(m.k1[e.half], e.k1, owner);
       const V h = P::fma_all(at.l, e.L, at.l2);
@@ -158,6 +210,7 @@ inline __attribute__((always_inline)) void add_elements(const ElementContext<Rea
       s = P::fma(k1 * at.q, at.l2, viscous) * over;
       watch_elastic<Real, varied>(m, e, p, at, live, k1 * at.q * at.l2 * over);
       p.viscous = P::fma(P::where(live, viscous * over), rate, p.viscous);
+      if constexpr (exact) p.passed += P::where(live, passed_power<Real, verlet>(at_mass, p.i, j, at, c, rate));
     }
   } else {
     if constexpr (yields) {
@@ -179,6 +232,13 @@ inline __attribute__((always_inline)) void add_elements(const ElementContext<Rea
       mine += near;
       theirs += far;
       p.viscous += -(near * p.v[a]) - far * P::load(at_mass.v[a] + j);
+      if constexpr (exact) {
+        const V far_seen = P::load(at_mass.seen[a] + j), near_seen = P::load(at_mass.seen[a] + p.i);
+        const V far_before = m.relative ? c_live * (near_seen - far_seen) : -(c_live * far_seen);
+        const V near_before = m.relative ? -far_before : -(c_live * near_seen);
+        p.passed -= Real(0.5) * ((near + near_before) * P::load(at_mass.moved[a] + p.i) +
+                                 (far + far_before) * P::load(at_mass.moved[a] + j));
+      }
     }
     p.f[a] += mine;
     P::store(at_mass.f[a] + j, P::load(at_mass.f[a] + j) + theirs);

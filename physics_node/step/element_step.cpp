@@ -1,5 +1,6 @@
 #include "physics_node/step/element_step.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 
@@ -21,7 +22,7 @@ void point_at_constants(ElementContext<Real>& m, const VariedConstants<Real>& va
 }
 
 template <class Real>
-ElementContext<Real> make_context(const Body& body, LatticeState<Real>& s, const ExplicitStep& step) {
+ElementContext<Real> make_context(const Body& body, LatticeState<Real>& s, const ExplicitStep& step, bool exact) {
   ElementContext<Real> m = {};
   m.rows = body.lattice.rows.data();
   m.row_state = s.row_state.data();
@@ -34,6 +35,9 @@ ElementContext<Real> make_context(const Body& body, LatticeState<Real>& s, const
     m.v[a] = s.v[a].data();
     m.f[a] = s.f[a].data();
     m.v_half[a] = s.v_half[a].data();
+    m.kicked[a] = s.v_half_known ? s.v_half[a].data() : s.v[a].data();
+    m.moved[a] = moving_velocity(s)[a].data();
+    m.v_seen[a] = s.v_seen[a].data();
     m.g[a] = static_cast<Real>(step.gravity[static_cast<Eigen::Index>(a)]);
   }
   m.inverse_mass = s.inverse_mass.data();
@@ -47,16 +51,20 @@ ElementContext<Real> make_context(const Body& body, LatticeState<Real>& s, const
   m.kick = static_cast<Real>(s.v_half_known ? step.dt : 0.5 * step.dt);
   m.drag = static_cast<Real>(body.law.drag);
   m.relative = body.law.damper == Damper::relative;
+  m.dt_before = static_cast<Real>(s.dt_before);
+  m.begins = step.verlet ? !s.v_half_known : step.dt != s.dt_before;
+  m.exact = step.exact;
+  m.exact_axial = exact && body.law.damper == Damper::axial;
   m.watch = step.watch;
   return m;
 }
 
 template <class Real>
-ElementKernel<Real> choose_kernel(const Body& body, bool verlet) {
+ElementKernel<Real> choose_kernel(const Body& body, bool verlet, bool exact) {
   const DamperKind damper = !any_damped(body)                        ? DamperKind::none
                             : body.law.damper == Damper::axial ? DamperKind::axial
                                                                      : DamperKind::other;
-  const KernelKind kind{damper, any_yields(body), !body.law_of.empty(), verlet};
+  const KernelKind kind{damper, any_yields(body), !body.law_of.empty(), verlet, exact};
   switch (instruction_set()) {
     case InstructionSet::avx512:
       return avx512::element_kernel<Real>(kind);
@@ -76,6 +84,14 @@ InstructionSet find_instruction_set() noexcept {
   if (!sse2_wanted && !avx2_wanted && has_avx2 && __builtin_cpu_supports("avx512f") != 0)
     return InstructionSet::avx512;
   return !sse2_wanted && has_avx2 ? InstructionSet::avx2 : InstructionSet::sse2;
+}
+
+/// Dampers see now what they saw before, as far as anybody knows.
+template <class Real>
+void begin_seeing(const Body& body, LatticeState<Real>& s) {
+  for (std::size_t a = 0; a < 3; ++a)
+    for (const RowSegment& row : body.lattice.rows)
+      std::copy_n(s.v[a].data() + row.first, row.count, s.v_seen[a].data() + row.first);
 }
 
 /// Every chunk but the last hands the elements above it to the sweep of cuts.
@@ -102,8 +118,10 @@ const char* name_of(InstructionSet set) noexcept {
 
 template <class Real>
 std::int64_t element_step(const Body& body, LatticeState<Real>& state, const ExplicitStep& step) noexcept {
-  const ElementContext<Real> m = make_context(body, state, step);
-  const ElementKernel<Real> kernel = choose_kernel<Real>(body, step.verlet);
+  const bool exact = step.exact && state.v_seen[0].size() > 0;
+  if (exact && !state.v_seen_known) begin_seeing(body, state);
+  const ElementContext<Real> m = make_context(body, state, step, exact);
+  const ElementKernel<Real> kernel = choose_kernel<Real>(body, step.verlet, exact);
   const std::vector<Chunk>& chunks = body.lattice.chunks;
   const std::size_t n = chunks.size();
   const std::size_t n_cuts = n > 0 ? n - 1 : 0;
@@ -117,6 +135,8 @@ std::int64_t element_step(const Body& body, LatticeState<Real>& state, const Exp
     for (std::size_t c = 0; c < n; ++c) chunk(c);
   }
   state.v_half_known = step.verlet;
+  state.v_seen_known = exact;
+  state.dt_before = step.dt;
   return any_yields(body) ? mirror_breaks(body, state) : 0;
 }
 

@@ -12,7 +12,8 @@ struct ExplicitStep {
   Team* team = nullptr;        // null: no team
   int threads = 1;             // of the team that this step may use
   bool verlet = false;         // velocity_verlet; else symplectic Euler
-  bool watch = false;          // note the speeds and accelerations of rows in state.ledger
+  bool watch = false;          // note speeds, accelerations and energies of rows in state.ledger
+  bool exact = false;          // book dampers exactly, where velocities may jump: see below
 };
 
 /// One step of every mass of a body, in place:
@@ -28,6 +29,16 @@ struct ExplicitStep {
 /// by whichever thread comes first; the elements between chunks are computed before, so every sum has one order whatever the
 /// number of threads. Displacements, not positions, are stored, so that in single precision the stretch of an element
 /// is as exact as the displacements are.
+/// Energy. Both integrators are leapfrog, v(-) the velocity that moved the masses to x and v(+) the one after the kick there. Over a
+/// step every force F works by the trapezoid (F + F') / 2 . dx on K = sum of m v(-) . v(+) / 2, and for a linear spring the
+/// trapezoid is what it stores: so K + elastic + gravitational at one x changes by what is booked and by nothing else. Booked are
+///   dissipated   c w^2 dt of each element, w the rate that its damper sees; where something may strike, `exact`: its trapezoid
+///                c (w + w_before) / 2 . w_moved dt_before, by row, where that is a loss
+///   numerical    where it is none; what the trapezoid differs from the path of yielding and breaking, see commit_yield();
+///                with another dt than before what K differs by, since v(+) is then another
+/// What comes after the sweep, tools, contact and floor, works by J . (v(-) + v(+)) / 2.
+/// Without `exact` dampers are booked c (w' - w)^2 dt / 4 of each element and step too much: little, unless something strikes.
+/// Source: Hairer, Lubich & Wanner 2003 (leapfrog and its energy).
 /// Source: Wakamatsu & Honma 2011, eqs. (1), (2); Takada & Abe, "Euler method".
 /// Deviation: semi-implicit where the papers' Euler is explicit, which gains energy (EQUATIONS C-32).
 /// Cost: bench/kernel. Contract: allocates, locks and throws nothing.

@@ -1,5 +1,6 @@
 #include "physics_node/step/energy_account.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace palpate::physics {
@@ -9,55 +10,69 @@ Energies sum_energies(const MovingBodies& bodies, const Vec3& gravity) {
   for (const auto& body : bodies) {
     const Energies e = body->energies(gravity);
     sum.kinetic += e.kinetic;
+    sum.between += e.between;
     sum.elastic += e.elastic;
     sum.gravitational += e.gravitational;
   }
   return sum;
 }
 
+namespace {
+
+void add(const Losses& lost, Losses& sum) {
+  sum.viscous += lost.viscous;
+  sum.plastic += lost.plastic;
+  sum.numerical += lost.numerical;
+  sum.broken += lost.broken;
+  sum.breaks += lost.breaks;
+}
+
+}  // namespace
+
 Losses sum_losses(const MovingBodies& bodies) {
   Losses sum;
-  for (const auto& body : bodies) {
-    const Losses lost = body->losses();
-    sum.viscous += lost.viscous;
-    sum.plastic += lost.plastic;
-    sum.numerical += lost.numerical;
-    sum.broken += lost.broken;
-    sum.breaks += lost.breaks;
-  }
+  for (const auto& body : bodies) add(body->losses(), sum);
+  return sum;
+}
+
+Losses sum_losses_and_due(const MovingBodies& bodies) {
+  Losses sum = sum_losses(bodies);
+  for (const auto& body : bodies) add(body->due(), sum);
   return sum;
 }
 
 void EnergyAccount::restart(const MovingBodies& bodies, const Vec3& gravity, const StepReport& report) {
   start_ = sum_energies(bodies, gravity);
-  lost_ = sum_losses(bodies);
-  work_ = report.tool_work;
-  exchange_ = report.tool_exchange;
-  contact_ = report.contact_lost;
-  guard_ = 0;
+  lost_ = sum_losses_and_due(bodies);
+  booked_ = Booked(report);
+  most_fallen_ = guard_ = 0;
+}
+
+void EnergyAccount::note(double fallen) noexcept {
+  most_fallen_ = std::max(most_fallen_, std::abs(fallen + start_.gravitational));
 }
 
 EnergyLedger EnergyAccount::book(const Energies& now, const Losses& lost,
-                                 const StepReport& report) const noexcept {
+                                 const Booked& booked) const noexcept {
   EnergyLedger ledger;
-  ledger.kinetic = now.kinetic;
+  ledger.kinetic = now.between;
   ledger.elastic = now.elastic;
   ledger.gravitational = now.gravitational;
   ledger.dissipated = lost.viscous - lost_.viscous;
   ledger.plastic = lost.plastic - lost_.plastic;
   ledger.numerical = lost.numerical - lost_.numerical;
   ledger.broken = lost.broken - lost_.broken;
-  ledger.tool_work = report.tool_work - work_;
-  ledger.contact = report.contact_lost - contact_;
+  ledger.tool_work = booked.tool_work - booked_.tool_work;
+  ledger.contact = booked.contact_lost - booked_.contact_lost;
   ledger.guard = guard_;
-  ledger.start = start_.kinetic + start_.elastic + start_.gravitational;
-  ledger.exchanged = start_.kinetic + start_.elastic + (report.tool_exchange - exchange_) +
-                     std::abs(now.gravitational - start_.gravitational);
+  ledger.start = start_.between + start_.elastic + start_.gravitational;
+  ledger.exchanged = start_.kinetic + start_.elastic + (booked.tool_exchange - booked_.tool_exchange) +
+                     std::max(most_fallen_, std::abs(now.gravitational - start_.gravitational));
   return ledger;
 }
 
 double EnergyAccount::put_in(double fallen, const StepReport& report) const noexcept {
-  return start_.kinetic + start_.elastic + (report.tool_exchange - exchange_) +
+  return start_.kinetic + start_.elastic + (report.tool_exchange - booked_.tool_exchange) +
          std::abs(fallen + start_.gravitational);
 }
 

@@ -14,14 +14,27 @@ using MovingBodies = std::vector<std::unique_ptr<MovingBody>>;
 
 Energies sum_energies(const MovingBodies& bodies, const Vec3& gravity);
 Losses sum_losses(const MovingBodies& bodies);
+/// The same with what the next step will book at once: see MovingBody::due().
+Losses sum_losses_and_due(const MovingBodies& bodies);
+
+/// What tools and contact have done, as the report has counted it.
+struct Booked {
+  double tool_work = 0, tool_exchange = 0, contact_lost = 0;  // [J]
+  explicit Booked(const StepReport& report)
+      : tool_work(report.tool_work), tool_exchange(report.tool_exchange), contact_lost(report.contact_lost) {}
+  Booked() = default;
+};
 
 class EnergyAccount {
  public:
   /// What is there now is what the ledger starts from.
   void restart(const MovingBodies& bodies, const Vec3& gravity, const StepReport& report);
 
-  /// The ledger of this moment, from energies and losses now and the work of tools that the report has counted.
-  EnergyLedger book(const Energies& now, const Losses& lost, const StepReport& report) const noexcept;
+  /// The ledger of a moment, from energies and losses then and what tools and contact had done by then.
+  EnergyLedger book(const Energies& now, const Losses& lost, const Booked& booked) const noexcept;
+
+  /// Remembers the most that gravity has done so far. @param fallen  sum of m g . u
+  void note(double fallen) noexcept;
 
   /// All that was ever put in: what there was at the start, the magnitude of the tools' work, and what gravity has given
   /// since rest. [J] @param fallen  sum of m g . u
@@ -33,8 +46,8 @@ class EnergyAccount {
  private:
   Energies start_;
   Losses lost_;                     // at the start
-  double work_ = 0, exchange_ = 0;  // of tools, at the start [J]
-  double contact_ = 0;              // lost at the start [J]
+  Booked booked_;                   // at the start
+  double most_fallen_ = 0;          // magnitude, since the start [J]
   double guard_ = 0;                // [J]
 };
 

@@ -11,8 +11,17 @@ namespace palpate::physics {
 namespace {
 
 struct ElementNow {
-  double stretch;  // l / L
-  double f_s, k1;  // static force [N], spring constant [N/m]
+  Index i, j;
+  Vec3 n;                  // direction
+  double stretch;          // l / L
+  double f_s, k1, c;       // static force [N], spring constant [N/m], damper [N s/m]
+  double beyond, f_y, k2;  // of the yield stretch that stands [m]; force there [N]; the slope behind it [N/m]
+
+  /// Of the rate at which it grows.
+  template <class Real>
+  double along(const Three<Real>& v) const {
+    return n.dot(vector_of(v, j) - vector_of(v, i));
+  }
 };
 
 /// Calls visit(element) for every live element.
@@ -32,15 +41,49 @@ void for_each_element(const Body& body, const LatticeState<Real>& s, const Visit
       const double q = stretch.dot(2 * lattice.rest_vector[d] + stretch);
       const double l = std::sqrt(std::max(L * L + q, 1e-6 * L * L));
       const double longer = q / (l + L);
-      ElementNow now{l / L, e.k1 * longer, e.k1};
+      ElementNow now{i, j, (lattice.rest_vector[d] + stretch) / l, l / L, e.k1 * longer, e.k1, e.c, 0, 0, e.k1};
       if (yields) {
         const auto l_c = static_cast<double>(s.l_c[d][c]);
         const double s_y = (e.y_p - 1) * L + static_cast<double>(s.hardening[d][c]);
-        now.f_s = longer > s_y ? e.k1 * (s_y - l_c) + e.k2 * (longer - s_y) : e.k1 * (longer - l_c);
+        now.beyond = std::max(0.0, longer - s_y);
+        now.f_y = e.k1 * (s_y - l_c);
+        now.k2 = e.k2;
+        now.f_s = now.beyond > 0 ? now.f_y + e.k2 * now.beyond : e.k1 * (longer - l_c);
       }
       visit(now);
     }
   }
+}
+
+/// What dampers and drag do to masses with velocities v, as power on masses that move with w; < 0 where v and w are the same. [W]
+template <class Real>
+double damper_power(const Body& body, const ElementNow& now, const Three<Real>& v, const Three<Real>& w) {
+  switch (body.law.damper) {
+    case Damper::axial:
+      return -now.c * now.along(v) * now.along(w);
+    case Damper::relative:
+      return -now.c * (vector_of(v, now.j) - vector_of(v, now.i)).dot(vector_of(w, now.j) - vector_of(w, now.i));
+    case Damper::drag:
+      return -now.c * (vector_of(v, now.j).dot(vector_of(w, now.j)) + vector_of(v, now.i).dot(vector_of(w, now.i)));
+  }
+  return 0;
+}
+
+template <class Real>
+double drag_power(const Body& body, Index i, const Three<Real>& v, const Three<Real>& w) {
+  return -law_at(body, i).drag * vector_of(v, i).dot(vector_of(w, i));
+}
+
+/// The velocity with which the last step moved the masses, if there was one: with velocity_verlet else that of now.
+template <class Real>
+const Three<Real>& before_the_kick(const LatticeState<Real>& state) {
+  return state.v_half_known ? moving_velocity(state) : state.v;
+}
+
+/// dt of the next step where it goes on from the last, 0 where it begins anew. [s]
+template <class Real>
+double goes_on_by(const LatticeState<Real>& state) {
+  return state.v_half[0].size() > 0 && !state.v_half_known ? 0 : state.dt_before;
 }
 
 }  // namespace
@@ -48,14 +91,48 @@ void for_each_element(const Body& body, const LatticeState<Real>& s, const Visit
 template <class Real>
 Energies measure_energies(const Body& body, const LatticeState<Real>& state, const Vec3& gravity) {
   Energies e;
+  const Three<Real>& v = before_the_kick(state);
+  double power = 0;  // of all forces on the masses [W]
   for (const Index i : body.lattice.masses) {
     const double w = body.inverse_mass[static_cast<std::size_t>(i)];
     if (w == 0) continue;
     e.kinetic += 0.5 / w * vector_of(state.v, i).squaredNorm();
+    e.between += 0.5 / w * vector_of(v, i).squaredNorm();
     e.gravitational -= gravity.dot(vector_of(state.u, i)) / w;
+    power += gravity.dot(vector_of(v, i)) / w + drag_power(body, i, state.v, v);
   }
-  for_each_element(body, state, [&](const ElementNow& now) { e.elastic += now.f_s * now.f_s / (2 * now.k1); });
+  for_each_element(body, state, [&](const ElementNow& now) {
+    e.elastic += now.f_s * now.f_s / (2 * now.k1);
+    power += damper_power(body, now, state.v, v) - now.f_s * now.along(v);
+  });
+  e.between += 0.5 * goes_on_by(state) * power;
   return e;
+}
+
+template <class Real>
+Losses measure_due(const Body& body, const LatticeState<Real>& state) {
+  Losses due;
+  const double dt = goes_on_by(state);
+  const Three<Real>& v = before_the_kick(state);
+  double passed = 0;  // power of dampers over the step before, where it is booked exactly [W]
+  for (const Index i : body.lattice.masses) {
+    due.viscous -= dt * drag_power(body, i, state.v, state.v);
+    if (state.v_seen_known)
+      passed -= 0.5 * (drag_power(body, i, state.v, v) + drag_power(body, i, state.v_seen, v));
+  }
+  for_each_element(body, state, [&](const ElementNow& now) {
+    due.viscous -= dt * damper_power(body, now, state.v, state.v);
+    if (state.v_seen_known)
+      passed -= 0.5 * (damper_power(body, now, state.v, v) + damper_power(body, now, state.v_seen, v));
+    due.plastic += 0.5 * (now.f_y + now.f_s) * (1 - now.k2 / now.k1) * now.beyond;
+    // As commit_yield() books it: see element_law.inl.
+    const double before = std::max(0.0, state.dt_before * now.along(v) - now.beyond);
+    due.numerical -= 0.5 * (now.k1 - now.k2) * before * now.beyond;
+  });
+  if (!state.v_seen_known) return due;
+  due.viscous = std::max(0.0, dt * passed);
+  due.numerical += std::min(0.0, dt * passed);
+  return due;
 }
 
 template <class Real>
@@ -118,6 +195,8 @@ double rigid_fit_rms(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to) {
 
 template Energies measure_energies(const Body&, const LatticeState<float>&, const Vec3&);
 template Energies measure_energies(const Body&, const LatticeState<double>&, const Vec3&);
+template Losses measure_due(const Body&, const LatticeState<float>&);
+template Losses measure_due(const Body&, const LatticeState<double>&);
 template Losses measure_losses(const LatticeState<float>&);
 template Losses measure_losses(const LatticeState<double>&);
 template MomentumAccount::Start measure_momenta(const Body&, const Three<float>&,

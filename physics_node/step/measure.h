@@ -6,10 +6,15 @@
 
 namespace palpate::physics {
 
-/// Kinetic (1/2) m v^2; elastic f_s^2 / (2 k1) per live element, which is what unloading gives back; gravitational
+/// Kinetic (1/2) m v^2, and between velocities m v(-) . v(+) / 2 with the v(+) that the next step of the same dt leads to before
+/// anything touches (see element_step.h); elastic f_s^2 / (2 k1) per live element, which is what unloading gives back; gravitational
 /// - m g . u. Held masses count for nothing. One pass over masses and elements in double precision.
 template <class Real>
 Energies measure_energies(const Body& body, const LatticeState<Real>& state, const Vec3& gravity);
+
+/// What the next step of the same dt will book that `between` and `elastic` have as done.
+template <class Real>
+Losses measure_due(const Body& body, const LatticeState<Real>& state);
 
 /// What elements have given away since the start.
 template <class Real>

@@ -5,7 +5,6 @@
 
 #include "common/math/state_hash.h"
 #include "physics_node/step/bounce.h"
-#include "physics_node/step/damper_impulse.h"
 #include "physics_node/step/element_step.h"
 #include "physics_node/step/measure.h"
 #include "physics_node/step/saved_state.h"
@@ -14,6 +13,12 @@
 
 namespace palpate::physics {
 namespace {
+
+/// Do dampers or drag take energy from it?
+bool has_losses(const Body& body) {
+  return any_damped(body) ||
+         std::any_of(body.laws.begin(), body.laws.end(), [](const ElementLaw& law) { return law.drag > 0; });
+}
 
 template <class Real>
 class LatticeBody final : public MovingBody {
@@ -29,8 +34,7 @@ class LatticeBody final : public MovingBody {
   const Body& body() const noexcept override { return body_; }
 
   std::int64_t element_forces_and_integrate(const ExplicitStep& step) noexcept override {
-    if (step.verlet && step.dt != last_dt_) begin_leapfrog();
-    last_dt_ = step.dt;
+    if (step.verlet && step.dt != state_.dt_before) begin_leapfrog();
     momentum_.step(step.gravity, step.verlet && !state_.v_half_known ? 0.5 * step.dt : step.dt, step.dt);
     return element_step(body_, state_, step);  // sleeping rows are skipped
   }
@@ -49,14 +53,21 @@ class LatticeBody final : public MovingBody {
     return report;
   }
 
-  double kick(std::span<const NodalForce> forces, double dt) noexcept override {
-    double work = 0;
+  double power(std::span<const NodalForce> forces) const noexcept override {
+    double sum = 0;
+    for (const auto& nodal : forces)
+      if (state_.inverse_mass[static_cast<std::size_t>(nodal.cell)] > 0)
+        sum += nodal.force.dot(vector_of(moving_velocity(state_), nodal.cell));
+    return sum;
+  }
+
+  void kick(std::span<const NodalForce> forces, double dt) noexcept override {
     for (const auto& nodal : forces) {
       const auto c = static_cast<std::size_t>(nodal.cell);
       if (state_.inverse_mass[c] == 0) continue;
       sleep_.wake_cell(body_, state_, nodal.cell);
       const bool verlet = state_.v_half[0].size() > 0;
-      const Three<Real>& moving = moving_velocity();
+      const Three<Real>& moving = moving_velocity(state_);
       momentum_.push(dt * nodal.force, position(nodal.cell) - dt * vector_of(moving, nodal.cell), dt);
       for (std::size_t a = 0; a < 3; ++a) {
         const Real dv =
@@ -66,20 +77,17 @@ class LatticeBody final : public MovingBody {
         state_.u[a][c] += static_cast<Real>(dt) * dv;
         if (verlet) state_.v_half[a][c] += dv;
       }
-      work += dt * nodal.force.dot(vector_of(moving, nodal.cell));  // F . dx
     }
-    return work;
   }
 
-  void push(Index cell, const Vec3& dv, double dt, bool led) noexcept override {
+  void push(Index cell, const Vec3& dv, double dt) noexcept override {
     if (implicit_) dt = 0;
     const auto c = static_cast<std::size_t>(cell);
     if (state_.inverse_mass[c] == 0) return;
     sleep_.wake_cell(body_, state_, cell);
     const bool verlet = state_.v_half[0].size() > 0;
-    momentum_.push(dv / static_cast<double>(state_.inverse_mass[c]), position(cell) - dt * vector_of(moving_velocity(), cell),
+    momentum_.push(dv / static_cast<double>(state_.inverse_mass[c]), position(cell) - dt * vector_of(moving_velocity(state_), cell),
                    dt);
-    if (dt > 0 && !led) state_.ledger[static_cast<std::size_t>(body_.lattice.row_of(cell))].viscous -= booked_too_much(body_, state_, cell, dv, dt, verlet);
     for (std::size_t a = 0; a < 3; ++a) {
       const double d = dv[static_cast<Eigen::Index>(a)];
       state_.v[a][c] += static_cast<Real>(d);
@@ -93,10 +101,13 @@ class LatticeBody final : public MovingBody {
   void prepare_contact() override {
     for (auto& axis : v_before_)
       if (axis.size() == 0) axis = ZeroedArray<Real>(n_cells());
+    if (implicit_ || !has_losses(body_)) return;
+    for (auto& axis : state_.v_seen)
+      if (axis.size() == 0) axis = ZeroedArray<Real>(n_cells());
   }
   void remember_velocities() noexcept override {
     if (v_before_[0].size() == 0) return;
-    const Three<Real>& moving = moving_velocity();
+    const Three<Real>& moving = moving_velocity(state_);
     for (std::size_t r = 0; r < body_.lattice.rows.size(); ++r) {
       const RowSegment& row = body_.lattice.rows[r];
       for (std::size_t a = 0; a < 3; ++a)
@@ -106,7 +117,7 @@ class LatticeBody final : public MovingBody {
 
   Bounces bounce_off(const Plane& plane, double e, double dt) noexcept override {
     if (implicit_) return bounce<Real>(body_, state_, state_.v, nullptr, plane, e, 0, momentum_);
-    return bounce(body_, state_, moving_velocity(), &v_before_, plane, e, dt, momentum_);
+    return bounce(body_, state_, moving_velocity(state_), &v_before_, plane, e, dt, momentum_);
   }
 
   void sleep_and_wake(double frame_seconds) noexcept override { sleep_.look(body_, state_, frame_seconds); }
@@ -132,8 +143,10 @@ class LatticeBody final : public MovingBody {
     Watch sum;
     for (const RowLedger& row : state_.ledger) {
       sum.kinetic += row.kinetic;
+      sum.between += row.between;
       sum.elastic += row.elastic;
       sum.fallen += row.fallen;
+      sum.fallen_before += row.fallen_before;
       sum.speed = std::max(sum.speed, row.speed2);
     }
     sum.speed = std::sqrt(sum.speed);
@@ -172,7 +185,7 @@ class LatticeBody final : public MovingBody {
       state_.v[a][c] = static_cast<Real>(velocity[static_cast<Eigen::Index>(a)]);
       if (state_.v_half[a].size() > 0) state_.v_half[a][c] = state_.v[a][c];
     }
-    state_.v_half_known = false;
+    state_.forget_last_step();
   }
 
   Vec3 position(Index cell) const noexcept override {
@@ -182,7 +195,7 @@ class LatticeBody final : public MovingBody {
   Vec3 velocity(Index cell) const noexcept override { return vector_of(state_.v, cell); }
   void read(std::span<const std::uint32_t> which, std::span<const Index> cells, std::span<const Vec3> rest, double dt, std::span<Vec3> x, std::span<Vec3> v,
             std::span<Vec3> v_move) const noexcept override {
-    const Three<Real>& moving = moving_velocity();
+    const Three<Real>& moving = moving_velocity(state_);
     const bool known = v_before_[0].size() > 0 && !implicit_;
     for (const std::uint32_t n : which) {
       v_move[n] = vector_of(moving, cells[n]);
@@ -209,15 +222,16 @@ class LatticeBody final : public MovingBody {
   }
 
   Energies energies(const Vec3& gravity) const override { return measure_energies(body_, state_, gravity); }
+  Losses due() const override { return measure_due(body_, state_); }
   Losses losses() const override { return measure_losses(state_); }
   Momenta momenta() const override { return measure_momenta(body_, state_.u, state_.v).momenta; }
   bool touched() const noexcept override { return momentum_.hits() > 0; }
   void restart_momentum() noexcept override {
-    momentum_.restart(measure_momenta(body_, state_.u, moving_velocity()));
+    momentum_.restart(measure_momenta(body_, state_.u, moving_velocity(state_)));
   }
   MomentumAccount& momentum_account() noexcept override { return momentum_; }
   MomentumBalance momentum_balance() const override {
-    return momentum_.balance(measure_momenta(body_, state_.u, moving_velocity()).momenta);
+    return momentum_.balance(measure_momenta(body_, state_.u, moving_velocity(state_)).momenta);
   }
   BodyCounts counts() const override { return measure_counts(body_, state_); }
 
@@ -240,22 +254,15 @@ class LatticeBody final : public MovingBody {
   }
 
  private:
-  /// With another step the velocity half a step ago is another one: starts from the one now. Its momentum is another too, by
-  /// what acted meanwhile.
+  /// With another step the velocity half a step ago is another one: the step starts from the one now. Its momentum is another
+  /// too, by what acted meanwhile.
   void begin_leapfrog() noexcept {
     const Momenta before = measure_momenta(body_, state_.u, state_.v_half).momenta;
-    for (std::size_t a = 0; a < 3; ++a)
-      for (const RowSegment& row : body_.lattice.rows)
-        std::copy_n(state_.v[a].data() + row.first, row.count, state_.v_half[a].data() + row.first);
-    const Momenta after = measure_momenta(body_, state_.u, state_.v_half).momenta;
+    const Momenta after = measure_momenta(body_, state_.u, state_.v).momenta;
     momentum_.shift(after, before);
     state_.v_half_known = false;
   }
 
-  /// The velocity that moves the masses, whose momentum forces change and nothing else.
-  const Three<Real>& moving_velocity() const noexcept {
-    return state_.v_half[0].size() > 0 ? state_.v_half : state_.v;
-  }
   std::size_t n_cells() const { return static_cast<std::size_t>(body_.lattice.n_cells()); }
 
   Body body_;
@@ -264,7 +271,6 @@ class LatticeBody final : public MovingBody {
   Sleep sleep_;
   MomentumAccount momentum_;
   SavedState<Real> saved_[2];
-  double last_dt_ = 0;    // of an explicit step [s]
   std::size_t good_ = 0;  // the other one is to prove itself
   std::unique_ptr<ImplicitStep<Real>> implicit_;  // only for backward_euler
 };

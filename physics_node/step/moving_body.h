@@ -23,6 +23,7 @@ struct NodalForce {
 /// All in SI; energies in J.
 struct Energies {
   double kinetic = 0;
+  double between = 0;        // kinetic as the ledger has it: sum of m v(-) . v(+) / 2, see element_step.h
   double elastic = 0;        // recoverable
   double gravitational = 0;  // relative to the rest position
 };
@@ -31,7 +32,7 @@ struct Energies {
 struct Losses {
   double viscous = 0;        // in dampers and drag [J]
   double plastic = 0;        // in yielding [J]
-  double numerical = 0;      // to the integrator: backward_euler damps what it does not resolve [J]
+  double numerical = 0;      // to the way time is stepped; with the explicit integrators of either sign [J]
   double broken = 0;         // elastic energy of elements when they broke [J]
   std::int64_t breaks = 0;   // elements
 };
@@ -39,8 +40,10 @@ struct Losses {
 /// What the last watched step saw; cheap. A number that is not finite anywhere in the body makes `energy()` not finite.
 struct Watch {
   double kinetic = 0;  // [J]
+  double between = 0;  // as in Energies, before the step [J]
   double elastic = 0;  // before the step [J]
   double fallen = 0;   // energy that gravity has given since the start [J]
+  double fallen_before = 0;  // the same before the step [J]
   double speed = 0;    // of the fastest mass [m/s]
 
   double energy() const { return kinetic + elastic; }
@@ -75,9 +78,11 @@ class MovingBody {
   virtual std::int64_t element_forces_and_integrate(const ExplicitStep& step) noexcept = 0;
   /// A step of backward_euler under these forces; only for bodies made for it. @return what the solver needed
   virtual ImplicitReport implicit_step(const ExplicitStep& step, std::span<const NodalForce> forces) noexcept = 0;
+  /// Of forces on masses that nothing holds, with the velocities that moved them. Their work in an explicit step of dt is dt times
+  /// the mean of this before it and when all is done that acts in it. [W]
+  virtual double power(std::span<const NodalForce> forces) const noexcept = 0;
   /// Adds forces that act during the step just integrated. Held masses ignore them; sleeping rows wake.
-  /// @return work done by the forces [J]
-  virtual double kick(std::span<const NodalForce> forces, double dt) noexcept = 0;
+  virtual void kick(std::span<const NodalForce> forces, double dt) noexcept = 0;
   /// Makes room for remember_velocities(); once, while loading.
   virtual void prepare_contact() = 0;
   /// Before a step in which something may touch: so that contact knows the velocities at its beginning. See read().
@@ -85,8 +90,7 @@ class MovingBody {
   /// An impulse at the beginning of the step just integrated: adds dv to the velocity of a mass and dt dv to its place. A held
   /// mass stays; a sleeping one wakes. With backward_euler, whose step is solved as a whole, contact acts at its end instead:
   /// an impulse changes the velocity only, and read() and bounce_off() tell of the end.
-  /// @param led  a hand leads the mass along a smooth path: dv takes back what the elements did, and dampers see no jump
-  virtual void push(Index cell, const Vec3& dv, double dt, bool led = false) noexcept = 0;
+  virtual void push(Index cell, const Vec3& dv, double dt) noexcept = 0;
   /// Masses that were behind the plane when the step began, and approached it, are reflected: v_n := -e v_n.
   /// @return how many, and the kinetic energy that the plane took
   virtual Bounces bounce_off(const Plane& plane, double e, double dt) noexcept = 0;
@@ -132,6 +136,8 @@ class MovingBody {
   /// How many of a mass's live elements have yielded, [0, 1]; of a mass without any, whether one had before it broke.
   virtual double yielded_share(Index cell) const noexcept = 0;
   virtual Energies energies(const Vec3& gravity) const = 0;
+  /// What the next step will book at once, of what `energies` has as done: the kick of the dampers and fresh yielding.
+  virtual Losses due() const = 0;
   virtual Losses losses() const = 0;
   virtual Momenta momenta() const = 0;
   /// Has anything pushed or hit it since it was loaded or reset?

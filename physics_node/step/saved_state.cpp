@@ -51,10 +51,10 @@ void SavedState<Real>::bring_back(const Body& body, LatticeState<Real>& state) c
       for (const RowSegment& row : body.lattice.rows)
         if ((*three)[a].size() > 0) std::fill_n((*three)[a].data() + row.first, row.count, Real(0));
   }
-  state.v_half_known = false;
+  state.forget_last_step();
   state.ledger = ledger_;
   for (RowLedger& row : state.ledger) {
-    row.speed2 = row.kinetic = 0;
+    row.speed2 = row.kinetic = row.between = 0;
     row.acceleration2 = std::numeric_limits<double>::max();  // not known: nothing may sleep before the next look
   }
   state.breaks = breaks_;

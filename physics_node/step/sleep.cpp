@@ -101,10 +101,13 @@ void Sleep::look(const Body& body, LatticeState<Real>& state, double seconds) no
       if (seen.speed2 == 0 && seen.acceleration2 == 0) quiet_s_[r] = patience;
       if (quiet_s_[r] < patience) continue;
       const RowSegment& segment = body.lattice.rows[r];
-      for (auto* three : {&state.v, &state.v_half})
+      for (auto* three : {&state.v, &state.v_half, &state.v_seen})
         for (auto& axis : *three)
           if (axis.size() > 0) std::fill_n(axis.data() + segment.first, segment.count, Real(0));
-      state.ledger[r].speed2 = state.ledger[r].kinetic = state.ledger[r].acceleration2 = 0;
+      RowLedger& ledger = state.ledger[r];
+      ledger.numerical += ledger.kinetic;  // what little it still moved
+      ledger.speed2 = ledger.kinetic = ledger.between = ledger.acceleration2 = 0;
+      ledger.fallen_before = ledger.fallen;
       state.row_state[r] = RowState::rim;
       changed = true;
     } else if (state.row_state[r] == RowState::rim && seen.acceleration2 > disturbed * disturbed) {

@@ -50,7 +50,7 @@ void LatticeState<Real>::reset(const Body& body) {
       if (hardening[h][c] != 0) hardening[h][c] = 0;
     }
   }
-  v_half_known = false;
+  forget_last_step();
   breaks = 0;
   fresh.replace_all();
   std::fill(row_state.begin(), row_state.end(), RowState::awake);

@@ -35,6 +35,9 @@ struct LatticeState {
   Three<Real> f;            // force gathered so far; zero between steps [N]            (n_cells)
   Three<Real> v_half;       // velocity half a step ago; only for velocity_verlet       (n_cells)
   bool v_half_known = false;  // false: the next step of velocity_verlet is the first
+  Three<Real> v_seen;       // that dampers saw in the last step; only where something may touch (n_cells)
+  bool v_seen_known = false;
+  double dt_before = 0;     // of the last explicit step; 0: there was none [s]
   ZeroedArray<Mask> mask;   // live elements                                            (n_cells)
   ByHalf<Real> l_c;         // plastic stretch [m]; only where a material yields        (n_cells)
   ByHalf<Real> hardening;   // l - L at yield, less that at first yield [m]; only there (n_cells)
@@ -49,7 +52,15 @@ struct LatticeState {
 
   explicit LatticeState(const Body& body);
   void reset(const Body& body);
+  /// No step came before this state: what the next one begins with is what there is.
+  void forget_last_step() noexcept { v_half_known = v_seen_known = false, dt_before = 0; }
 };
+
+/// The velocity that moved the masses in the last step, whose momentum forces change and nothing else.
+template <class Real>
+const Three<Real>& moving_velocity(const LatticeState<Real>& state) noexcept {
+  return state.v_half[0].size() > 0 ? state.v_half : state.v;
+}
 
 /// What a mass has been through.
 template <class Real>

@@ -125,7 +125,10 @@ ElementContext<Real> context_of(const Body& body, LatticeState<Real>& s) {
   m.rows = body.lattice.rows.data();
   m.row_state = s.row_state.data(), m.ledger = s.ledger.data();
   m.all = s.all.data(), m.level = s.level.data(), m.up = s.up.data();
-  for (std::size_t a = 0; a < 3; ++a) m.u[a] = s.u[a].data(), m.v[a] = s.v[a].data(), m.f[a] = s.f[a].data();
+  for (std::size_t a = 0; a < 3; ++a) {
+    m.u[a] = s.u[a].data(), m.f[a] = s.f[a].data();
+    m.moved[a] = m.v[a] = s.v[a].data();
+  }
   m.inverse_mass = s.inverse_mass.data();
   m.mask = s.mask.data();
   for (std::size_t h = 0; h < max_half; ++h)

@@ -5,7 +5,7 @@ target_link_libraries(palpate_physics_worlds PUBLIC palpate::physics)
 palpate_test(NAME physics_laws_test KIND property
   SOURCES physics_motion_test.cpp physics_force_test.cpp physics_plastic_test.cpp physics_same_bits_test.cpp
           physics_stability_test.cpp physics_breaks_test.cpp physics_fragments_test.cpp
-          physics_energy_test.cpp physics_sleep_test.cpp physics_construction_test.cpp
+          physics_energy_test.cpp physics_books_test.cpp physics_sleep_test.cpp physics_construction_test.cpp
   LIBS palpate_physics_worlds)
 # The reference problems of palpate bench, held to the figures that the docs promise.
 palpate_test(NAME physics_closed_forms_test KIND property SOURCES physics_closed_forms_test.cpp
