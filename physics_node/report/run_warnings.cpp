@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace palpate::physics {
 namespace {
 
@@ -9,6 +11,8 @@ struct Kind {
   bool (*holds)(const World&) noexcept;
   std::string (*text)(const World&);
 };
+
+constexpr double most_balance_error = 0.01;
 
 std::string remedy(const World& world) {
   const ContactSpec& contact = world.scene().contact;
@@ -35,6 +39,13 @@ const Kind kinds[] = {
      [](const World& w) {
        return fmt::format("{} of {} steps of backward_euler were not solved to their tolerance; set a smaller physics.step_ms",
                           w.report().unsolved, w.report().steps);
+     }},
+    {[](const World& w) noexcept { return w.is_watched() && w.watched_ledger().balance_error() > most_balance_error; },
+     [](const World& w) {
+       const EnergyLedger ledger = w.watched_ledger();
+       return fmt::format("the energy does not balance: {:.2g} J of {:.2g} J exchanged, {:.2g} %, came from nowhere or got lost; what "
+                          "summary.json says under energy is off by that; set a smaller physics.step_ms",
+                          std::abs(ledger.missing()), ledger.exchanged, 100 * ledger.balance_error());
      }},
     {[](const World& w) noexcept { return w.collisions() != nullptr && w.collisions()->tally().overflows > 0; },
      [](const World& w) {

@@ -1,6 +1,6 @@
 #pragma once
 // What went wrong while a scene ran, in words. One row of the table in run_warnings.cpp is one kind of trouble: the condition costs
-// nothing to ask, the text is made once it holds.
+// little to ask, the text is made once it holds.
 
 #include <bitset>
 #include <string>
@@ -13,7 +13,7 @@ namespace palpate::physics {
 inline constexpr std::size_t most_warning_kinds = 32;
 using WarningKinds = std::bitset<most_warning_kinds>;  // bit n: row n of the table
 
-/// Which kinds of trouble the world is in or was in. Contract: allocates and throws nothing; a few comparisons.
+/// Which kinds of trouble the world is in or was in. Contract: allocates and throws nothing; a sum over rows and a few comparisons.
 WarningKinds raised_warnings(const World& world) noexcept;
 
 /// One line for each of these kinds, as things are now.
