@@ -70,14 +70,13 @@ __attribute__((noinline)) LastStep last_step(const ElementContext<Real>& m, cons
 ///   stretch s = l - L,  s_y = yield + hardening,  f_s = k1 (s_y - l_c) + k2 (s - s_y)
 ///   lost in yielding: (f_y + f_s) / 2 (1 - k2 / k1) (s - s_y);   then  s_y := s,  l_c := s - f_s / k1
 ///   s > snap: gone, with its elastic energy f_s^2 / (2 k1)
-/// With s_0 = s - dt l' the stretch one step ago, the trapezoid of the forces then and now took less than the path over the corner at
-/// s_y, by (k1 - k2) (s_y - s_0) (s - s_y) / 2: booked where something may be struck. An element that is gone does not pull any more,
-/// which leaves f_s (s - s_0) / 2, nor does its damper have its last half step.
+/// @return the lanes that are gone, lane n as bit n
 template <class Real, bool varied>
-__attribute__((noinline)) void commit_yield(const ElementContext<Real>& m, const ElementSlot<Real>& e, Index i,
-                                            typename Pack<Real>::I beyond, typename Pack<Real>::V stretch,
-                                            RowLedger& ledger) {
+__attribute__((noinline)) unsigned commit_yield(const ElementContext<Real>& m, const ElementSlot<Real>& e, Index i,
+                                                typename Pack<Real>::I beyond, typename Pack<Real>::V stretch,
+                                                RowLedger& ledger) {
   const auto pick = [&](const Real* of_each, Real of_all, Index owner) { return varied ? of_each[owner] : of_all; };
+  unsigned gone = 0;
   for (int lane = 0; lane < Pack<Real>::width; ++lane) {
     if (beyond[lane] == 0) continue;
     const Index owner = i + e.memory + lane;
@@ -88,20 +87,52 @@ __attribute__((noinline)) void commit_yield(const ElementContext<Real>& m, const
     const Real f_s = f_y + k2 * (stretch[lane] - s_y);
     ledger.plastic += 0.5 * static_cast<double>(f_y + f_s) * (1 - static_cast<double>(k2 / k1)) *
                       static_cast<double>(stretch[lane] - s_y);
-    const bool gone = stretch[lane] > pick(m.snap[e.half], e.snap, owner);
-    if (m.exact || gone) {
-      const LastStep last = last_step<Real>(m, e, i + lane, stretch[lane], pick(m.c[e.half], e.c, owner));
-      const double over = static_cast<double>(stretch[lane] - s_y), before = last.longer > over ? last.longer - over : 0.0;
-      ledger.numerical -= 0.5 * static_cast<double>(k1 - k2) * before * over;
-      if (gone) ledger.numerical -= 0.5 * static_cast<double>(f_s) * last.longer - last.damper;
-    }
     m.hardening[e.half][owner] += stretch[lane] - s_y;
     ++ledger.yields;
     m.l_c[e.half][owner] = stretch[lane] - f_s / k1;
-    if (!gone) continue;
+    if (!(stretch[lane] > pick(m.snap[e.half], e.snap, owner))) continue;
     ledger.broken += static_cast<double>(f_s) * static_cast<double>(f_s) / (2 * static_cast<double>(k1));
     ++ledger.breaks;
     m.mask[i + lane] &= ~e.bit;
+    gone |= 1U << lane;
+  }
+  return gone;
+}
+
+/// The same where something may be struck. With s_0 = s - dt l' the stretch one step ago, the trapezoid of the forces then and
+/// now took less than the path over the corner at s_y, by (k1 - k2) (s_y - s_0) (s - s_y) / 2.
+template <class Real, bool varied>
+__attribute__((noinline)) unsigned commit_exactly(const ElementContext<Real>& m, const ElementSlot<Real>& e, Index i,
+                                                  typename Pack<Real>::I beyond, typename Pack<Real>::V stretch,
+                                                  RowLedger& ledger) {
+  for (int lane = 0; lane < Pack<Real>::width; ++lane) {
+    if (beyond[lane] == 0) continue;
+    const Index owner = i + e.memory + lane;
+    const Real bend = varied ? m.k1[e.half][owner] - m.k2[e.half][owner] : e.k1 - e.k2;
+    const Real over = stretch[lane] - (varied ? m.yield[e.half][owner] : e.yield) - m.hardening[e.half][owner];
+    const double before = last_step<Real>(m, e, i + lane, stretch[lane], Real(0)).longer - static_cast<double>(over);
+    if (before > 0) ledger.numerical -= 0.5 * static_cast<double>(bend * over) * before;
+  }
+  return commit_yield<Real, varied>(m, e, i, beyond, stretch, ledger);
+}
+
+/// Elements that have just broken do not pull any more, which leaves f_s (s - s_0) / 2, nor have their dampers their last half
+/// step. @param gone  their lanes, lane n as bit n
+template <class Real, bool varied>
+__attribute__((noinline)) void book_breaks(const ElementContext<Real>& m, const ElementSlot<Real>& e, Index i, unsigned gone,
+                                           RowLedger& ledger) {
+  for (int lane = 0; lane < Pack<Real>::width; ++lane) {
+    if ((gone >> lane & 1U) == 0) continue;
+    const Index owner = i + e.memory + lane;
+    Real q = 0;
+    for (int a = 0; a < 3; ++a) {
+      const Real d = m.u[a][i + lane + e.offset] - m.u[a][i + lane];
+      q += d * (e.D[a] + e.D[a] + d);
+    }
+    const Real stretch = q / (static_cast<Real>(__builtin_sqrt(static_cast<double>(q + e.L2))) + e.L);
+    const Real f_s = (varied ? m.k1[e.half][owner] : e.k1) * (stretch - m.l_c[e.half][owner]);
+    const LastStep last = last_step<Real>(m, e, i + lane, stretch, varied ? m.c[e.half][owner] : e.c);
+    ledger.numerical -= 0.5 * static_cast<double>(f_s) * last.longer - last.damper;
   }
 }
 
@@ -133,9 +164,11 @@ inline __attribute__((always_inline)) typename Pack<Real>::V yielding_force(
     const V k2 = constant<Real, varied>(m.k2[e.half], e.k2, owner);
     const V plastic = P::fma(k2, stretch - s_y, k1 * (s_y - l_c));
     force = beyond != 0 ? plastic : force;
-    commit_yield<Real, varied>(m, e, p.i, beyond, stretch, ledger);
+    const unsigned gone = m.exact ? commit_exactly<Real, varied>(m, e, p.i, beyond, stretch, ledger)
+                                  : commit_yield<Real, varied>(m, e, p.i, beyond, stretch, ledger);
     p.mask = P::load_masks(m.mask + p.i);
     live = P::lanes_with(p.mask, e.bit);
+    if (__builtin_expect(gone != 0, 0)) book_breaks<Real, varied>(m, e, p.i, gone, ledger);
   }
   return force / at.l;
 }

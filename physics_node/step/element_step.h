@@ -34,7 +34,7 @@ struct ExplicitStep {
 /// trapezoid is what it stores: so K + elastic + gravitational at one x changes by what is booked and by nothing else. Booked are
 ///   dissipated   c w^2 dt of each element, w the rate that its damper sees; where something may strike, `exact`: its trapezoid
 ///                c (w + w_before) / 2 . w_moved dt_before, by row, where that is a loss
-///   numerical    where it is none; what the trapezoid differs from the path of yielding and breaking, see commit_yield();
+///   numerical    where it is none; what the trapezoid differs from the path of yielding and breaking, see element_law.inl;
 ///                with another dt than before what K differs by, since v(+) is then another
 /// What comes after the sweep, tools, contact and floor, works by J . (v(-) + v(+)) / 2.
 /// Without `exact` dampers are booked c (w' - w)^2 dt / 4 of each element and step too much: little, unless something strikes.
