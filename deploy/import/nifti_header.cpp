@@ -20,7 +20,7 @@ constexpr std::size_t header_bytes = 348;
 
 /// Byte positions in the header.
 constexpr std::size_t at_dim = 40, at_datatype = 70, at_bitpix = 72, at_pixdim = 76, at_vox_offset = 108,
-                      at_units = 123, at_qform = 252, at_sform = 254;
+                      at_units = 123, at_qform = 252, at_sform = 254, at_place = 256, place_floats = 18;
 
 class Header {
  public:
@@ -101,6 +101,16 @@ void check_cells(const std::string& path, const Header& header, ByteStream& stre
         fmt::format("{}: {} of its values are not finite numbers; replace them first", path, bad));
 }
 
+/// Quaternion, offsets and rows of the two placements. Why: the library's decomposition of a matrix with a number that is not
+/// finite, or overflows when squared, never ends.
+void check_place(const std::string& path, const Header& header) {
+  constexpr float largest = 1e9F;
+  for (std::size_t i = 0; i < place_floats; ++i)
+    if (const auto value = header.get<float>(at_place + 4 * i); !(std::abs(value) <= largest))
+      throw InputError(fmt::format("{}: its placement holds the number {}; at most {:g} in size is sensible",
+                                   path, value, largest));
+}
+
 }  // namespace
 
 ImageFacts check_nifti_header(const std::string& path) {
@@ -115,6 +125,7 @@ ImageFacts check_nifti_header(const std::string& path) {
   const auto size = check_size(path, {header.dim(1), header.dim(2), header.dim(3)});
   const double unit = metres_per_unit(header);
   check_spacing(path, {unit * header.pixdim(1), unit * header.pixdim(2), unit * header.pixdim(3)});
+  check_place(path, header);
   std::uint64_t cells = 1;
   for (const int n : size) cells *= static_cast<std::uint64_t>(n);
   check_cells(path, header, stream, cells);
