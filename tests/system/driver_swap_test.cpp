@@ -123,7 +123,7 @@ TEST_F(DriverSwap, SaysWhatADriverLacksBeforeAnythingIsFelt) {
                     "--set device.hand.driver=openhaptics --set device.hand.library=/no/libHD.so"),
             2);
   EXPECT_THAT(said("none"),
-              HasSubstr("box_press.toml:27:1: driver \"openhaptics\": the library of OpenHaptics does not "
+              HasSubstr("box_press.toml:30:1: driver \"openhaptics\": the library of OpenHaptics does not "
                         "load (/no/libHD.so: cannot open shared object file"));
   EXPECT_EQ(palpate("simulate", "none", "--device replay"), 2);
   EXPECT_THAT(said("none"), HasSubstr("driver \"replay\": no \"file\"; name a table of poses"));
