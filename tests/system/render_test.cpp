@@ -217,6 +217,7 @@ TEST_F(RenderNode, IsGoneWithinASecond) {
       fs::remove(report());
       start(words);
       ASSERT_TRUE(hears_me());
+      show_cube();
       const pid_t node = draws(words == in_a_window ? 6 : 0);
       ASSERT_GT(node, 0);
       const auto asked = Clock::now();
