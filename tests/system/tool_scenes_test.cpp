@@ -20,7 +20,8 @@ struct Curves {
   double moment_fluctuation = 0;   // the same of the moment [N m]
 };
 
-Curves curves_of(const std::string& file) {
+/// @param end  of what is looked at [s]
+Curves curves_of(const std::string& file, double end) {
   std::ifstream in(file);
   std::string line;
   std::getline(in, line);
@@ -35,6 +36,7 @@ Curves curves_of(const std::string& file) {
     std::array<double, 17> x{};
     char comma = 0;
     for (double& value : x) words >> value >> comma;
+    if (x[0] > end) break;
     for (std::size_t a = 0; a < 3; ++a) {
       sum.force += x[4 + a] * x[4 + a];
       sum.moment[a] += x[7 + a] * x[7 + a];
@@ -70,8 +72,8 @@ class ToolScenes : public CommandRun {
     EXPECT_TRUE(summary["warnings"].empty()) << scene << ": " << summary["warnings"];
     return summary;
   }
-  Curves curves(const std::string& scene, const std::string& tool) {
-    return curves_of((folder / scene / ("tool_" + tool + ".csv")).string());
+  Curves curves(const std::string& scene, const std::string& tool, double end = 1e9) {
+    return curves_of((folder / scene / ("tool_" + tool + ".csv")).string(), end);
   }
   static double broken(const nlohmann::json& summary, const char* body) {
     return summary["bodies"][body]["broken_fraction"].get<double>();
@@ -97,9 +99,12 @@ TEST_F(ToolScenes, InclinedKnivesTurnTheHandAboutTheAxisThatTheyAreInclinedTo) {
     EXPECT_EQ(broken(summary, "knife"), 0) << scene;
     EXPECT_GT(broken(summary, "brain"), 0.001) << scene;
   }
-  const Curves upright = curves("brain_cut_slow", "knife");
-  EXPECT_GT(curves("brain_cut_inclined_x", "knife").moment[0], 2 * upright.moment[0]);
-  EXPECT_GT(curves("brain_cut_inclined_y", "knife").moment[1], 2 * upright.moment[1]);
+  // Why 0.5 s: the upright blade goes down evenly until then. From 0.6 s on what it has torn leans on one of its sides, and its
+  // own moment doubles (6 to 13 mN m): the order of the breaks, which the README names as a limit.
+  constexpr double end = 0.5;
+  const Curves upright = curves("brain_cut_slow", "knife", end);
+  EXPECT_GT(curves("brain_cut_inclined_x", "knife", end).moment[0], 2 * upright.moment[0]);
+  EXPECT_GT(curves("brain_cut_inclined_y", "knife", end).moment[1], 2 * upright.moment[1]);
 }
 
 TEST_F(ToolScenes, ABrainIsCutRapidlyAndATooHardBlockBreaksTheKnife) {
