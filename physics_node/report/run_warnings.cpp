@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace palpate::physics {
@@ -13,6 +14,12 @@ struct Kind {
 };
 
 constexpr double most_balance_error = 0.01;
+constexpr double most_generated = 0.01;  // of what was exchanged. Why: the scenes that ship stay below half of it
+
+/// Energy that steps and contact have put in: booked, so that the balance does not tell. [J]
+double generated(const EnergyLedger& ledger) {
+  return std::max(0.0, -ledger.numerical) + std::max(0.0, -ledger.contact);
+}
 
 std::string remedy(const World& world) {
   const ContactSpec& contact = world.scene().contact;
@@ -46,6 +53,18 @@ const Kind kinds[] = {
        return fmt::format("the energy does not balance: {:.2g} J of {:.2g} J exchanged, {:.2g} %, came from nowhere or got lost; what "
                           "summary.json says under energy is off by that; set a smaller physics.step_ms",
                           std::abs(ledger.missing()), ledger.exchanged, 100 * ledger.balance_error());
+     }},
+    {[](const World& w) noexcept {
+       if (!w.is_watched()) return false;
+       const EnergyLedger ledger = w.watched_ledger();
+       return ledger.exchanged > EnergyLedger::negligible && generated(ledger) > most_generated * ledger.exchanged;
+     },
+     [](const World& w) {
+       const EnergyLedger ledger = w.watched_ledger();
+       return fmt::format("the steps have generated {:.2g} J and contact {:.2g} J, {:.2g} % of the {:.2g} J exchanged; set a smaller "
+                          "physics.step_ms",
+                          std::max(0.0, -ledger.numerical), std::max(0.0, -ledger.contact),
+                          100 * generated(ledger) / ledger.exchanged, ledger.exchanged);
      }},
     {[](const World& w) noexcept { return w.collisions() != nullptr && w.collisions()->tally().overflows > 0; },
      [](const World& w) {
