@@ -98,6 +98,7 @@ std::vector<std::size_t> World::make_tools() {
     const ToolSpec& spec = scene_.tools[n];
     if (spec.shape == ToolShape::point) {
       tools_.push_back(std::make_unique<ToolCoupling>(spec, n, touchable_));
+      for (auto& body : bodies_) body->prepare_books();
       continue;
     }
     if (spec.shape == ToolShape::stick) {
@@ -198,7 +199,7 @@ void World::move_bodies(double dt, bool watch) noexcept {
                          .threads = choice_.threads(),
                          .verlet = scene_.physics.integrator == Integrator::velocity_verlet,
                          .watch = watch,
-                         .exact = may_be_struck()};
+                         .exact = may_be_struck() || pressed_ || pressed_before_};
   const std::int64_t before = report_[Stage::element_forces].total_ns;
   {
     const StageTimer timer(report_, Stage::element_forces);
@@ -340,8 +341,13 @@ void World::take_tools(std::span<const std::optional<ToolState>> tools) noexcept
   }
 }
 
+bool World::is_pressed() const noexcept {
+  return std::any_of(tools_.begin(), tools_.end(), [](const auto& tool) { return !tool->forces().empty(); });
+}
+
 void World::find_contacts() noexcept {
   near_ = stick_near_ = false;
+  pressed_before_ = pressed_;
   if (tools_.empty() && !collisions_) {
     ++report_[Stage::find_contacts].skipped;
     return;
@@ -349,6 +355,7 @@ void World::find_contacts() noexcept {
   const StageTimer timer(report_, Stage::find_contacts);
   for (auto& tool : tools_) tool->find_contact(t_);
   for (const LedTool* tool : led_tools_) stick_near_ = stick_near_ || tool->is_near();
+  pressed_ = is_pressed();
   if (collisions_) near_ = collisions_->begin_frame(frame_dt_);
 }
 

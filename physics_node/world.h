@@ -87,8 +87,9 @@ class World {
   void find_contacts() noexcept;
   int substeps_of_frame() const noexcept;
   std::vector<std::size_t> make_tools();  // @return bodies whose impulses somebody feels
-  /// May a velocity jump in this frame? Then contact and the books want to know what it was.
+  /// May a velocity jump in this frame? Then contact wants to know what it was.
   bool may_be_struck() const noexcept { return near_ || stick_near_ || !planes_.empty(); }
+  bool is_pressed() const noexcept;  // by a tool that gives forces
   std::span<const NodalForce> gathered(std::size_t body) noexcept;  // forces of all tools on a body
   void guard() noexcept;
   void save_all(bool good) noexcept;
@@ -122,6 +123,7 @@ class World {
   TeamChoice choice_ = TeamChoice::always(1);
   bool any_yields_ = false;
   bool near_ = false;  // bodies or fragments may touch in this frame
+  bool pressed_ = false, pressed_before_ = false;  // by a tool, in this frame and in the one before
   int recoveries_ = 0;                   // since the step was last chosen
   bool sound_ = true;                    // no growth since the last save
   bool unusable_work_ = false;           // a tool's work was not finite since the guard last looked

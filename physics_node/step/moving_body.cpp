@@ -101,6 +101,9 @@ class LatticeBody final : public MovingBody {
   void prepare_contact() override {
     for (auto& axis : v_before_)
       if (axis.size() == 0) axis = ZeroedArray<Real>(n_cells());
+    prepare_books();
+  }
+  void prepare_books() override {
     if (implicit_ || !has_losses(body_)) return;
     for (auto& axis : state_.v_seen)
       if (axis.size() == 0) axis = ZeroedArray<Real>(n_cells());

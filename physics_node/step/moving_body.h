@@ -83,7 +83,9 @@ class MovingBody {
   virtual double power(std::span<const NodalForce> forces) const noexcept = 0;
   /// Adds forces that act during the step just integrated. Held masses ignore them; sleeping rows wake.
   virtual void kick(std::span<const NodalForce> forces, double dt) noexcept = 0;
-  /// Makes room for remember_velocities(); once, while loading.
+  /// Makes room for ExplicitStep::exact; once, while loading.
+  virtual void prepare_books() = 0;
+  /// Makes room for remember_velocities() and the exact books; once, while loading.
   virtual void prepare_contact() = 0;
   /// Before a step in which something may touch: so that contact knows the velocities at its beginning. See read().
   virtual void remember_velocities() noexcept = 0;

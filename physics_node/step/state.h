@@ -35,7 +35,7 @@ struct LatticeState {
   Three<Real> f;            // force gathered so far; zero between steps [N]            (n_cells)
   Three<Real> v_half;       // velocity half a step ago; only for velocity_verlet       (n_cells)
   bool v_half_known = false;  // false: the next step of velocity_verlet is the first
-  Three<Real> v_seen;       // that dampers saw in the last step; only where something may touch (n_cells)
+  Three<Real> v_seen;       // that dampers saw in the last step; only where something may touch or press (n_cells)
   bool v_seen_known = false;
   double dt_before = 0;     // of the last explicit step; 0: there was none [s]
   ZeroedArray<Mask> mask;   // live elements                                            (n_cells)
