@@ -87,6 +87,14 @@ std::string stem_of(std::filesystem::path path) {
   return path.string();
 }
 
+/// Makes the folder that `path` lies in, where that is all that is missing: `data` of a fresh clone. A longer path that is not there
+/// is more likely a typing mistake, and whoever writes says so.
+void make_last_folder(const std::string& path) {
+  std::error_code ignored;
+  const auto folder = std::filesystem::path(path).parent_path();
+  if (!folder.empty()) std::filesystem::create_directory(folder, ignored);
+}
+
 /// @throws InputError if the name would lie about what is in the file, or cannot be written
 void check_output(const Command& command) {
   std::error_code ignored;
@@ -96,6 +104,7 @@ void check_output(const Command& command) {
   if (ending != ".h5" && ending != ".hdf5" && !std::filesystem::is_directory(command.out, ignored))
     throw InputError(fmt::format(
         "{}: a volume is an HDF5 file, and its name should say so; write --out {}.h5", command.out, stem_of(command.out)));
+  make_last_folder(command.out);
   check_can_write(command.out);
 }
 
@@ -110,6 +119,7 @@ void make_brain(const Command& command) {
   if (const auto path = std::filesystem::path(command.out); path.extension() == ".h5" || path.extension() == ".png")
     throw InputError(
         fmt::format("{}: slices are PNG files in a folder; write --out {}", command.out, stem_of(command.out)));
+  make_last_folder(command.out);
   write_brain_phantom(command.out);
   if (command.quiet) return;
   fmt::print(

@@ -158,7 +158,11 @@ class Session {
                              .mean_rate_Hz = entry.mean_rate_Hz(),
                              .mean_real_time_factor = entry.mean_real_time_factor()});
     const std::string name(name_of(node.node));
-    if (ending.clean() && (asked || running_since_ || result_.interrupted || window_closed())) return;
+    if (ending.clean() && (asked || running_since_ || result_.interrupted || window_closed())) {
+      if (!asked && !result_.interrupted && node.node != NodeKind::render)
+        say(fmt::format("{} was ended from outside, and the session with it", name));
+      return;
+    }
     // Why: a node that gets SIGTERM before it has installed its handler is ended by it, as asked.
     if (asked && ending.by_signal && ending.code == SIGTERM && !entry.newest) return;
     if (node.killed) {

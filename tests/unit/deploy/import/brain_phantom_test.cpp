@@ -129,7 +129,7 @@ TEST_F(BrainPhantom, RefusesWhatDoesNotFit) {
   const auto sized = run_importer({"--phantom", "brain", "--size", "9,9,9", "--out", brain()});
   EXPECT_EQ(sized.code, 2);
   EXPECT_THAT(sized.err, HasSubstr("leave out --size, --partition and --transfer"));
-  const auto nowhere = run_importer({"--phantom", "brain", "--out", *folder_ / "none/brain"});
+  const auto nowhere = run_importer({"--phantom", "brain", "--out", *folder_ / "none/none/brain"});
   EXPECT_EQ(nowhere.code, 2);
   EXPECT_THAT(nowhere.err, HasSubstr("is no folder and cannot be made; name a folder"));
   write_file(*folder_ / "file", "x");

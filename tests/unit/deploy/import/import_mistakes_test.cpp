@@ -298,7 +298,7 @@ TEST_P(ImportPlaces, ThatCannotBeUsedAreNamed) {
 
 INSTANTIATE_TEST_SUITE_P(All, ImportPlaces,
                          testing::Values(Place{"ImageIsMissing", "none.nii", "v.h5", "no such file"},
-                                         Place{"OutputFolderIsMissing", "a.nii", "none/v.h5", "no folder"},
+                                         Place{"OutputFoldersAreMissing", "a.nii", "none/none/v.h5", "no folder"},
                                          Place{"OutputIsAFolder", "a.nii", "", "is a folder"},
                                          Place{"OutputFolderIsAFile", "a.nii", "a.nii/v.h5", "no folder"},
                                          Place{"OutputIsUnwritable", "a.nii", "/proc/v.h5",
@@ -306,6 +306,13 @@ INSTANTIATE_TEST_SUITE_P(All, ImportPlaces,
                                          Place{"OutputIsTheImage", "a.nii", "a.nii", "the image itself"},
                                          Place{"ImageIsADevice", "/dev/null", "v.h5", "neither a file"}),
                          [](const auto& each) { return each.param.name; });
+
+TEST(ImportOutput, HasItsFolderMade) {
+  const ScratchFolder folder;
+  write_file(folder / "a.nii", nifti());
+  EXPECT_EQ(run_importer({folder / "a.nii", "--out", folder / "data/v.h5"}).code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "data/v.h5"));
+}
 
 TEST(ImportMistakes, NothingGivenIsAMistake) {
   const Outcome outcome = run_importer({});
