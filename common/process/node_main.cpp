@@ -54,10 +54,18 @@ void Newcomer::settle() {
 }
 
 /// Of two on one machine the one that was started first stays. Clocks of two machines are not compared: the newcomer goes.
+/// A supervisor sends nothing that counts, so that it may look in.
 std::vector<std::string> Newcomer::reasons_to_go() {
-  std::vector<std::string> lines = companions_.differences(false);
+  const auto came_later = [this](const Identity& other) {
+    return other.host == own_.host && started_before(own_.pid, other.pid);
+  };
+  std::vector<std::string> lines;
+  for (const Identity& other : companions_.present()) {
+    if (other.role == "supervisor" || came_later(other)) continue;
+    if (std::string line = difference(own_, other); !line.empty()) lines.push_back(std::move(line));
+  }
   for (const Identity& other : companions_.doubles()) {
-    if (other.host == own_.host && started_before(own_.pid, other.pid)) continue;
+    if (came_later(other)) continue;
     lines.push_back(fmt::format(
         "{} is in this session already, on {} (pid {}); end it first, or give this one another --domain",
         other.role, other.host, other.pid));

@@ -1,7 +1,12 @@
 #include "deploy/palpate/out_folder.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
+
+#include <cerrno>
+#include <utility>
 
 #include "common/error/error.h"
 #include "render_node/image/own_picture.h"
@@ -28,7 +33,19 @@ void refuse_link(const fs::path& folder) {
 
 fs::path default_out(const std::string& scene_path) { return fs::path("out") / fs::path(scene_path).stem(); }
 
-void prepare_out(const fs::path& out) {
+HeldFolder::HeldFolder(const fs::path& folder)
+    : descriptor_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  // Where a file system knows no locks, nobody is kept out.
+  if (descriptor_ < 0 || flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  close(descriptor_);
+  throw InputError(folder.string() + ": another palpate is writing to it; wait until it has ended, or give another folder with --out");
+}
+
+HeldFolder::~HeldFolder() {
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+HeldFolder prepare_out(const fs::path& out) {
   std::error_code error;
   for (const char* name : {"parts", "frames", "vtk"}) refuse_link(out / name);
   fs::create_directories(out / "parts", error);
@@ -36,10 +53,12 @@ void prepare_out(const fs::path& out) {
     throw InputError(fmt::format("{}: cannot be written to ({}); give another folder with --out",
                                  out.string(), error ? error.message() : "no right to write"));
   }
+  HeldFolder held(out);
   for (const char* name : {"summary.json", "force.png", "energy.png"}) fs::remove(out / name, error);
   for (const char* name : {"physics.json", "haptic.json", "render.json"})
     fs::remove(out / "parts" / name, error);
   remove_pictures(out / "frames");
+  return held;
 }
 
 }  // namespace palpate::deploy

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "common/error/error.h"
 #include "common/file/privacy.h"
@@ -64,7 +65,7 @@ class Rerun {
     replay_ = std::make_unique<physics::Replay>(record_, *world_);
     if (options.pictures) eye_ = std::make_unique<VirtualEye>(scene, *world_);
     if (options.out.empty()) return;
-    prepare_out(options.out);
+    held_.emplace(prepare_out(options.out));
     recorder_ = std::make_unique<physics::Recorder>(*world_, source, options.out,
                                                     physics::Recorder::WhenBehind::wait);
     if (eye_) eye_->leave_in(options.out);
@@ -128,6 +129,7 @@ class Rerun {
   }
 
   const ReplayOptions& options_;
+  std::optional<HeldFolder> held_;
   physics::SessionRecord record_;
   std::unique_ptr<physics::World> world_;
   std::unique_ptr<physics::Replay> replay_;

@@ -158,7 +158,7 @@ int run(const RunOptions& options) {
   resolve(reach);  // says what is wrong with it
   const bool alone = reach.local() && plan.elsewhere.empty();
   if (alone) require_free_ports(options.domain);
-  prepare_out(out);
+  const HeldFolder held = prepare_out(out);
   // Physics would take it for that of this session before it was started again.
   if (std::find(share.here.begin(), share.here.end(), NodeKind::physics) != share.here.end())
     fs::remove(out / "record.h5");

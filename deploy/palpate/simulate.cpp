@@ -40,7 +40,7 @@ int simulate(SimulateOptions options) {
       options.out.empty() ? default_out(options.scene) : std::filesystem::path(options.out);
   const double seconds = options.seconds > 0 ? options.seconds : scene.natural_seconds();
   VirtualSession session(scene, {options.device, !options.no_pictures});
-  prepare_out(out);
+  const HeldFolder held = prepare_out(out);
   install_stop_handlers();
   session.leave_in(out, source_of(scene, options.settings));
   const std::vector<std::string> known = session.remarks();

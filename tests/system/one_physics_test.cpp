@@ -34,6 +34,17 @@ TEST_F(OnePhysics, IsAllThatASessionTakes) {
   expect_no_kick();
 }
 
+/// Whoever comes later goes, though the hand is still looking round for a session it does not fit in.
+TEST_F(OnePhysics, OfAnotherSceneGoesAndTheHandStays) {
+  start_both();
+  ASSERT_TRUE(until([this] { return device->writes > 0; })) << log();
+  std::ofstream(folder / "scene.toml", std::ios::app) << "\n# another one\n";
+  for (const char* program : {PALPATE_PHYSICS, PALPATE_HAPTIC}) EXPECT_EQ(second(program), 2) << log();
+  EXPECT_TRUE(presses()) << log();
+  EXPECT_TRUE(lives(physics) && lives(haptic)) << log();
+  expect_no_kick();
+}
+
 /// Empty patches whose ticks lie far in the future, eleven a second and then a flood of them.
 TEST_F(OnePhysics, IsFeltWhateverAStrangerSays) {
   start_both();

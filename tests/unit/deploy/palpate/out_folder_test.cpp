@@ -17,7 +17,7 @@ TEST(OutFolder, IsNamedAfterTheScene) {
 TEST(OutFolder, IsMadeAndFreedOfAnEarlierSession) {
   const test::TemporaryFolder folder;
   const fs::path out = folder / "a/b";
-  prepare_out(out);
+  (void)prepare_out(out);
   EXPECT_TRUE(fs::is_directory(out / "parts"));
   fs::create_directories(out / "frames");
   for (const char* name : {"summary.json", "force.png", "parts/physics.json"})
@@ -28,7 +28,7 @@ TEST(OutFolder, IsMadeAndFreedOfAnEarlierSession) {
   folder.write("a/b/frames/0001.png", "mine");
   folder.write("a/b/notes.txt", "mine");
   folder.write("a/b/frames/notes.txt", "mine");
-  prepare_out(out);
+  (void)prepare_out(out);
   for (const char* name : {"summary.json", "force.png", "frames/frame_00001.png", "parts/physics.json"}) {
     EXPECT_FALSE(fs::exists(out / name)) << name;
   }
@@ -46,21 +46,34 @@ TEST(OutFolder, FollowsNoLinks) {
   for (const char* name : {"frames", "parts", "vtk"}) {
     fs::create_directories(out);
     fs::create_symlink(elsewhere, out / name);
-    EXPECT_THROW(prepare_out(out), InputError);
+    EXPECT_THROW((void)prepare_out(out), InputError);
     fs::remove(out / name);
   }
-  prepare_out(out);
+  (void)prepare_out(out);
   fs::create_symlink(elsewhere / "physics.json", out / "summary.json");
-  prepare_out(out);
+  (void)prepare_out(out);
   EXPECT_TRUE(fs::exists(elsewhere / "frame_00001.png"));
   EXPECT_TRUE(fs::exists(elsewhere / "physics.json"));
+}
+
+TEST(OutFolder, IsHeldByOne) {
+  const test::TemporaryFolder folder;
+  const fs::path out = folder / "out";
+  {
+    const HeldFolder held = prepare_out(out);
+    folder.write("out/summary.json", "of the first");
+    EXPECT_THROW((void)prepare_out(out), InputError);
+    EXPECT_TRUE(fs::exists(out / "summary.json")) << "who is refused removes nothing";
+  }
+  EXPECT_NO_THROW((void)prepare_out(out));
+  EXPECT_FALSE(fs::exists(out / "summary.json"));
 }
 
 TEST(OutFolder, CannotStandInAFile) {
   const test::TemporaryFolder folder;
   folder.write("file", "text");
-  EXPECT_THROW(prepare_out(folder / "file/out"), InputError);
-  EXPECT_THROW(prepare_out(folder / "file"), InputError);
+  EXPECT_THROW((void)prepare_out(folder / "file/out"), InputError);
+  EXPECT_THROW((void)prepare_out(folder / "file"), InputError);
 }
 
 }  // namespace
