@@ -24,6 +24,9 @@ std::vector<std::string> include_breaches(const SourceFile& file);  // direction
 std::vector<std::string> text_breaches(const SourceFile& file);     // sizes, words, paths, flags
 std::vector<std::string> data_breaches(const SourceFile& file);     // data and binaries
 
+/// The same of pages that list what stands in other files (docs/reference, docs/contributing.md), for the whole house.
+std::vector<std::string> page_breaches(const std::vector<SourceFile>& files);
+
 /// All of them, for all files.
 std::vector<std::string> house_breaches(const std::filesystem::path& root);
 

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "tests/house/house_rules.h"
+#include "tests/house/planted_house.h"
 
 namespace palpate::house {
 namespace {
@@ -27,40 +28,6 @@ TEST(House, KeepsItsRules) {
   ASSERT_GT(read_house(root).size(), 50u) << root << " is not the house";
   for (const auto& breach : house_breaches(root)) ADD_FAILURE() << breach;
 }
-
-/// A small house of its own, where breaches are planted.
-class PlantedHouse : public testing::Test {
- protected:
-  void SetUp() override {
-    fs::create_directories(root_);
-    plant("common/math/sum.h", "#pragma once\n#include <vector>\n#include \"common/math/units.h\"\n");
-    plant("physics_node/main.cpp", "#include \"common/math/sum.h\"\n#include \"physics_node/body/body.h\"\n");
-    ASSERT_THAT(house_breaches(root_), IsEmpty());
-  }
-  void TearDown() override { fs::remove_all(root_); }
-
-  void plant(const std::string& path, const std::string& text) {
-    fs::create_directories((root_ / path).parent_path());
-    std::ofstream(root_ / path, std::ios::binary) << text;
-  }
-  /// The breach that this file is, alone in the house.
-  std::string breach(const std::string& path, const std::string& text) {
-    plant(path, text);
-    const auto all = house_breaches(root_);
-    fs::remove(root_ / path);
-    EXPECT_EQ(all.size(), 1u) << path << ": " << text << testing::PrintToString(all);
-    return all.empty() ? "" : all[0];
-  }
-  bool is_fine(const std::string& path, const std::string& text) {
-    plant(path, text);
-    const auto all = house_breaches(root_);
-    fs::remove(root_ / path);
-    return all.empty();
-  }
-
- private:
-  fs::path root_ = fs::temp_directory_path() / ("palpate_house_" + std::to_string(getpid()));
-};
 
 TEST_F(PlantedHouse, RefusesIncludesAgainstTheDirection) {
   EXPECT_THAT(

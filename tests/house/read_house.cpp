@@ -53,11 +53,13 @@ std::vector<SourceFile> read_house(const fs::path& root) {
 
 std::vector<std::string> house_breaches(const fs::path& root) {
   std::vector<std::string> breaches;
-  for (const auto& file : read_house(root)) {
+  const auto files = read_house(root);
+  for (const auto& file : files) {
     append(breaches, include_breaches(file));
     append(breaches, text_breaches(file));
     append(breaches, data_breaches(file));
   }
+  append(breaches, page_breaches(files));
   return breaches;
 }
 

@@ -32,11 +32,19 @@ inline std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
-/// All sections of a page of the sources that have a table. @throws std::runtime_error if there is no such page
-inline std::vector<Section> reference_page(const std::string& path) {
+/// A file of the sources. @throws std::runtime_error if there is none
+inline std::string text_of_source(const std::string& path) {
   const char* root = std::getenv("PALPATE_SOURCE");
   std::ifstream file((root == nullptr ? std::string(".") : std::string(root)) + "/" + path);
-  if (!file) throw std::runtime_error("no page " + path);
+  if (!file) throw std::runtime_error("no file " + path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// All sections of a page of the sources that have a table. @throws std::runtime_error if there is no such page
+inline std::vector<Section> reference_page(const std::string& path) {
+  std::istringstream file(text_of_source(path));
   std::vector<Section> sections;
   std::string heading;
   std::vector<std::string> columns;
@@ -57,6 +65,16 @@ inline std::vector<Section> reference_page(const std::string& path) {
     }
   }
   return sections;
+}
+
+/// All headings of a page, those without a table too.
+inline std::vector<std::string> reference_headings(const std::string& path) {
+  std::istringstream lines(text_of_source(path));
+  std::vector<std::string> headings;
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("#"))
+      headings.push_back(without_backticks(line.substr(line.find_first_not_of('#'))));
+  return headings;
 }
 
 /// The rows under a heading. @throws std::runtime_error if there are none

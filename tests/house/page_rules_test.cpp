@@ -1,0 +1,66 @@
+// Each rule about a reference page catches a page that says something else than the sources.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/house/planted_house.h"
+
+namespace palpate::house {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+TEST_F(PlantedHouse, RefusesTopicsThatAreNotThoseOfTheIdl) {
+  plant("idl/palpate.idl",
+        "@final @topic struct Tip {\n  uint32 version;\n  @key uint32 tool;\n  double p[3];\n};\n");
+  const std::string rows =
+      "## `Tip`\n\n| field | type | meaning |\n|---|---|---|\n| `version` | `uint32` | a |\n";
+  const std::string tool = "| `tool` | `uint32`, key | b |\n", p = "| `p` | `double[3]` | c |\n";
+  EXPECT_TRUE(is_fine("docs/reference/topics.md", rows + tool + p));
+  EXPECT_THAT(breach("docs/reference/topics.md", rows + tool), HasSubstr("lacks \"Tip.p double[3]\""));
+  EXPECT_THAT(breach("docs/reference/topics.md", rows + tool + p + "| `q` | `double` | d |\n"),
+              HasSubstr("\"Tip.q double\" is not in idl/palpate.idl"));
+}
+
+TEST_F(PlantedHouse, RefusesStagesThatAreNotThoseOfTheEnum) {
+  plant("physics_node/step/step_report.h",
+        "enum class Stage : std::size_t {\n  take,  // first\n  push,\n};\n");
+  const std::string head = "## Stages\n\n| stage | one call per |\n|---|---|\n",
+                    take = "| `take` | frame |\n", push = "| `push` | step |\n";
+  EXPECT_TRUE(is_fine("docs/reference/stages.md", head + take + push));
+  EXPECT_THAT(breach("docs/reference/stages.md", head + take), HasSubstr("lacks \"push\""));
+  EXPECT_THAT(breach("docs/reference/stages.md", head + push + take), HasSubstr("in another order"));
+}
+
+TEST_F(PlantedHouse, RefusesOptionsThatNoDriverAsksFor) {
+  plant("haptic_node/drivers/toy/toy_driver.cpp", "s.gain = options.positive(\"gain\", 1.0);\n");
+  const std::string head = "### Options of the drivers\n\n| driver | option |\n|---|---|\n";
+  EXPECT_TRUE(is_fine("docs/reference/scene.md", head + "| `toy` | `gain` |\n"));
+  EXPECT_THAT(breach("docs/reference/scene.md", head), HasSubstr("lacks \"toy gain\""));
+  EXPECT_THAT(breach("docs/reference/scene.md", head + "| `toy` | `gain` |\n| `toy` | `gian` |\n"),
+              HasSubstr("\"toy gian\" is not in haptic_node/drivers"));
+}
+
+TEST_F(PlantedHouse, RefusesSummaryKeysThatNobodyWrites) {
+  plant("render_node/render_loop.cpp",
+        "report = {{\"frames\", n}};\npart = {{\"render\", report}};\nreport[\"fps\"] = f;\n");
+  const std::string head = "## Pictures\n\n| key | unit |\n|---|---|\n", frames = "| `render.frames` | |\n";
+  EXPECT_TRUE(is_fine("docs/reference/summary.md", head + frames + "| `render.fps` | 1/s |\n"));
+  EXPECT_THAT(breach("docs/reference/summary.md", head + frames), HasSubstr("lacks \"fps\""));
+  EXPECT_THAT(breach("docs/reference/summary.md", head + frames + "| `render.fps` | |\n| `render.fsp` | |\n"),
+              HasSubstr("\"fsp\" is not in render_node/render_loop.cpp"));
+}
+
+TEST_F(PlantedHouse, RefusesListsThatNameNoFile) {
+  EXPECT_TRUE(is_fine("docs/contributing.md",
+                      "1. `common/math/sum.h`\n2. `physics_node/NAME.cpp`, `common/math/*.h`, `common/`\n"));
+  EXPECT_THAT(breach("docs/contributing.md", "\n1. `common/math/sums.h`: add it\n"),
+              StartsWith("docs/contributing.md:2: there is no common/math/sums.h"));
+  EXPECT_THAT(breach("docs/contributing.md", "`common/maths/NAME.h`\n"),
+              HasSubstr("there is no common/maths/NAME.h"));
+  EXPECT_THAT(breach("docs/contributing.md", "`common/math/su`\n"), HasSubstr("there is no common/math/su"));
+  EXPECT_THAT(breach("docs/contributing.md", "nothing\n"), HasSubstr("names no file"));
+}
+
+}  // namespace
+}  // namespace palpate::house
