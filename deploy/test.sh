@@ -1,5 +1,6 @@
 #!/bin/bash
-# Installs what is missing, builds, and runs the whole test suite. The last line is "N passed, N failed".
+# Installs what is missing, builds, and runs the whole test suite. The last line is "N passed, N failed, N skipped",
+# counted by test case; those that failed or were skipped are named.
 #   deploy/test.sh [--sanitizers]    after that, the unit and property tests once more with the address and
 #                                    undefined-behaviour sanitizers: a second build, as long as the first
 set -uo pipefail
@@ -16,11 +17,11 @@ done
 trap 'rm -f "$step_log"' EXIT
 jobs=$(nproc)
 export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
-passed=0 failed=0
+passed=0 failed=0 skipped=0
 
 finish() {
   echo "total: $((SECONDS - started)) s"
-  echo "$passed passed, $failed failed"
+  echo "$passed passed, $failed failed, $skipped skipped"
   [ "$failed" -eq 0 ] && [ "$passed" -gt 0 ]
   exit
 }
@@ -28,16 +29,18 @@ finish() {
 # A set-up or build that fails counts as one failed test: the suite behind it did not run.
 must() { "$@" || { failed=$((failed + 1)); finish; }; }
 
-# Runs ctest and adds up its summary: "98% tests passed, 1 tests failed out of 42".
+# A step that runs ctest with this preset and more options; adds up the cases of all its test programs.
 count_tests() {
-  local name=$1 summary code=0
-  shift
-  step_lines=2000 step "$name" "$@" || code=$?
-  summary=$(grep -E 'tests passed, [0-9]+ tests failed out of [0-9]+' "$step_log" | tail -n 1)
-  if [[ $summary =~ ,\ ([0-9]+)\ tests\ failed\ out\ of\ ([0-9]+) ]]; then
-    failed=$((failed + BASH_REMATCH[1]))
-    passed=$((passed + BASH_REMATCH[2] - BASH_REMATCH[1]))
-    [ "$code" -eq 0 ] || [ "${BASH_REMATCH[1]}" -gt 0 ] || failed=$((failed + 1))
+  local name=$1 preset=$2 results=build/$2/test_results counted code=0 summary='([0-9]+) passed, ([0-9]+) failed, ([0-9]+) skipped$'
+  shift 2
+  rm -rf "$results" && mkdir -p "$results"
+  step_lines=2000 step "$name" ctest --preset "$preset" --output-junit "$PWD/$results/ctest.xml" "$@" || code=$?
+  counted=$(deploy/count_tests.py "$results/ctest.xml" "$results") || true
+  printf "%s\n" "${counted:-not counted}"
+  if [[ $counted =~ $summary ]]; then
+    passed=$((passed + BASH_REMATCH[1])) skipped=$((skipped + BASH_REMATCH[3]))
+    failed=$((failed + BASH_REMATCH[2]))
+    [ "$code" -eq 0 ] || [ "${BASH_REMATCH[2]}" -gt 0 ] || failed=$((failed + 1))
   else
     failed=$((failed + 1))
   fi
@@ -47,9 +50,9 @@ must deploy/install_packages.sh deploy/packages.txt deploy/packages-test.txt
 must step "head CT" deploy/fetch_head.sh
 must step "configure" cmake --preset ready
 must step "build" cmake --build --preset ready --parallel "$jobs"
-count_tests "tests" ctest --preset ready -j2
+count_tests "tests" ready -j2
 [ "$sanitizers" = yes ] || finish
 must step "configure with sanitizers" cmake --preset asan
 must step "build with sanitizers" cmake --build --preset asan --parallel "$jobs"
-count_tests "tests with sanitizers" ctest --preset asan -j2 -L '^(unit|property)$'
+count_tests "tests with sanitizers" asan -j2 -L '^(unit|property)$'
 finish
