@@ -49,6 +49,7 @@ CaseResult run_case(const Case& c, const std::function<void(Tissue&, double)>& m
     result.force_most = std::max(result.force_most, f);
     sum += f;
     ++n;
+    result.unready += c.mode == RenderMode::local && trial.controller().state() != haptic::HapticState::run;
   });
   result.swing = high.z() - low.z();
   result.sideways = (high - low).head<2>().maxCoeff();
@@ -122,6 +123,7 @@ Tally tally(const std::vector<CaseResult>& results) {
     all.above_200_um += swing > 200e-6;
     all.above_300_um += swing > 300e-6;
     all.energy_broken += !r.energy_kept();
+    all.unfelt += !r.felt();
     all.swing_most = std::max(all.swing_most, swing);
     all.surplus_most = std::max(all.surplus_most, r.surplus);
     all.plane_excess_most = std::max(all.plane_excess_most, r.plane_excess);
@@ -134,7 +136,7 @@ Tally tally(const std::vector<CaseResult>& results) {
 }
 
 bool keeps_S2(const Tally& t) noexcept {
-  return t.above_200_um == 0 && t.above_100_um * 100 <= t.cases && t.energy_broken == 0;
+  return t.above_200_um == 0 && t.above_100_um * 100 <= t.cases && t.energy_broken == 0 && t.unfelt == 0;
 }
 
 Case against_wall(Case c) noexcept {

@@ -22,6 +22,9 @@ struct CaseResult {
   double force_outside = 0;                // largest when the hand is 5 mm outside [N]
   double sideways = 0;                     // of the tip, the larger of x and y, then [m]
   double tissue_force = 0;                 // mean of what real tissue presses with then [N]
+  int unready = 0;                         // ticks then in which the controller was not in run
+  /// The hand felt what it pressed: a controller that never arms is still, quiet and passive as well.
+  bool felt() const noexcept { return unready == 0 && force > 0.1; }
   bool energy_kept() const noexcept { return surplus <= EnergyBook::G_allowed && plane_excess <= 1e-9; }
 };
 
@@ -59,13 +62,13 @@ struct Tally {
   int cases = 0;
   // along or sideways, whichever is more
   int above_100_um = 0, above_200_um = 0, above_300_um = 0;
-  int energy_broken = 0;
+  int energy_broken = 0, unfelt = 0;
   double swing_most = 0, surplus_most = 0, plane_excess_most = 0, force_step_most = 0, step_beyond_most = 0;
   double force_error_most = 0;  // of the 1 N, where there is no friction
 };
 Tally tally(const std::vector<CaseResult>& results);
 
-/// S2: none above 200 um, at most 1 % above 100 um, energy bounds in all.
+/// S2: none above 200 um, at most 1 % above 100 um, energy bounds and contact felt in all.
 bool keeps_S2(const Tally& tally) noexcept;
 
 /// Above 500 N/m two newton seconds per metre are needed.

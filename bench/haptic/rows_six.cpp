@@ -130,14 +130,15 @@ Row torque_is_bounded(const Runs& runs) {
       "wrenches of 1 to 3 contacts or surfaces, which jump, under a hand that moves 4 mm and turns 5 deg; "
       "attitudes "
       "that are none",
-      "torque and force limited by norm, direction kept within 0.1 deg; G <= 0.1 mJ; bound on the work of "
+      "torque reaches its limit; torque and force limited by norm, direction kept within 0.1 deg; G <= 0.1 mJ; bound on the work of "
       "springs kept; bad attitudes rejected, 3 a fault",
       fmt::format("{} hands of 10 s: torque {:.4f} of {} N m, force {:.2f} of {} N, direction {:.1e} "
                   "deg; G {:.3f} mJ, work {:+.3f} mJ of its bound; {}",
                   cases, tally.torque_most, torque_limit, tally.force_most, force_limit,
                   tally.off_direction * 180 / M_PI, 1e3 * tally.surplus, 1e3 * tally.excess,
                   tally.bad_rejected && tally.faulted ? "rejected, fault" : "let in"),
-      tally.torque_most <= torque_limit * (1 + 1e-9) && tally.force_most <= force_limit * (1 + 1e-9) &&
+      tally.torque_most > 0.99 * torque_limit && tally.force_most > 0.5 &&
+          tally.torque_most <= torque_limit * (1 + 1e-9) && tally.force_most <= force_limit * (1 + 1e-9) &&
           tally.off_direction <= 0.1 * M_PI / 180 && tally.surplus <= EnergyBook::G_allowed &&
           tally.excess <= 1e-9 && tally.bad_rejected && tally.faulted};
 }

@@ -39,13 +39,14 @@ Row world_raw_is_unstable(Runs& runs) {
 
 /// Against the same press at 1 kHz without delay; and that against the spring of the hand, which must hold it.
 Row world_force_is_true(Runs& runs) {
-  double worst = 0, at_rest = 0;
+  double worst = 0, at_rest = 0, least = 1e9;
   int cases = 0;
   for (const SlabModel& slab : slab_models) {
     Case c = case_of(slab);
     c.device = device_models[3];
     c.rate_Hz = 1000;
     const CaseResult reference = run_case(c);
+    least = std::min(least, reference.force);
     at_rest = std::max(at_rest, std::abs(reference.force_most / reference.force_least - 1));
     for (const double rate :
          runs.effort == Effort::full ? std::vector<double>{20, 60, 150} : std::vector<double>{60})
@@ -58,9 +59,9 @@ Row world_force_is_true(Runs& runs) {
   }
   return {"S4", "real tissue: the force held at other rates and delays against 1 kHz without delay",
           "within 2 %",
-          fmt::format("{} cases: off by {:.2f} %; at 1 kHz it holds still within {:.2f} %", cases,
-                      100 * worst, 100 * at_rest),
-          worst <= 0.02 && at_rest <= 0.02};
+          fmt::format("{} cases: off by {:.2f} %; at 1 kHz it holds still within {:.2f} %, {:.2f} N at least",
+                      cases, 100 * worst, 100 * at_rest, least),
+          worst <= 0.02 && at_rest <= 0.02 && least > 0.5};
 }
 
 Row world_silence_fades() {

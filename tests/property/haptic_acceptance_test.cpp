@@ -80,6 +80,7 @@ TEST(HapticLoop, GivesTheSameBitsForTheSameCase) {
   c.link.loss = 0.1;
   c.link.jitter = 5e-3;
   const CaseResult a = run_case(c), b = run_case(c);
+  EXPECT_TRUE(a.felt());
   EXPECT_EQ(a.force, b.force);
   EXPECT_EQ(a.swing, b.swing);
   EXPECT_EQ(a.surplus, b.surplus);
