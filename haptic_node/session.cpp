@@ -270,7 +270,7 @@ void HapticSession::tick(const ContactPatch* newest, const ToolWrench* wrench) n
 
 void HapticSession::begin_close() noexcept {
   if (!device_.is_open()) return;
-  stopped_by_us_.store(true);
+  stop_motors();
   device_.begin_close(state() != HapticState::fault);
   controller_.set_state(HapticState::off);
 }

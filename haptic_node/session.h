@@ -83,6 +83,9 @@ class HapticSession {
     if (!lost_.load()) device_.stop();
   }
 
+  /// Whether they are known to be off; the slow thread that owns this session.
+  bool motors_off() const noexcept { return device_.motors_off(); }
+
   /// The process dies: motors off, from a signal handler on any thread. @return whether they are known to be off
   bool emergency_stop(std::uint32_t within_us) noexcept {
     return lost_.load() || device_.emergency_stop(within_us);

@@ -65,10 +65,11 @@ std::string warning_text(const NodeStatus& status) {
   if (status.warnings == 0) return {};
   std::string words;
   if (status.node == NodeKind::haptic) {
-    for (const auto& part : {times(status.stale_events, "physics was silent for the hand"),
-                             times(status.safe_events, "the hand was made safe"),
-                             times(status.warnings - std::min(status.warnings, status.stale_events + status.safe_events),
-                                   "the hand's loop stood still")})
+    for (const auto& part :
+         {times(status.stale_events, "physics was silent for the hand"),
+          times(status.safe_events, "no force was sent to the hand"),
+          times(status.warnings - std::min(status.warnings, status.stale_events + status.safe_events),
+                "the hand's loop stood still")})
       if (!part.empty()) words += (words.empty() ? "" : ", ") + part;
   } else {
     words = status.note.data();

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <thread>
 
 #include "common/error/error.h"
 
@@ -79,12 +80,26 @@ void Device::stop() noexcept {
   if (handle_ != nullptr) api_->stop(handle_);
 }
 
+bool Device::motors_off() const noexcept {
+  if (handle_ != nullptr) return api_->motors_off == nullptr || api_->motors_off(handle_) == HDEV_OK;
+  return off_before_closing_ || !closing_ || closing_->wait_until(std::chrono::steady_clock::now());
+}
+
 bool Device::emergency_stop(std::uint32_t within_us) noexcept {
   if (handle_ == nullptr) return true;
   if (api_->emergency_stop != nullptr) return api_->emergency_stop(handle_, within_us) == HDEV_OK;
   const bool good = api_->stop(handle_) == HDEV_OK;
   nanosleep(&grace, nullptr);
   return good;
+}
+
+/// Before the handle is the closing thread's, and nobody may ask any more.
+bool Device::becomes_off() const noexcept {
+  if (api_->motors_off == nullptr) return true;
+  const auto end = std::chrono::steady_clock::now() + off_within;
+  while (!motors_off() && std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  return motors_off();
 }
 
 /// What a driver says may have several lines, and come from anywhere.
@@ -100,6 +115,7 @@ std::string Device::last_words() const {
 
 void Device::begin_close(bool answers) noexcept {
   if (handle_ == nullptr || closing_) return;
+  off_before_closing_ = becomes_off();
   const bool forces = answers && can(HDEV_CAP_FORCE);
   closing_.emplace([api = api_, host = host_, handle = handle_, forces] {
     if (forces) {
@@ -119,8 +135,8 @@ bool Device::close() noexcept {
   if (!closing_ || closing_->wait_until(close_by_)) return true;
   if (!told_) {
     const std::string line = fmt::format(
-        "the driver \"{}\" does not come back from closing its device within {} ms; it is left behind", name_,
-        close_within.count());
+        "the driver \"{}\" does not come back from closing its device within {} ms; it is left behind{}",
+        name_, close_within.count(), off_before_closing_ ? "" : std::string(": ") + motors_may_be_on);
     log_line(nullptr, 2, line.c_str());
   }
   told_ = true;

@@ -18,6 +18,10 @@ namespace palpate::haptic {
 /// The time, real or simulated, as drivers and the controller see it [ns].
 using ClockFunction = std::int64_t (*)(void* user);
 
+/// For a person at a device whose driver could not stop it.
+inline constexpr const char* motors_may_be_on =
+    "ITS MOTORS MAY STILL BE ON: let go, press its emergency stop or pull its plug";
+
 /// How another process finds a device: its driver, and what open() was told.
 struct RescueWords {
   std::string driver;  // name
@@ -34,6 +38,10 @@ class Device {
   /// For a driver to close its device. Why: what a person asked to end is gone within a second, and a vendor's library may
   /// block for ever; those that work take some 10 ms.
   static constexpr std::chrono::milliseconds close_within{500};
+
+  /// For motors to be off after stop(), before a person is told that they may be on. Why: drivers take 15 ms where one call of a
+  /// vendor's library hangs, and a busy machine as much again.
+  static constexpr std::chrono::milliseconds off_within{50};
 
   /// Opens and calibrates; forces stay off.
   /// @param options  keys and values for the driver; "id" picks the device instead of the first one
@@ -58,6 +66,8 @@ class Device {
 
   /// Motors off now; any thread.
   void stop() noexcept;
+  /// Whether they are known to be off; the thread that owns this. Once it is being closed: what was known then, until it is.
+  bool motors_off() const noexcept;
 
   /// The process dies: motors off, from a signal handler on any thread (see haptic_device.h). @return whether they are
   /// known to be off; of a driver without that function, its own word
@@ -69,7 +79,7 @@ class Device {
   /// The driver's own words about its trouble; "" if it has none. Slow threads only; one line.
   std::string last_words() const;
 
-  /// Motors off, device released: by a thread of its own, which begins at once.
+  /// After stop(), which comes at once where what follows may hang. Motors off, device released: by a thread of its own, which begins at once.
   /// @param answers  the device still answers, and is written no force first
   void begin_close(bool answers) noexcept;
   /// Begins if need be, waits until close_within is over. Safe to repeat.
@@ -78,6 +88,8 @@ class Device {
   bool is_open() const noexcept { return handle_ != nullptr; }
 
  private:
+  bool becomes_off() const noexcept;
+
   const hdev_api* api_;
   std::string name_;                 // of the driver
   std::shared_ptr<hdev_host> host_;  // lent to the driver until it has closed, however long that takes
@@ -86,6 +98,7 @@ class Device {
   RescueWords words_;
   std::optional<BoundedCall> closing_;
   std::chrono::steady_clock::time_point close_by_;
+  bool off_before_closing_ = true;
   bool told_ = false;
 };
 

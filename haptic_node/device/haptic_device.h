@@ -22,7 +22,7 @@ extern "C" {
 #endif
 
 #define HDEV_ABI_MAJOR 1u
-#define HDEV_ABI_MINOR 1u
+#define HDEV_ABI_MINOR 2u
 #define HDEV_ENTRY_SYMBOL "hdev_plugin_query"
 
 /* What a call answers. Zero is good. */
@@ -191,6 +191,12 @@ typedef struct hdev_api {
      a while to take a device from the dead; last_error(NULL) says why. With HDEV_CAP_SHARED also while that process lives,
      but is stopped. Null: nothing can be done from outside. */
   hdev_status (*rescue)(const hdev_host* host, const char* id, const char* const* kv, uint32_t n_kv);
+
+  /* Since minor version 2; may be null. */
+
+  /* HDEV_OK: the motors are known to be off; HDEV_E_AGAIN: they are on, or nobody knows. From any thread, at once. Asked
+     after stop(), until it is so; a person is told if it does not come. Null: stop() cannot fail. */
+  hdev_status (*motors_off)(hdev* device);
 } hdev_api;
 
 /* The one exported symbol. Null if the driver cannot serve that host. */

@@ -71,8 +71,8 @@ void stop_all(int signal, int code) noexcept {
   const bool all = stop_devices();
   if (signal != 0)
     say(all && !again ? "[haptic] a signal ends this process; the motors of all tools are off\n"
-                      : "[haptic] a signal ends this process; not all drivers have confirmed that the motors "
-                        "are off\n");
+                      : "[haptic] a signal ends this process; MOTORS MAY STILL BE ON: not all drivers have "
+                        "confirmed that they are off; let go, press the emergency stop or pull the plug\n");
   finished.store(true);
   limit->done();
 }

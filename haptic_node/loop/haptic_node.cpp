@@ -101,7 +101,8 @@ void HapticNode::serve() {
     const CallWatch::Call call(*calls_, channels_[i]->name + ": switching its motors");
     if (HapticSession* session = channels_[i]->session.get(); session != nullptr && !CrashStop::ending())
       tools_[i].look_at_power(session->service());
-    resets_[i].step(tools_[i].report().state, tools_[i].report().cause);
+    const FaultCause said = tools_[i].said_fault() ? tools_[i].report().cause : FaultCause::none;
+    resets_[i].step(tools_[i].report().state, said);
   }
 }
 
@@ -237,15 +238,19 @@ bool HapticNode::close_devices() {
       if (!resets_[i].hangs()) guardian_->off(i);
       continue;
     }
+    const HapticSession* session = channels_[i]->session.get();
     sessions[i] = channels_[i]->session.take_back();
     if (sessions[i] != nullptr) {
-      sessions[i]->begin_close();
+      sessions[i]->stop_motors();
     } else {
-      log_error("{}: its driver does not come back from a tick; the device is left as it is",
-                channels_[i]->name);
+      log_error("{}: its driver does not come back from a tick; the device is left as it is{}",
+                channels_[i]->name,
+                session == nullptr || session->motors_off() ? "" : std::string(": ") + motors_may_be_on);
       closed = false;
     }
   }
+  for (const auto& session : sessions)
+    if (session != nullptr) session->begin_close();
   for (std::size_t i = 0; i < sessions.size(); ++i) {
     if (sessions[i] == nullptr) continue;
     const bool off = sessions[i]->close();

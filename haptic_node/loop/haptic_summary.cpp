@@ -69,7 +69,8 @@ nlohmann::json haptic_summary(const LoopStats& stats, const std::vector<SessionR
                                       {"t_s", fault.t},
                                       {"cause", name_of(fault.cause)},
                                       {"text", text_of(fault.cause)},
-                                      {"driver", fault.words}});
+                                      {"driver", fault.words},
+                                      {"motors_off", !fault.may_force}});
   if (seconds > 0) haptic["rate_Hz"] = static_cast<double>(stats.ticks) / seconds;
   if (stats.period.total() > 0) haptic["period_us"] = percentiles(stats.period);
   if (stats.compute.total() > 0) haptic["compute_us"] = percentiles(stats.compute);

@@ -11,12 +11,38 @@ double percent(double share) { return 100.0 * share; }
 
 }  // namespace
 
-void ToolWatch::say_fault(FaultCause cause, double t, const std::string& words) {
-  const std::string said = words.empty() ? std::string() : fmt::format(" ({})", words);
-  said_.error(
-      fmt::format("{}: fault: {}{}; forces are off; {}, then `palpate reset {}` opens it anew",
-                  channel_.name, text_of(cause), said, advice_of(cause), channel_.name));
-  if (records_.size() < most_records) records_.push_back({channel_.name, t, cause, words});
+/// What is known of the motors is said with it: the driver has a moment to switch them off.
+void ToolWatch::begin_fault(FaultCause cause, double t, const std::string& words) {
+  open_fault_ = FaultRecord{channel_.name, t, cause, words};
+  fault_since_ = Clock::now();
+  look_at_motors();
+}
+
+/// Nobody knows it of a session that is not here.
+bool ToolWatch::motors_off() const {
+  const HapticSession* session = channel_.session.get();
+  return session != nullptr && session->motors_off();
+}
+
+void ToolWatch::look_at_motors() {
+  if (open_fault_) {
+    const bool off = motors_off();
+    if (off || Clock::now() - fault_since_ > Device::off_within) say_fault(off);
+  } else if (fault_.may_force && motors_off()) {
+    fault_.may_force = false;
+    said_.warn(fmt::format("{}: its motors are off now", channel_.name));
+  }
+}
+
+void ToolWatch::say_fault(bool off) {
+  fault_ = *open_fault_;
+  fault_.may_force = !off;
+  open_fault_.reset();
+  const std::string said = fault_.words.empty() ? std::string() : fmt::format(" ({})", fault_.words);
+  said_.error(fmt::format("{}: fault: {}{}; {}; {}, then `palpate reset {}` opens it anew", channel_.name,
+                          text_of(fault_.cause), said, off ? "forces are off" : motors_may_be_on,
+                          advice_of(fault_.cause), channel_.name));
+  if (records_.size() < most_records) records_.push_back(fault_);
 }
 
 /// Once each: warm motors stay warm for minutes.
@@ -64,6 +90,7 @@ void ToolWatch::look_at_power(hdev_status answer) {
 }
 
 void ToolWatch::look(double t) {
+  look_at_motors();
   const SessionReport* newest = channel_.reports.newest();
   if (newest == nullptr) return;
   const bool fault = newest->state == HapticState::fault && report_.state != HapticState::fault;
@@ -78,7 +105,7 @@ void ToolWatch::look(double t) {
         channel_.name, 1e3 * report_.counts.longest_call));
   }
   if (fault && !stuck_) {
-    say_fault(report_.cause, t, words());
+    begin_fault(report_.cause, t, words());
   } else if (report_.state != HapticState::fault) {
     say_heat();
     say_silence();
@@ -88,7 +115,7 @@ void ToolWatch::look(double t) {
 void ToolWatch::look_at_call(std::int64_t ns, double t) {
   if (ns > stuck_ns && !stuck_) {
     stuck_ = true;
-    say_fault(FaultCause::blocked, t, fmt::format("no answer for {:.1f} s", seconds_from_ns(ns)));
+    begin_fault(FaultCause::blocked, t, fmt::format("no answer for {:.1f} s", seconds_from_ns(ns)));
   }
   if (ns == 0 && report_.state != HapticState::fault) stuck_ = false;
 }
@@ -106,6 +133,8 @@ std::string ToolWatch::note(bool opening) const {
   if (opening) return name + ": opening";
   if (failed()) {
     const FaultCause cause = stuck_ ? FaultCause::blocked : report_.cause;
+    if (!open_fault_ && fault_.may_force)
+      return fmt::format("{}: {} ({})", name, motors_may_be_on, text_of(cause));
     return fmt::format("{}: fault: {}; {}, palpate reset {}", name, text_of(cause), advice_of(cause), name);
   }
   std::string note = fmt::format("{}: {}", name, name_of(report_.state));

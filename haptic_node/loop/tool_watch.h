@@ -2,7 +2,9 @@
 // What the slow thread makes of the reports of one tool: each new trouble in one line with its cause, once; what the status
 // says of the tool now; and what the summary keeps.
 
+#include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,7 @@ struct FaultRecord {
   double t = 0;  // since the loop began [s]
   FaultCause cause = FaultCause::none;
   std::string words;  // of the driver; empty: it says nothing
+  bool may_force = false;  // its motors could not be shown to be off
 };
 
 class ToolWatch {
@@ -42,6 +45,8 @@ class ToolWatch {
 
   const SessionReport& report() const noexcept { return report_; }
   bool stuck() const noexcept { return stuck_; }
+  /// The fault that there is has been said, with what is known of the motors.
+  bool said_fault() const noexcept { return failed() && !open_fault_; }
   bool failed() const noexcept { return stuck_ || report_.state == HapticState::fault; }
   const std::vector<FaultRecord>& records() const noexcept { return records_; }
 
@@ -49,7 +54,11 @@ class ToolWatch {
   std::string note(bool opening) const;
 
  private:
-  void say_fault(FaultCause cause, double t, const std::string& words);
+  using Clock = std::chrono::steady_clock;
+  void begin_fault(FaultCause cause, double t, const std::string& words);
+  void look_at_motors();
+  void say_fault(bool off);
+  bool motors_off() const;
   void say_heat();
   void say_silence();
   std::string words() const;
@@ -59,6 +68,9 @@ class ToolWatch {
   Said& said_;
   SessionReport report_;
   bool stuck_ = false;
+  std::optional<FaultRecord> open_fault_;  // not said yet: its motors are being switched off
+  FaultRecord fault_;                      // the newest one
+  Clock::time_point fault_since_;
   bool said_late_ = false, said_warm_ = false, said_hot_ = false;
   bool silent_ = false, power_refused_ = false;
   std::string silence_words_;

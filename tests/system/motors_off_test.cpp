@@ -30,7 +30,7 @@ constexpr std::array ignored_signals = {SIGPIPE, SIGXFSZ, SIGTSTP, SIGTTIN, SIGT
 class MotorsOff : public StrangerSession {
  protected:
   /// Strikes until the machine has been on time, so that a limit means the program.
-  Outcome struck_on_time(const std::function<void()>& blow) {
+  Outcome struck_on_time(const std::function<void()>& blow, double within_ms = limit_ms) {
     Outcome outcome;
     for (int attempt = 0; attempt < 6; ++attempt) {
       if (!presses()) {
@@ -38,7 +38,7 @@ class MotorsOff : public StrangerSession {
         return outcome;
       }
       outcome = strike(blow);
-      if (outcome.off_ms >= 0 && (outcome.off_ms <= limit_ms || outcome.late_ms < 3)) break;
+      if (outcome.off_ms >= 0 && (outcome.off_ms <= within_ms || outcome.late_ms < 3)) break;
     }
     return outcome;
   }
@@ -65,11 +65,11 @@ class MotorsOff : public StrangerSession {
     EXPECT_EQ(breaches(), "");
   }
 
-  void check(const Outcome& outcome, const std::string& what) {
+  void check(const Outcome& outcome, const std::string& what, double within_ms = limit_ms) {
     std::printf("  %-22s off after %6.2f ms, gone after %6.1f ms (machine late by %.1f ms)\n", what.c_str(),
                 outcome.off_ms, outcome.gone_ms, outcome.late_ms);
     EXPECT_GE(outcome.off_ms, 0) << what << ": the motors stay on\n" << log();
-    EXPECT_LE(outcome.off_ms, limit_ms) << what;
+    EXPECT_LE(outcome.off_ms, within_ms) << what;
     EXPECT_TRUE(outcome.stayed_off) << what;
   }
 
@@ -97,6 +97,52 @@ class MotorsOff : public StrangerSession {
     true_crash(StrangerBus::own_arithmetic, SIGFPE, "division by zero");
     true_crash(StrangerBus::own_instruction, SIGILL, "illegal instruction");
     true_crash(StrangerBus::own_bus, SIGBUS, "page of no file");
+  }
+
+  /// A call that hangs before the end comes: the motors are off by the library's own switch, whatever else does not work.
+  void hangs_before(StrangerBus::Trouble trouble, int signal, const std::string& what) {
+    constexpr double before_ms = 10;
+    const Outcome outcome = struck_on_time(
+        [&] {
+          bus->trouble.store(trouble);
+          std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(before_ms));
+          kill(haptic, signal);
+        },
+        before_ms + limit_ms);
+    if (HasFailure()) return;
+    check(outcome, what, before_ms + limit_ms);
+  }
+  /// And where nobody ends anything: off within 30 ms of the fault, and only said to be where that is known.
+  void hangs_alone(StrangerBus::Trouble trouble, double fault_ms, const std::string& what,
+                   bool known = true) {
+    static const std::string off = "; forces are off; ", perhaps_on = "; ITS MOTORS MAY STILL BE ON";
+    bool said = false;
+    const Outcome outcome = struck_on_time(
+        [&] {
+          bus->trouble.store(trouble);
+          said = until([&] { return log().find(known ? off : perhaps_on) != std::string::npos; });
+          EXPECT_EQ(bus->felt(), 0) << log();
+          kill(haptic, SIGTERM);
+        },
+        fault_ms + limit_ms);
+    EXPECT_TRUE(said) << log();
+    EXPECT_EQ(log().find(known ? perhaps_on : off), std::string::npos) << log();
+    if (!HasFailure()) check(outcome, what, fault_ms + limit_ms);
+  }
+  void nothing_works(double wait_s) {
+    ASSERT_TRUE(presses()) << log();
+    bool said = false;
+    const Outcome outcome = strike(
+        [&] {
+          bus->trouble.store(StrangerBus::all_hang);
+          said = until([this] { return log().find("MOTORS MAY STILL BE ON") != std::string::npos; });
+          EXPECT_GT(bus->felt(), 0.1);
+          kill(haptic, SIGTERM);
+        },
+        wait_s);
+    EXPECT_TRUE(said) << log();
+    EXPECT_EQ(log().find("forces are off"), std::string::npos) << log();
+    EXPECT_GE(outcome.off_ms, 0) << "by the guardian\n" << log();
   }
 
   /// Past every handler: the guardian's turn. No limit but its own patience: it has to open the device first.
@@ -128,6 +174,25 @@ TEST_F(OpenHaptics, EveryTrueCrash) {
 }
 TEST_F(OpenHaptics, Killed) { killed(); }
 
+TEST_F(OpenHaptics, AFrameThatHangsLeavesTheMotorsOff) {
+  using Bus = StrangerBus;
+  for (const int signal : {SIGTERM, SIGSEGV, SIGABRT}) {
+    const std::string then = ", then signal " + std::to_string(signal);
+    hangs_before(Bus::begin_hangs, signal, "hdBeginFrame" + then);
+    hangs_before(Bus::end_hangs, signal, "hdEndFrame" + then);
+    hangs_before(Bus::end_and_disable_hang, signal, "hdDisable, too" + then);
+  }
+  hangs_alone(Bus::begin_hangs, 100, "hdBeginFrame");
+  EXPECT_EQ(breaches(), "");
+}
+TEST_F(OpenHaptics, AFrameThatHangsIsAFaultWithTheMotorsOff) {
+  hangs_alone(StrangerBus::end_hangs, 100, "hdEndFrame");
+}
+TEST_F(OpenHaptics, ADisableThatHangsIsAFaultThatPromisesNothing) {
+  hangs_alone(StrangerBus::end_and_disable_hang, 100, "hdDisable, too", false);
+}
+TEST_F(OpenHaptics, AFaultWithMotorsThatMayBeOnSaysSo) { nothing_works(3); }
+
 class ForceDimension : public MotorsOff {
   std::string device() const override {
     return "driver = \"forcedimension\"\nlibrary = \"" STRANGER_DHD "\"\n";
@@ -136,6 +201,14 @@ class ForceDimension : public MotorsOff {
 TEST_F(ForceDimension, EverySignal) { every_signal(); }
 TEST_F(ForceDimension, EveryTrueCrash) { every_true_crash(); }
 TEST_F(ForceDimension, Killed) { killed(); }
+
+TEST_F(ForceDimension, AForceThatHangsLeavesTheMotorsOff) {
+  for (const int signal : {SIGTERM, SIGSEGV}) {
+    const std::string then = ", then signal " + std::to_string(signal);
+    hangs_before(StrangerBus::end_hangs, signal, "dhdSetForceAndTorque" + then);
+    hangs_before(StrangerBus::end_and_disable_hang, signal, "dhdEnableForce, too" + then);
+  }
+}
 
 /// libdhd crashes in the hand's own thread with its lock held: nobody in that process can reach the device any more.
 TEST_F(ForceDimension, CrashInTheVendorsLibrary) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -49,21 +48,18 @@ DhdDevice::DhdDevice(const hdev_host& host, const Dhd& dhd, const std::string& i
   dhd_.enable_force(DHD_OFF, id_);
   dhd_.set_max_force(model_.max_force, id_);
   if (dhd_.set_gravity_compensation(DHD_ON, id_) >= 0) info_.caps |= HDEV_CAP_GRAVITY_COMP;
-  sem_init(&wake_, 0, 0);
-  stopper_ = std::thread([this] { keep_ready_to_stop(); });
+  stopper_ = kit::without_signals([this] { keep_ready_to_stop(); });
+  braker_ = kit::without_signals([this] { keep_ready_to_brake(); });
 }
 
-/// No force, motors off, device released.
+/// Motors off, no force, device released.
 DhdDevice::~DhdDevice() {
   leaving_.store(true);
-  sem_post(&wake_);
+  wake_.ring();
+  wake_braker_.ring();
   stopper_.join();
-  sem_destroy(&wake_);
-  if (!lost_.load()) {
-    dhd_.set_effort(0, 0, 0, 0, 0, 0, id_);
-    dhd_.enable_force(DHD_OFF, id_);
-    dhd_.stop(id_);
-  }
+  braker_.join();
+  if (!lost_.load()) switch_off();
   dhd_.close(id_);
 }
 
@@ -129,11 +125,17 @@ void DhdDevice::power(bool on) {
     throw kit::Trouble(HDEV_E_NOTCAL, "forces stay off until the device is calibrated");
   powered_.store(false);
   if (doomed_.load()) return;
-  off_.store(false);
-  if (dhd_.set_effort(0, 0, 0, 0, 0, 0, id_) < 0 || dhd_.enable_force(on ? DHD_ON : DHD_OFF, id_) < 0)
+  const auto refuse = [this] {
     throw kit::Trouble(HDEV_E_COMM, fmt::format("forces do not switch: {}", dhd_.get_last_error()));
-  powered_.store(on);
-  off_.store(!on);
+  };
+  if (!on) {
+    switch_off();
+    if (!off_.load()) refuse();
+    return;
+  }
+  off_.store(false);
+  if (dhd_.set_effort(0, 0, 0, 0, 0, 0, id_) < 0 || dhd_.enable_force(DHD_ON, id_) < 0) refuse();
+  powered_.store(true);
 }
 
 std::string DhdDevice::last_words() const {
@@ -224,6 +226,7 @@ hdev_status DhdDevice::read(hdev_state& state) noexcept {
 hdev_status DhdDevice::write(const kit::Effort& effort) noexcept {
   if (lost_.load()) return HDEV_E_LOST;
   if (!powered_.load() || doomed_.load()) return HDEV_OK;
+  force_ns_.store(kit::clock_ns());
   const auto& f = effort.force;
   const auto& t = effort.torque;
   const int answer = dhd_.set_effort(f[0], f[1], f[2], t[0], t[1], t[2], id_);
@@ -232,25 +235,41 @@ hdev_status DhdDevice::write(const kit::Effort& effort) noexcept {
 
 hdev_status DhdDevice::stop() noexcept {
   powered_.store(false);
-  sem_post(&wake_);
+  wake_.ring();
   return HDEV_OK;
+}
+
+/// Told so, or left alone for longer than its own watchdog allows.
+bool DhdDevice::motors_are_off() const noexcept {
+  if (off_.load()) return true;
+  const bool watched = (info_.caps & HDEV_CAP_HW_WATCHDOG) != 0 && !powered_.load();
+  return watched && kit::clock_ns() - force_ns_.load() > static_cast<std::int64_t>(1e9 * info_.hw_watchdog_s);
 }
 
 void DhdDevice::keep_ready_to_stop() noexcept {
   while (true) {
-    while (sem_wait(&wake_) != 0 && errno == EINTR) {
-    }
+    wake_.wait();
     if (leaving_.load()) return;
     if (lost_.load() || powered_.load()) continue;
+    wake_braker_.ring();
     switch_off();
   }
 }
 
+void DhdDevice::keep_ready_to_brake() noexcept {
+  while (true) {
+    wake_braker_.wait();
+    if (leaving_.load()) return;
+    if (kit::comes_true([this] { return off_.load(); }, disable_within_us) || powered_.load()) continue;
+    if (dhd_.stop(id_) >= 0) off_.store(true);
+  }
+}
+
+/// First what switches the motors off: what comes after it may hang.
 void DhdDevice::switch_off() noexcept {
+  if (dhd_.enable_force(DHD_OFF, id_) >= 0) off_.store(true);
+  if (dhd_.stop(id_) >= 0) off_.store(true);
   dhd_.set_effort(0, 0, 0, 0, 0, 0, id_);
-  const bool told = dhd_.enable_force(DHD_OFF, id_) >= 0;
-  const bool braked = dhd_.stop(id_) >= 0;
-  if (told || braked) off_.store(true);
 }
 
 /// The thread that is kept ready lives, unless libdhd is locked by whoever has crashed: it is waited for, then libdhd is
@@ -258,7 +277,7 @@ void DhdDevice::switch_off() noexcept {
 hdev_status DhdDevice::emergency_stop(std::uint32_t within_us) noexcept {
   doomed_.store(true);
   stop();
-  if (lost_.load() || kit::comes_true([this] { return off_.load(); }, within_us / 2)) return HDEV_OK;
+  if (lost_.load() || kit::comes_true([this] { return off_.load(); }, within_us / 4 * 3)) return HDEV_OK;
   switch_off();
   return off_.load() ? HDEV_OK : HDEV_E_COMM;
 }
@@ -267,9 +286,9 @@ void rescue_device(const Dhd& dhd, const std::string& id) {
   const int number = open_number(dhd, id);
   if (number < 0) throw kit::Trouble(HDEV_E_NODEV, dhd.get_last_error());
   const char device = static_cast<char>(number);
-  dhd.set_effort(0, 0, 0, 0, 0, 0, device);
   const bool off = dhd.enable_force(DHD_OFF, device) >= 0;
   const bool braked = dhd.stop(device) >= 0;
+  dhd.set_effort(0, 0, 0, 0, 0, 0, device);
   const std::string words = off || braked ? "" : dhd.get_last_error();
   dhd.close(device);
   if (!words.empty()) throw kit::Trouble(HDEV_E_COMM, words);

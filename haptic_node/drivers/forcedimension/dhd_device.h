@@ -2,8 +2,6 @@
 // One Force Dimension device. The host's thread talks to it directly: one position, one status and one force a tick. The
 // controller in the device lets go by itself when forces stop coming (its watchdog), which no fault of ours can prevent.
 
-#include <semaphore.h>
-
 #include <atomic>
 #include <cstdint>
 #include <string>
@@ -12,6 +10,7 @@
 #include "haptic_node/drivers/forcedimension/dhd.h"
 #include "haptic_node/drivers/forcedimension/dhd_models.h"
 #include "haptic_node/drivers/kit/driver.h"
+#include "haptic_node/drivers/kit/emergency.h"
 
 namespace palpate::haptic::forcedimension {
 
@@ -26,6 +25,8 @@ class DhdDevice final : public kit::OpenDevice {
   /// Samples in a row that say "no force" although it was switched on, without a cause that libdhd knows. Why: 50 ms at 1 kHz,
   /// ten times what a command takes to come back in the status.
   static constexpr int offs_to_fault = 50;
+  /// For dhdEnableForce, before dhdStop is tried beside it.
+  static constexpr std::uint32_t disable_within_us = 2000;
 
   /// @param dhd  outlives the device
   /// @throws kit::Trouble
@@ -41,6 +42,7 @@ class DhdDevice final : public kit::OpenDevice {
   hdev_status write(const kit::Effort& effort) noexcept override;
   hdev_status stop() noexcept override;
   hdev_status emergency_stop(std::uint32_t within_us) noexcept override;
+  bool motors_are_off() const noexcept override;
 
  private:
   void say_what_it_is();
@@ -50,18 +52,21 @@ class DhdDevice final : public kit::OpenDevice {
   hdev_status failed() noexcept;
   hdev_status gone(const char* why) noexcept;
   void keep_ready_to_stop() noexcept;
+  void keep_ready_to_brake() noexcept;
   void switch_off() noexcept;
 
   const Dhd& dhd_;
   char id_ = 0;
   Model model_;
   hdev_info info_{};
-  // stop() may be called from a signal handler, where libdhd may not: it wakes this thread, which calls libdhd.
-  std::thread stopper_;
-  sem_t wake_;
+  // stop() may be called from a signal handler, where libdhd may not: it wakes the first thread, which calls libdhd. The second
+  // one has its turn if that call does not come back.
+  std::thread stopper_, braker_;
+  kit::Bell wake_, wake_braker_;
   std::atomic<bool> leaving_{false};
   std::atomic<bool> powered_{false};
   std::atomic<bool> off_{true};      // and the device has been told so
+  std::atomic<std::int64_t> force_ns_{0};  // when it was told a force last
   std::atomic<bool> doomed_{false};  // the process is dying: motors stay off
   std::atomic<bool> lost_{false};
   std::atomic<bool> calibrated_{false};

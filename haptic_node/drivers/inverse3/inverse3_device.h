@@ -54,6 +54,7 @@ class Inverse3Device final : public kit::OpenDevice {
   hdev_status write(const kit::Effort& effort) noexcept override;
   hdev_status stop() noexcept override;
   hdev_status emergency_stop(std::uint32_t within_us) noexcept override;
+  bool motors_are_off() const noexcept override { return !forcing_.load(); }
 
  private:
   struct Sample {

@@ -142,6 +142,8 @@ hdev_status kit_rescue(const hdev_host* host, const char* id, const char* const*
   });
 }
 
+hdev_status kit_motors_off(hdev* device) { return device->device->motors_are_off() ? HDEV_OK : HDEV_E_AGAIN; }
+
 }  // namespace
 
 extern "C" const hdev_api* hdev_plugin_query(std::uint32_t host_major, std::uint32_t) {
@@ -163,6 +165,7 @@ extern "C" const hdev_api* hdev_plugin_query(std::uint32_t host_major, std::uint
                                kit_write,
                                kit_stop,
                                kit_emergency_stop,
-                               kit::this_driver().rescue == nullptr ? nullptr : kit_rescue};
+                               kit::this_driver().rescue == nullptr ? nullptr : kit_rescue,
+                               kit_motors_off};
   return host_major == HDEV_ABI_MAJOR ? &api : nullptr;
 }

@@ -54,6 +54,9 @@ class OpenDevice {
   /// The process dies: as hdev_api.emergency_stop says. Enough where stop() itself is.
   virtual hdev_status emergency_stop(std::uint32_t /*within_us*/) noexcept { return stop(); }
 
+  /// Whether the motors are known to be off. Any thread. As it is enough where there are none, or stop() cannot fail.
+  virtual bool motors_are_off() const noexcept { return true; }
+
  protected:
   std::int64_t now_ns() const noexcept { return host_->now_ns(host_->user); }
   void log(int level, const std::string& line) const { host_->log(host_->user, level, line.c_str()); }

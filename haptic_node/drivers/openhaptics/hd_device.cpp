@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <thread>
 
+#include "haptic_node/drivers/kit/emergency.h"
 #include "haptic_node/drivers/openhaptics/hd_calibration.h"
 #include "haptic_node/drivers/openhaptics/hd_errors.h"
 
@@ -39,44 +40,32 @@ void copy_text(char (&to)[N], const char* from) {
 }  // namespace
 
 HdDevice::HdDevice(const hdev_host& host, const Hd& hd, const std::string& name, unsigned long rate_Hz)
-    : OpenDevice(host), hd_(hd), rate_Hz_(rate_Hz) {
+    : OpenDevice(host), hd_(hd), rate_Hz_(rate_Hz), stopper_(hd) {
   heard_ns_ = now_ns();
   open_scheduled(hd_, name, rate_Hz, frame, this, prepare, scheduled_);
 }
 
-/// Zero force first, then the motors, then the device. Frames do that, where they come; whoever waits for a dead scheduler
-/// waits for ever, so that the motors are off before libHD is asked to stop it.
+/// Motors first: by the next frame, or without it. Whoever waits for a scheduler that is dead or hangs waits for ever, so that
+/// this comes before libHD is asked to stop it.
 HdDevice::~HdDevice() {
-  wanted_.store(false);
-  if (!settled()) switch_off_from_here();
-  close_scheduled(hd_, scheduled_);
-}
-
-/// Waits for a frame that has switched the motors off. @return false if none comes
-bool HdDevice::settled() const noexcept {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::nanoseconds(dead_ns);
-  while (powered_.load() && !lost_.load()) {
-    if (dead_.load() || std::chrono::steady_clock::now() >= end) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return true;
-}
-
-/// Not the vendor's thread, which calls back no more, or hangs in the middle of a frame.
-void HdDevice::switch_off_from_here() noexcept {
+  stop();
+  kit::comes_true([this] { return motors_are_off(); }, static_cast<std::uint32_t>(dead_ns / 1000));
   leave_alone_.store(true);
-  std::this_thread::sleep_for(std::chrono::milliseconds(2));  // a frame that has just begun ends
-  hd_.make_current(scheduled_.device);
-  if (frame_part_.load() != FramePart::open) hd_.begin_frame(scheduled_.device);
-  set_effort({});
-  hd_.end_frame(scheduled_.device);
-  hd_.disable(HD_FORCE_OUTPUT);
-  powered_.store(false);
+  close_scheduled(hd_, scheduled_, [this] {
+    if (stopper_.has_disabled_device()) return false;
+    if (stopper_.take_zero_owed()) {  // nobody else is in the library now
+      hd_.begin_frame(scheduled_.device);
+      set_effort({});
+      hd_.end_frame(scheduled_.device);
+    }
+    return true;
+  });
 }
 
 void HdDevice::prepare(void* self) {
   auto& device = *static_cast<HdDevice*>(self);
   const Hd& hd = device.hd_;
+  device.stopper_.watch(device.scheduled_.device);
   hd.disable(HD_FORCE_OUTPUT);
   hd.enable(HD_MAX_FORCE_CLAMPING);
   hd.enable(HD_FORCE_RAMPING);
@@ -133,7 +122,8 @@ void HdDevice::power(bool on) {
   if (lost_.load()) throw kit::Trouble(HDEV_E_LOST, last_words());
   if (on && calibration_.load() != HDEV_CAL_OK)
     throw kit::Trouble(HDEV_E_NOTCAL, "forces stay off until the device is calibrated");
-  wanted_.store(on);
+  if (!on) return static_cast<void>(stop());
+  wanted_.store(true);
 }
 
 std::string HdDevice::last_words() const {
@@ -145,16 +135,31 @@ std::string HdDevice::last_words() const {
   return fmt::format("{}{} (0x{:04x})", lost_.load() ? "unplugged: " : "", hd_.get_error_string(code), code);
 }
 
+bool HdDevice::may_force() const noexcept { return wanted_.load() && !doomed_.load() && fault_ == 0; }
+
+/// After the frame, which may have taken for ever: whoever wanted the motors off meanwhile has the last word.
+void HdDevice::switch_motors(bool wanted, bool were_on) noexcept {
+  if (wanted && !were_on) {
+    stopper_.motors_on();
+    hd_.enable(HD_FORCE_OUTPUT);
+    on_since_ = seq_;
+  }
+  const bool on = wanted && may_force();
+  if (!on && (were_on || wanted)) hd_.disable(HD_FORCE_OUTPUT);
+  if (on && were_on) look_at_force_output();
+  powered_.store(on);
+  if (!on) stopper_.motors_off();
+}
+
 /// One tick of the vendor's scheduler.
 unsigned int HdDevice::frame(void* self) {
   auto& device = *static_cast<HdDevice*>(self);
   const Hd& hd = device.hd_;
-  if (device.lost_.load() || device.leave_alone_.load()) return HD_CALLBACK_CONTINUE;
+  if (device.lost_.load() || device.leave_alone_.load() || device.stopper_.is_busy())
+    return HD_CALLBACK_CONTINUE;
   static thread_local const int scheduler_thread = gettid();  // another one after each rest of the scheduler
   device.scheduler_thread_.store(scheduler_thread);
-  device.frame_part_.store(FramePart::outside);
   hd.make_current(device.scheduled_.device);
-  device.frame_part_.store(FramePart::open);
   hd.begin_frame(device.scheduled_.device);
 
   // 1. the hand
@@ -164,26 +169,22 @@ unsigned int HdDevice::frame(void* self) {
   device.measure(sample.state);
 
   // 2. the force; motors go on and off with none
-  const bool wanted = device.wanted_.load() && !device.doomed_.load() && device.fault_ == 0;
-  const bool was_on = device.powered_.load();
-  const kit::Effort effort = wanted && was_on ? device.effort_due(now) : kit::Effort{};
-  if (wanted || was_on) device.set_effort(effort);
+  const bool wanted = device.may_force();
+  const bool were_on = device.powered_.load() && !device.stopper_.is_off();
+  const kit::Effort effort = wanted && were_on ? device.effort_due(now) : kit::Effort{};
+  if (wanted || were_on || device.stopper_.take_zero_owed()) device.set_effort(effort);
   hd.end_frame(device.scheduled_.device);
-  device.frame_part_.store(FramePart::outside);
-  if (wanted && !was_on) hd.enable(HD_FORCE_OUTPUT), device.on_since_ = device.seq_;
-  if (!wanted && was_on) hd.disable(HD_FORCE_OUTPUT);
-  if (wanted && was_on) device.look_at_force_output();
-  device.powered_.store(wanted);
-  device.frame_part_.store(FramePart::none);
+  device.switch_motors(wanted, were_on);
 
   // 3. what the vendor has to say, and what the host is told
   device.heed_errors(sample);
   sample.state.fault = device.fault_;
-  sample.state.force_enabled = wanted ? 1u : 0u;
+  sample.state.force_enabled = device.powered_.load() ? 1u : 0u;
   std::copy_n(effort.force, 3, sample.state.applied_force);
   std::copy_n(effort.torque, 3, sample.state.applied_torque);
   sample.state.seq = ++device.seq_;
   device.samples_.write(sample);
+  device.stopper_.frame_ends();
   return HD_CALLBACK_CONTINUE;
 }
 
@@ -241,6 +242,7 @@ void HdDevice::heed_errors(Sample& sample) noexcept {
   if (failed_in_a_row_ < transfers_to_lost) return;
   hd_.disable(HD_FORCE_OUTPUT);  // should the cable come back, nothing is driven
   powered_.store(false);
+  stopper_.motors_off();
   lost_.store(true);
 }
 
@@ -285,7 +287,10 @@ hdev_status HdDevice::write(const kit::Effort& effort) noexcept {
 
 hdev_status HdDevice::stop() noexcept {
   wanted_.store(false);
+  if (!lost_.load()) stopper_.ask();
   return HDEV_OK;
 }
+
+bool HdDevice::motors_are_off() const noexcept { return lost_.load() || stopper_.is_off(); }
 
 }  // namespace palpate::haptic::openhaptics

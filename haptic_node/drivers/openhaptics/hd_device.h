@@ -10,6 +10,7 @@
 #include "common/exchange/triple_buffer.h"
 #include "haptic_node/drivers/kit/driver.h"
 #include "haptic_node/drivers/openhaptics/hd_scheduler.h"
+#include "haptic_node/drivers/openhaptics/hd_stopper.h"
 
 namespace palpate::haptic::openhaptics {
 
@@ -40,9 +41,9 @@ class HdDevice final : public kit::OpenDevice {
   hdev_status write(const kit::Effort& effort) noexcept override;
   hdev_status stop() noexcept override;
   hdev_status emergency_stop(std::uint32_t within_us) noexcept override;
+  bool motors_are_off() const noexcept override;
 
  private:
-  enum class FramePart { none, outside, open };  // of frame(): between hdBeginFrame and hdEndFrame it is open
   struct Sample {
     hdev_state state{};
     hdev_status status = HDEV_OK;
@@ -59,13 +60,14 @@ class HdDevice final : public kit::OpenDevice {
   void heed_errors(Sample& sample) noexcept;
   void look_at_force_output() noexcept;
   bool is_dead() noexcept;
-  bool settled() const noexcept;
-  void switch_off_from_here() noexcept;
+  bool may_force() const noexcept;
+  void switch_motors(bool wanted, bool were_on) noexcept;
 
   const Hd& hd_;
   hdev_info info_{};
   unsigned long rate_Hz_;
   ScheduledDevice scheduled_;
+  HdStopper stopper_;
 
   TripleBuffer<Sample> samples_;  // vendor's thread -> host's
   TripleBuffer<Order> orders_;    // host's thread -> vendor's
@@ -75,7 +77,6 @@ class HdDevice final : public kit::OpenDevice {
   std::atomic<bool> wanted_{false}, powered_{false}, lost_{false};
   std::atomic<bool> doomed_{false};  // the process is dying: motors stay off
   std::atomic<int> scheduler_thread_{0};
-  std::atomic<FramePart> frame_part_{FramePart::none};
   std::atomic<bool> dead_{false};         // the vendor's scheduler
   std::atomic<bool> dropped_{false};      // the device switched its forces off by itself
   std::atomic<bool> leave_alone_{false};  // frames do nothing any more

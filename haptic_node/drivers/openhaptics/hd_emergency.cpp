@@ -16,24 +16,17 @@ constexpr std::array<double, 3> none{};
 }  // namespace
 
 /// The scheduler's thread lives, unless it has crashed itself or hangs: its next frame sets no force and switches the motors
-/// off, in the vendor's order and without a call from here. Only if that does not come is libHD called from here. Never
-/// hdStopScheduler or hdDisableDevice: they wait for the scheduler's thread.
+/// off, in the vendor's order and without a call from here. If that does not come, the threads that are kept ready call
+/// libHD, and only then it is called from here. Never hdStopScheduler, which waits for the scheduler's thread, and no frame.
 hdev_status HdDevice::emergency_stop(std::uint32_t within_us) noexcept {
   doomed_.store(true);
   if (lost_.load()) return HDEV_OK;
+  stop();
   const bool on_scheduler = gettid() == scheduler_thread_.load();
-  const auto is_off = [this] { return frame_part_.load() == FramePart::none && !powered_.load(); };
-  if (!on_scheduler && kit::comes_true(is_off, within_us / 2)) return HDEV_OK;
-
-  hd_.make_current(scheduled_.device);
-  const bool in_frame = frame_part_.load() == FramePart::open;
-  if (!in_frame) {
-    hd_.disable(HD_FORCE_OUTPUT);  // first: a frame may wait for a device that does not answer
-    hd_.begin_frame(scheduled_.device);
-  }
-  set_effort({});
-  hd_.end_frame(scheduled_.device);
-  if (in_frame) hd_.disable(HD_FORCE_OUTPUT);
+  const auto is_off = [this] { return stopper_.is_off(); };
+  if (!on_scheduler && kit::comes_true(is_off, within_us / 4 * 3)) return HDEV_OK;
+  if (stopper_.has_disabled_device()) return HDEV_E_COMM;  // hdDisable hangs
+  stopper_.switch_off_here();
   return HDEV_OK;
 }
 

@@ -78,11 +78,11 @@ void open_scheduled(const Hd& hd, const std::string& name, unsigned long rate_Hz
   ++n_open(hd);
 }
 
-void close_scheduled(const Hd& hd, const ScheduledDevice& device) {
+void close_scheduled(const Hd& hd, const ScheduledDevice& device, const std::function<bool()>& last_act) {
   const Rest rest(hd);
   hd.unschedule(device.frame);
   hd.make_current(device.device);
-  hd.disable_device(device.device);
+  if (last_act()) hd.disable_device(device.device);
   --n_open(hd);
   forget_errors(hd);
 }

@@ -1,6 +1,7 @@
 #pragma once
 // libHD has one scheduler thread for all devices of a process, and wants every device to be opened while it rests.
 
+#include <functional>
 #include <string>
 
 #include "haptic_node/drivers/openhaptics/hd.h"
@@ -24,6 +25,7 @@ void open_scheduled(const Hd& hd, const std::string& name, unsigned long rate_Hz
                     void* user, void (*prepare)(void* user), ScheduledDevice& opened);
 
 /// Ends the frames of this device, and leaves the others running.
-void close_scheduled(const Hd& hd, const ScheduledDevice& device);
+/// @param last_act  with the device as the current one and the scheduler at rest. @return whether it is still to be disabled
+void close_scheduled(const Hd& hd, const ScheduledDevice& device, const std::function<bool()>& last_act);
 
 }  // namespace palpate::haptic::openhaptics

@@ -231,7 +231,7 @@ const hdev_api api = {sizeof(hdev_api), HDEV_ABI_MAJOR,
                       sim_last_error,   sim_rt_attach,
                       sim_read,         sim_write,
                       sim_stop,         sim_emergency_stop,
-                      nullptr};
+                      nullptr,          nullptr};
 
 }  // namespace
 

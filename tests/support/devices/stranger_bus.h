@@ -53,6 +53,10 @@ struct StrangerBus {
     switch_crashes,  // the servo thread stands still, and the call that switches motors off reads from nowhere
     switch_hangs,  // hdDisable, dhdEnableForce never return in the process that has the device, and its servo thread
                    // stands still; other threads live
+    begin_hangs,           // the servo thread does not come back from beginning a frame
+    end_hangs,             // whoever ends a frame, or sets a force of libdhd, does not come back
+    end_and_disable_hang,  // nor from hdDisable, dhdEnableForce
+    all_hang,              // nor from hdDisableDevice, dhdStop
   };
 
   // what the test asks for

@@ -46,6 +46,7 @@ EXPORT int dhdClose(char id) {
   return 0;
 }
 EXPORT int dhdStop(char id) {
+  palpate::test::perhaps_hang_from(StrangerBus::all_hang);
   const Transfer one("dhdStop of no device", id);
   stranger_bus().motors.store(false);
   stranger_bus().send(StrangerBus::motors_off);
@@ -71,6 +72,7 @@ EXPORT int dhdGetAngularVelocityRad(double* x, double* y, double* z, char) { ret
 EXPORT int dhdGetGripperGap(double* gap, char) { return *gap = 0, 0; }
 EXPORT unsigned int dhdGetButtonMask(char) { return 0; }
 EXPORT int dhdSetForceAndTorque(double fx, double fy, double fz, double, double, double, char id) {
+  palpate::test::perhaps_hang_from(StrangerBus::end_hangs);
   const Transfer one("dhdSetForceAndTorque of no device", id);
   if (stranger_bus().trouble.load() == StrangerBus::servo_outside) palpate::test::read_from_nowhere();
   stranger_bus().force.store(std::hypot(fx, fy, fz));
@@ -78,9 +80,10 @@ EXPORT int dhdSetForceAndTorque(double fx, double fy, double fz, double, double,
   return 0;
 }
 EXPORT int dhdEnableForce(unsigned char on, char id) {
+  palpate::test::perhaps_hang_from(StrangerBus::end_and_disable_hang);
   const Transfer one("dhdEnableForce of no device", id);
   palpate::test::perhaps_never_return();
-  if (stranger_bus().force.load() != 0) stranger_bus().breach("forces switched with a force");
+  if (on != 0 && stranger_bus().force.load() != 0) stranger_bus().breach("forces switched with a force");
   if (on != 0 && on_since_ns == 0) on_since_ns = palpate::test::bus_time_ns();
   stranger_bus().motors.store(on != 0);
   stranger_bus().send(on != 0 ? StrangerBus::motors_on : StrangerBus::motors_off);

@@ -113,7 +113,10 @@ void run_callbacks() {
   }
 }
 
+thread_local bool is_servo = false;
+
 void serve() {
+  is_servo = true;
   auto due = std::chrono::steady_clock::now();
   while (lib().running.load()) {
     palpate::test::perhaps_stand_still();
@@ -150,6 +153,11 @@ EXPORT unsigned int hdInitDevice(const char* name) {
   return the_device;
 }
 EXPORT void hdDisableDevice(unsigned int device) {
+  palpate::test::perhaps_hang_from(StrangerBus::all_hang);
+  if (palpate::test::asked_to(StrangerBus::end_and_disable_hang)) {
+    stranger_bus().motors.store(false);
+    return stranger_bus().send(StrangerBus::motors_off);
+  }
   const Visit visit;
   if (device != the_device || !lib().open) return stranger_bus().breach("hdDisableDevice of no device");
   if (lib().running) stranger_bus().breach("hdDisableDevice while the scheduler runs");
@@ -165,13 +173,23 @@ EXPORT void hdMakeCurrentDevice(unsigned int device) {
   lib().current = device;
 }
 EXPORT unsigned int hdGetCurrentDevice() { return lib().current; }
+/// Frames are the servo thread's, as long as it runs.
+static void frame_in(const char* function) {
+  if (lib().running.load() && !is_servo) stranger_bus().breach(function);
+}
+
 EXPORT void hdBeginFrame(unsigned int device) {
+  frame_in("hdBeginFrame beside the servo thread");
+  while (palpate::test::asked_to(StrangerBus::begin_hangs))
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
   const Visit visit;
   if (device != the_device || !lib().open) return stranger_bus().breach("hdBeginFrame of no device");
   if (lib().in_frame) return fail(0x0400);
   lib().in_frame = true;
 }
 EXPORT void hdEndFrame(unsigned int device) {
+  frame_in("hdEndFrame beside the servo thread");
+  palpate::test::perhaps_hang_from(StrangerBus::end_hangs);
   const Visit visit;
   if (device != the_device || !lib().in_frame) return fail(0x0401);
   lib().in_frame = false;
@@ -198,6 +216,7 @@ EXPORT void hdEnable(unsigned int what) {
   stranger_bus().send(StrangerBus::motors_on);
 }
 EXPORT void hdDisable(unsigned int what) {
+  if (what == 0x4000) palpate::test::perhaps_hang_from(StrangerBus::end_and_disable_hang);
   const Visit visit;
   if (!has_device("hdDisable without a device")) return;
   if (what == 0x4001) lib().clamping = false;

@@ -76,6 +76,12 @@ inline bool asked_to(StrangerBus::Trouble trouble) {
   return stranger_bus().trouble.load() == trouble && stranger_bus().owner.load() == getpid();
 }
 
+/// Where a call never comes back, whoever makes it, once there is so much trouble.
+inline void perhaps_hang_from(StrangerBus::Trouble least) {
+  while (stranger_bus().trouble.load() >= least && stranger_bus().owner.load() == getpid())
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
 /// Where a servo thread stands still, if it was asked to.
 inline void perhaps_stand_still() {
   while (asked_to(StrangerBus::switch_hangs) || asked_to(StrangerBus::switch_crashes))

@@ -184,7 +184,7 @@ EXPORT int dhdEnableForce(unsigned char on, char id) {
   StubDhdDevice* device = stub().subject("dhdEnableForce", id);
   if (device == nullptr) return -1;
   for (const double f : device->effort)
-    if (f != 0) stub().broken.push_back("forces switched with a force");
+    if (f != 0 && on != 0) stub().broken.push_back("forces switched on with a force");
   if ((on != 0) != device->force_on)
     stub().called.push_back((on != 0 ? "forces on " : "forces off ") + std::to_string(id));
   device->force_on = on != 0;

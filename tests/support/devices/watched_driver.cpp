@@ -210,6 +210,7 @@ const hdev_api api = {offsetof(hdev_api, emergency_stop),
                       write_watched,
                       stop_watched,
                       nullptr,
+                      nullptr,
                       nullptr};
 
 }  // namespace

@@ -72,7 +72,8 @@ TEST(StatusText, SaysWhatEachNodeDoes) {
   silent.safe_events = 3;
   board.note(silent);
   EXPECT_EQ(status_text(board, {NodeKind::haptic}, 0),
-            "   0.0 s | haptic 1000 Hz loop 1.2 ms | physics was silent for the hand, the hand was made safe (3 times)");
+            "   0.0 s | haptic 1000 Hz loop 1.2 ms | physics was silent for the hand, no force was sent to "
+            "the hand (3 times)");
   EXPECT_EQ(cut_to("physics was silent", 11), "physics ...");
   EXPECT_EQ(cut_to("physics", 7), "physics");
   EXPECT_EQ(cut_to("physics", 0), "physics");

@@ -252,9 +252,9 @@ TEST_F(OpenHaptics, DeclaresASchedulerDeadThatCallsBackNoMoreAndSwitchesOffWitho
   for (int i = 0; i < 10'000 && hd.calls().back() != "forces off"; ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   EXPECT_THAT(hd.calls(), ElementsAre("init Default PHANToM", "forces on", "forces off"));
-  EXPECT_THAT(hd.device(0).force, ElementsAre(0, 0, 0));
   hd.fall_silent(false);
   closing.join();
+  EXPECT_THAT(hd.device(0).force, ElementsAre(0, 0, 0));
 }
 
 /// The host was away, and the vendor's thread with it: no fault, whatever the clock says.
