@@ -1,10 +1,10 @@
 #pragma once
-// What a haptic renderer does with energy, seen from outside: true positions, forces really applied.
+// The energy balance of a haptic renderer, seen from outside: true positions, forces really applied.
 //
 //   E_port[n]  = sum F_k . (x_{k+1} - x_k)       given to the hand
 //   E_plane[n]                                   work that moving planes put in
 //   S[n]       = K d^2 / 2                       stored in the springs now
-//   G[n]       = E_port + S - E_plane            made out of nothing: at most G_allowed
+//   G[n]       = E_port + S - E_plane            generated: passive while at most G_allowed
 //   E_plane[n] - min E_plane[m <= n] <= cap + allowance (t_n - t_m), and one cap more for each contact after a rest
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #pragma once
-// Cases by the hundred: who is stable, who keeps the bounds of energy.
+// Cases by the hundred: which are stable, which keep the bounds of energy.
 
 #include <functional>
 #include <string>

@@ -28,8 +28,9 @@ struct NodeOptions {
 /// How a node joins its session.
 Membership membership(const NodeOptions& options, const Scene& scene, const std::string& role);
 
-/// A node that comes to a session of another scene or version, or to one that has a node of its role already, goes again and
-/// says why: looks at its companions for the first seconds of its life. Who was there first stays, and says who has come.
+/// A node that comes to a session of another scene or version, or to one that has a node of its role already,
+/// ends and says why: it checks its companions for its first seconds. The process that was there first stays,
+/// and names the newcomer.
 class Newcomer {
  public:
   /// @param own  who asks; may look before it is seen itself, through a participant that is nobody

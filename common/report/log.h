@@ -3,7 +3,7 @@
 //
 //     12.345 physics warn  step 0.62 ms over 0.50 ms
 //
-// seconds since the program started, who speaks, how urgent, what. info: milestones; warn: look; error: it stops.
+// seconds since the program started, program, level, text. info: milestones; warn: look; error: it stops.
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 
 namespace palpate {
 
-/// Who speaks in the lines that follow; once, before any thread logs.
+/// Name of the program in the lines that follow; once, before any thread logs.
 void set_log_name(std::string_view name);
 
 enum class LogLevel { info, warn, error };

@@ -1,5 +1,6 @@
 #pragma once
-// Who else is in the DDS domain. Known from discovery alone: no topic has to match, so another version is seen, too.
+// The other processes in the DDS domain. Known from discovery alone: no topic has to match, so another
+// version is seen, too.
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
-// Who a process is, as it tells every other in its DDS domain before any message passes: what it does, in which
-// version, in which scene. Travels as text in the participant's user data, which every version can read.
+// What a process publishes about itself in its DDS domain before any sample: its role, its
+// version, its scene. Travels as text in the participant's user data, which every version can read.
 
 #include <cstdint>
 #include <optional>

@@ -1,6 +1,6 @@
 #pragma once
-// Cyclone DDS sends through the interface it is told, but its receiving sockets are bound to every address of the
-// machine. This lets the kernel drop what came another way or from another machine.
+// Cyclone DDS sends through the configured interface, but its receiving sockets are bound to every address of
+// the machine. This lets the kernel drop what came another way or from another machine.
 
 #include "common/wire/reach.h"
 

@@ -1,10 +1,11 @@
 #pragma once
-// Who may speak. DDS lets every process of a domain write to every topic; a node believes one process for each thing that
-// only one can know, and counts what others send without looking at it.
+// Who may publish. DDS lets every process of a domain write to every topic; a node accepts one process for
+// each thing that only one can know, and counts the samples of others without reading them.
 //
-// Who says that it has the role, in this scene and this version, comes before who says nothing of itself (tools and tests
-// do), and keeps its place while it speaks. After a silence, or when its process has ended, the next one has it. Who says that
-// it is something else is never heard. This keeps out mistakes; whoever lies about himself is kept out by DDS Security only.
+// A process that claims the role, in this scene and this version, takes precedence over one that claims none
+// (tools, tests), and keeps its place while it publishes. After a silence, or when it has ended, the next one
+// takes the place. A process that claims another role is never accepted. This keeps out mistakes; only DDS
+// Security keeps out a process that lies.
 
 #include <array>
 #include <atomic>
@@ -26,7 +27,7 @@ class Speaker {
   /// @param role      physics or haptic
   /// @param patience  silence after which another process may take its place
   Speaker(const Participant& participant, const std::string& role, std::chrono::nanoseconds patience);
-  /// Everybody whose role is among these, and who says nothing of himself.
+  /// Every process whose role is among these, and every one that claims none.
   Speaker(const Participant& participant, std::vector<std::string> roles);
   Speaker(const Speaker&) = delete;
   Speaker& operator=(const Speaker&) = delete;
@@ -34,8 +35,8 @@ class Speaker {
   /// How often another process took the place; 1 from the first on. Any thread.
   std::uint64_t changes() const noexcept { return changes_.load(std::memory_order_acquire); }
 
-  /// What a person should know and has not been told: one line for each process that is not heard, and for each that takes
-  /// a place; the first hundred. Any thread.
+  /// What a person should know and has not been shown: one line for each process that is refused, and for
+  /// each that takes a place; the first hundred. Any thread.
   std::vector<std::string> remarks();
 
   // For common/wire only.

@@ -1,5 +1,5 @@
 #pragma once
-// Is a DICOM file all there? The library pads missing cells with zeros without a word, and crashes on some headers.
+// Is a DICOM file complete? The library silently pads missing cells with zeros, and crashes on some headers.
 // Source: DICOM PS3.5, 7.1 and 7.5 (data elements, sequences), A.4 (encapsulated pixel data)
 
 #include <string>

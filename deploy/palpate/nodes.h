@@ -1,5 +1,5 @@
 #pragma once
-// The three nodes: their names, their programs, and the order in which they are told to stop.
+// The three nodes: their names, their programs, and the order in which they are stopped.
 
 #include <array>
 #include <optional>

@@ -10,7 +10,7 @@ namespace palpate::deploy {
 /// out/<name of the scene file>
 std::filesystem::path default_out(const std::string& scene_path);
 
-/// While it lives no other palpate takes the folder; a process that ends in any way lets go of it.
+/// While it lives no other palpate takes the folder; a process that ends in any way releases it.
 class HeldFolder {
  public:
   /// @throws InputError if another holds it

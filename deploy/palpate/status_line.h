@@ -11,8 +11,8 @@
 
 namespace palpate::deploy {
 
-/// A hand that gets energy made out of nothing is named; a hand without forces says why.
-/// For example "  12.4 s | physics 1000 Hz x1.00 | haptic 1000 Hz loop 1.2 ms | render 30 Hz". Warnings follow in words.
+/// A hand whose loop has generated energy is named; a hand without forces says why. For example "  12.4 s |
+/// physics 1000 Hz x1.00 | haptic 1000 Hz loop 1.2 ms | render 30 Hz". Warnings follow in words.
 std::string status_text(const StatusBoard& board, const std::vector<NodeKind>& nodes, double seconds);
 
 /// At most so many columns, the last of them dots where it was longer; 0: any.

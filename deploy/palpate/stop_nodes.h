@@ -18,7 +18,7 @@ struct RunningNode {
 
 /// How long the end of a session may take.
 struct Patience {
-  std::chrono::milliseconds turn;   // before the next node is told although this one still runs
+  std::chrono::milliseconds turn;   // before the next node is stopped although this one still runs
   std::chrono::milliseconds whole;  // before what still runs is killed
 };
 inline constexpr Patience calm = {std::chrono::milliseconds(500), std::chrono::milliseconds(5000)};

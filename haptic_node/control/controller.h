@@ -94,7 +94,7 @@ class Controller {
   double plane_work() const noexcept { return model_.work(); }
   /// In the springs as they are applied: limited, faded [J].
   double stored() const noexcept { return stored_; }
-  /// Energy made out of nothing, as seen from the samples [J].
+  /// Energy that the loop has generated, as seen from the samples [J].
   double surplus() const noexcept { return energy_.surplus(); }
   double force_limit() const noexcept { return guard_.limit(); }
   double torque_limit() const noexcept { return torque_guard_.limit(); }

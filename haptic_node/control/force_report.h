@@ -1,7 +1,8 @@
 #pragma once
-// The force that physics is told the hand feels: low-passed, so that the swinging of soft tissue does not come back
-// as a force that swings it further. Physics low-passes once more, at 5 Hz; with that pole alone, a hand without friction
-// on 0.5 kg of tissue swings by 0.3 mm for ever, and with this one at 5 Hz it settles late.
+// The force on the hand as it is reported to physics: low-passed, so that the oscillation of soft tissue does
+// not return as a force that drives it further. Physics low-passes once more, at 5 Hz; with that pole alone,
+// a hand without friction on 0.5 kg of tissue swings by 0.3 mm for ever, and with this one at 5 Hz it settles
+// late.
 //
 //   R := R + (1 - e^(-2 pi f dt)) (F - R)
 

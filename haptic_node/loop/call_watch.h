@@ -1,6 +1,7 @@
 #pragma once
-// Calls into a driver that the slow thread makes by itself, and that may never come back: opening a device, switching its
-// motors on. Nobody else can do what comes after, but who is told to end meanwhile ends.
+// Calls into a driver that the slow thread makes by itself, and that may never come back: opening a device,
+// switching its motors on. Nothing after them can be done meanwhile, but a node that is stopped meanwhile
+// ends.
 
 #include <atomic>
 #include <chrono>

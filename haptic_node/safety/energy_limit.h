@@ -43,7 +43,7 @@ class EnergyLimit {
                const Vec3& force) noexcept {
     const Vec6 moved = began_ ? motion_between(x_, q_, hand.x, hand.q) : Vec6(Vec6::Zero());
     given_ += forces_[1].dot(moved) - (plane_work - plane_work_);
-    if (stored > 0) given_ += what_steps_feign(moved.head<3>(), force);
+    if (stored > 0) given_ += apparent_step_work(moved.head<3>(), force);
     began_ = true;
     x_ = hand.x;
     q_ = hand.q;
@@ -78,7 +78,7 @@ class EnergyLimit {
 
  private:
   /// To be added to what was given; mostly below 0 [J].
-  double what_steps_feign(const Vec3& way, const Vec3& force) noexcept {
+  double apparent_step_work(const Vec3& way, const Vec3& force) noexcept {
     const double size = force.norm();
     const double along = size > 0 ? force.dot(way) / size : 0.0;
     pace_.pass(std::abs(along) > 0.1 * resolution_ ? along : 0.0);

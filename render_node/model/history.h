@@ -13,8 +13,9 @@ class History {
   static constexpr double bucket_s = 0.01;
   static constexpr double slack_s = 0.2;
 
-  /// Takes a value at time t [s]; one beyond longest_time is ignored. A time before the newest one by more than `slack_s`
-  /// starts the history anew (another hand); by less, it counts as the newest: clocks that are told by messages are uneven.
+  /// Takes a value at time t [s]; one beyond longest_time is ignored. A time before the newest one by more
+  /// than `slack_s` restarts the history (another hand); by less, it counts as the newest: times that arrive
+  /// in messages are uneven.
   void add(double t, double value);
 
   struct Point {

@@ -46,7 +46,7 @@ class ToolPointer {
   const Vec3& position() const { return p_; }
   const Eigen::Quaterniond& attitude() const { return q_; }
 
-  /// What the haptic node is told; each call counts as one sample.
+  /// What is published to the haptic node; each call counts as one sample.
   Pointer message(std::int64_t now_ns);
 
  private:

@@ -3,8 +3,8 @@
 //
 //   x' = s d_t,   R' = [s_r d_r]x R       d_t, d_r the deflections, 1 at full_deflection counts; s, s_r full speeds
 //
-// so that the handle stays where it is when the cap is let go. A thread listens to the daemon; the path is summed up in
-// read(), in the host's clock.
+// so that the handle stays where it is when the cap is released. A thread listens to the daemon; the path is
+// summed up in read(), in the host's clock.
 
 #include <Eigen/Geometry>
 #include <array>
