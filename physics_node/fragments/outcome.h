@@ -2,7 +2,7 @@
 // What has become of a body, in the words of the paper.
 //
 // Source: Wakamatsu & Honma 2011, section on the fall of a sphere: the state before, and five states after an impact.
-// The paper shows pictures and no measure; measures and thresholds are ours (docs/architecture.md, EQUATIONS C-17, C-18).
+// The paper shows pictures and no measure; measures and thresholds are ours (docs/reference/outcomes.md, EQUATIONS C-17, C-18).
 
 #include "physics_node/fragments/fragments.h"
 

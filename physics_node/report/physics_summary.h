@@ -1,5 +1,5 @@
 #pragma once
-// The part of summary.json that physics knows. Keys and units as documented in docs/architecture.md.
+// The part of summary.json that physics knows. Keys and units: docs/reference/summary.md.
 
 #include <nlohmann/json.hpp>
 

@@ -26,6 +26,7 @@ std::vector<std::string> data_breaches(const SourceFile& file);     // data and 
 
 /// The same of pages that list what stands in other files (docs/reference, docs/contributing.md), for the whole house.
 std::vector<std::string> page_breaches(const std::vector<SourceFile>& files);
+std::vector<std::string> link_breaches(const std::vector<SourceFile>& files);  // from page to page
 
 /// All of them, for all files.
 std::vector<std::string> house_breaches(const std::filesystem::path& root);

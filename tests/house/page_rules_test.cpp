@@ -62,5 +62,18 @@ TEST_F(PlantedHouse, RefusesListsThatNameNoFile) {
   EXPECT_THAT(breach("docs/contributing.md", "nothing\n"), HasSubstr("names no file"));
 }
 
+TEST_F(PlantedHouse, RefusesLinksThatLeadNowhere) {
+  plant("docs/b.md", "# B\n\n## The `guard`, again\n");
+  EXPECT_TRUE(
+      is_fine("docs/a.md",
+              "[b](b.md), [g](b.md#the-guard-again), [s](../common/math/sum.h), [w](https://x.org/y)\n"));
+  EXPECT_TRUE(is_fine("docs/a.md", "## Here\n[h](#here) and [math](../common/math/)\n"));
+  EXPECT_THAT(breach("docs/a.md", "\n[c](c.md)\n"),
+              StartsWith("docs/a.md:2: a link to docs/c.md, which is not there"));
+  EXPECT_THAT(breach("docs/a.md", "[g](b.md#the-guard)\n"),
+              HasSubstr("#the-guard, which is no heading of docs/b.md"));
+  EXPECT_THAT(breach("docs/a.md", "[h](#there)\n"), HasSubstr("#there, which is no heading of docs/a.md"));
+}
+
 }  // namespace
 }  // namespace palpate::house

@@ -60,6 +60,7 @@ std::vector<std::string> house_breaches(const fs::path& root) {
     append(breaches, data_breaches(file));
   }
   append(breaches, page_breaches(files));
+  append(breaches, link_breaches(files));
   return breaches;
 }
 
