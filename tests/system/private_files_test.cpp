@@ -97,6 +97,20 @@ TEST_F(PrivateFiles, AreThoseMadeOfAPrivateImage) {
   for (const auto& file : files()) EXPECT_EQ(mode_of(file), 0600u) << file;
 }
 
+/// The image is open to all who reach it, and nobody does.
+TEST_F(PrivateFiles, AreThoseMadeOfAnImageInAPrivateFolder) {
+  fs::create_directories(folder / "mine");
+  fs::rename(folder / "a.raw", folder / "mine/a.raw");
+  ASSERT_EQ(chmod((folder / "mine").c_str(), 0700), 0);
+  ASSERT_EQ(palpate("import " + (folder / "mine/a.raw").string() +
+                    " --size 6,6,6 --spacing-mm 2,2,2 --type uint8 --out " + (folder / "v.h5").string()),
+            0)
+      << log;
+  EXPECT_EQ(mode_of(folder / "v.h5"), 0600u);
+  ASSERT_EQ(simulate(), 0) << log;
+  for (const auto& file : files()) EXPECT_EQ(mode_of(file), 0600u) << file;
+}
+
 TEST_F(PrivateFiles, AreOpenWhereTheImageIs) {
   ASSERT_EQ(import_raw(), 0) << log;
   EXPECT_EQ(mode_of(folder / "v.h5"), 0644u);

@@ -1,5 +1,5 @@
 #pragma once
-// A folder of its own for each test, removed at the end.
+// A folder of its own for each test, removed at the end. Others may enter it: what is private is for a test to say.
 
 #include <stdlib.h>
 
@@ -13,6 +13,7 @@ class ScratchFolder {
   ScratchFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "palpate-XXXXXX").string();
     path_ = mkdtemp(name.data());
+    std::filesystem::permissions(path_, std::filesystem::perms(0755));
   }
   ~ScratchFolder() {
     std::error_code ignored;

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include "tests/support/image/scratch_folder.h"
@@ -45,6 +46,26 @@ TEST(Privacy, CountsAGroupThatIsNotOursOnlyWhereAllMayRead) {
   EXPECT_EQ(withheld({path}), 0077u);
   ASSERT_EQ(chmod(path.c_str(), 0644), 0);
   EXPECT_EQ(withheld({path}), 0022u);
+}
+
+TEST(Privacy, CountsTheFoldersAboveWhoeverOpenTheFileIs) {
+  const ScratchFolder folder;
+  std::filesystem::create_directories(folder / "above/below");
+  const std::string path = folder / "above/below/a", link = folder / "link";
+  std::ofstream(path) << "image";
+  std::filesystem::create_symlink(path, link);
+  ASSERT_EQ(chmod(path.c_str(), 0644), 0);
+  const auto with = [&](mode_t above) {
+    EXPECT_EQ(chmod((folder / "above").c_str(), above), 0);
+    return withheld({path});
+  };
+  EXPECT_EQ(with(0755), 0022u);
+  EXPECT_EQ(with(0711), 0022u) << "who knows the name may read it";
+  EXPECT_EQ(with(0750), 0027u);
+  EXPECT_EQ(with(0705), 0072u);
+  EXPECT_EQ(with(0700), 0077u);
+  EXPECT_EQ(withheld({link}), 0077u) << "what a link in an open folder names";
+  EXPECT_EQ(with(0744), 0077u) << "a list of names is no way through";
 }
 
 TEST(Privacy, OnlyEverTakesRightsAway) {
