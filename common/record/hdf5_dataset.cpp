@@ -108,7 +108,7 @@ void Hdf5File::write(const std::string& path, const Shape& shape, const T* data)
 }
 
 template <class T>
-std::vector<T> Hdf5File::read(const std::string& path) const {
+std::vector<T> Hdf5File::read(const std::string& path, std::uint64_t most) const {
   hdf5::hush();
   const Handle dataset = open_dataset(file_, path);
   checked(dataset.get(), "there is no sound dataset " + path);
@@ -116,6 +116,8 @@ std::vector<T> Hdf5File::read(const std::string& path) const {
   if (kind != H5T_INTEGER && kind != H5T_FLOAT) fail("dataset " + path + " is not made of numbers");
   const Shape shape = shape_of(dataset.get());
   if (!holds_its_shape(dataset.get(), shape)) fail("dataset " + path + " holds less than its shape");
+  if (product(shape) > most)
+    fail(fmt::format("dataset {} has {} numbers; at most {}", path, product(shape), most));
   std::vector<T> values(product(shape));
   if (values.empty()) return values;
   checked(H5Dread(dataset.get(), hdf5::type_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
@@ -123,8 +125,14 @@ std::vector<T> Hdf5File::read(const std::string& path) const {
   return values;
 }
 
+std::string Hdf5File::read_text(const std::string& path, std::uint64_t most_bytes) const {
+  const auto bytes = read<std::uint8_t>(path, most_bytes);
+  return {bytes.begin(), bytes.end()};
+}
+
 template <class T>
-std::vector<T> Hdf5File::read_rows(const std::string& path, std::uint64_t first, std::uint64_t n) const {
+std::vector<T> Hdf5File::read_rows(const std::string& path, std::uint64_t first, std::uint64_t n,
+                                   std::uint64_t width) const {
   hdf5::hush();
   const Handle dataset = open_dataset(file_, path);
   checked(dataset.get(), "there is no sound dataset " + path);
@@ -132,6 +140,9 @@ std::vector<T> Hdf5File::read_rows(const std::string& path, std::uint64_t first,
   if (!holds_its_shape(dataset.get(), shape)) fail("dataset " + path + " holds less than its shape");
   auto count = extents_of(shape);
   if (count.empty() || n > count[0] || first > count[0] - n) fail("dataset " + path + " has fewer rows");
+  const std::uint64_t found = product({shape.begin() + 1, shape.end()});
+  if (width != no_limit && found != width)
+    fail(fmt::format("dataset {} has {} numbers in a row; {} are wanted", path, found, width));
   std::vector<hsize_t> start(count.size(), 0);
   start[0] = first;
   count[0] = n;
@@ -191,11 +202,12 @@ void Hdf5File::append(const std::string& path, const T* rows, std::uint64_t n_ro
           "cannot append to the series " + path);
 }
 
-#define PALPATE_INSTANTIATE(T)                                                                            \
-  template void Hdf5File::write<T>(const std::string&, const Shape&, const T*);                           \
-  template std::vector<T> Hdf5File::read<T>(const std::string&) const;                                    \
-  template std::vector<T> Hdf5File::read_rows<T>(const std::string&, std::uint64_t, std::uint64_t) const; \
-  template void Hdf5File::make_series<T>(const std::string&, const Shape&);                               \
+#define PALPATE_INSTANTIATE(T)                                                                     \
+  template void Hdf5File::write<T>(const std::string&, const Shape&, const T*);                    \
+  template std::vector<T> Hdf5File::read<T>(const std::string&, std::uint64_t) const;              \
+  template std::vector<T> Hdf5File::read_rows<T>(const std::string&, std::uint64_t, std::uint64_t, \
+                                                 std::uint64_t) const;                             \
+  template void Hdf5File::make_series<T>(const std::string&, const Shape&);                        \
   template void Hdf5File::append<T>(const std::string&, const T*, std::uint64_t);
 PALPATE_INSTANTIATE(float)
 PALPATE_INSTANTIATE(double)

@@ -16,6 +16,7 @@ namespace palpate {
 
 class Hdf5File {
  public:
+  static constexpr std::uint64_t no_limit = ~std::uint64_t{0};
   enum class Mode { read, create, record };  // create, record: a new file instead of what is there
   Hdf5File(const std::string& path, Mode mode);
   ~Hdf5File();
@@ -31,12 +32,18 @@ class Hdf5File {
   template <class T>
   void write(const std::string& path, const std::vector<std::uint64_t>& shape, const T* data);
   /// The numbers converted to T; look at shape() first where the file may be anybody's.
+  /// @param most  numbers; @throws if there are more, before any is read
   template <class T>
-  std::vector<T> read(const std::string& path) const;
+  std::vector<T> read(const std::string& path, std::uint64_t most = no_limit) const;
+
+  /// A text that is stored as bytes. @throws if it has more than `most_bytes`, before any is read
+  std::string read_text(const std::string& path, std::uint64_t most_bytes) const;
 
   /// Some rows of a dataset, along its first axis. @throws if it has fewer
+  /// @param width  numbers of a row; @throws if it has another number of them, before any is read
   template <class T>
-  std::vector<T> read_rows(const std::string& path, std::uint64_t first, std::uint64_t n) const;
+  std::vector<T> read_rows(const std::string& path, std::uint64_t first, std::uint64_t n,
+                           std::uint64_t width = no_limit) const;
 
   // Growing datasets: rows of fixed shape appended at the end. Rows of more than 64 KiB are deflated.
   template <class T>

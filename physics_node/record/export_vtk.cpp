@@ -16,6 +16,7 @@ namespace palpate::physics {
 namespace {
 
 namespace fs = std::filesystem;
+constexpr std::uint64_t most_rows = 1 << 24;  // snapshots of a body. Why: a day at 190 a second
 
 /// One body of the record: its series, and the mesh that they give.
 class ExportedBody {
@@ -37,12 +38,13 @@ class ExportedBody {
   }
 
   const std::string& name() const { return body().name; }
-  std::vector<double> times() const { return file_.read<double>(base_ + "/time"); }
+  std::vector<double> times() const { return file_.read<double>(base_ + "/time", most_rows); }
 
   /// The mesh of one recorded time.
   VtpMesh mesh(std::uint64_t row) {
     if (follows_breaks_) follow(row);
-    const auto position = file_.read_rows<float>(base_ + "/position", row, 1);
+    const auto position =
+        file_.read_rows<float>(base_ + "/position", row, 1, 3 * body().lattice.masses.size());
     std::vector<std::uint32_t> vertices;
     VtpMesh mesh = facets(true, vertices);
     VtpArray displacement{"displacement", 3, {}};
@@ -74,7 +76,7 @@ class ExportedBody {
   void look() { surface_ = make_surface(body(), live_, threshold_, rgba_); }
 
   void follow(std::uint64_t row) {
-    auto masks = file_.read_rows<Mask>(base_ + "/live", row, 1);
+    auto masks = file_.read_rows<Mask>(base_ + "/live", row, 1, body().lattice.masses.size());
     if (masks == masks_) return;
     masks_ = std::move(masks);
     live_.copy(body(), masks_);
@@ -85,7 +87,8 @@ class ExportedBody {
   std::size_t number_of(std::uint32_t vertex) const { return number_[static_cast<std::size_t>(surface_.cell[vertex])]; }
 
   VtpArray yielded_share(std::uint64_t row, const std::vector<std::uint32_t>& vertices) const {
-    const auto shares = file_.read_rows<std::uint8_t>(base_ + "/yielded", row, 1);
+    const auto shares =
+        file_.read_rows<std::uint8_t>(base_ + "/yielded", row, 1, body().lattice.masses.size());
     VtpArray array{"yielded_share", 1, {}};
     for (const std::uint32_t v : vertices)
       array.values.push_back(moves(v) ? static_cast<float>(shares[number_of(v)]) / 255.0F : 0.0F);
@@ -137,13 +140,15 @@ class ExportedTool {
     std::uint64_t first = 0, last = n_;  // rows before `first` are not after t, those from `last` on are
     while (first < last) {
       const std::uint64_t middle = first + (last - first) / 2;
-      (file_.read_rows<double>(path_, middle, 1).at(0) <= t + 1e-9 ? first = middle + 1 : last = middle);
+      (file_.read_rows<double>(path_, middle, 1, width).at(0) <= t + 1e-9 ? first = middle + 1
+                                                                          : last = middle);
     }
     if (first == 0) return std::nullopt;
-    return file_.read_rows<double>(path_, first - 1, 1);
+    return file_.read_rows<double>(path_, first - 1, 1, width);
   }
 
  private:
+  static constexpr std::uint64_t width = 10;
   const Hdf5File& file_;
   std::string path_;
   std::uint64_t n_;

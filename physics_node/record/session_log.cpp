@@ -12,8 +12,6 @@
 namespace palpate::physics {
 namespace {
 
-constexpr std::uintmax_t most_kept_bytes = std::uintmax_t{512} << 20;  // of the files of a scene, together
-
 std::vector<std::uint8_t> bytes_of_file(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(in), {}};

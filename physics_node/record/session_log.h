@@ -19,6 +19,8 @@
 namespace palpate::physics {
 
 inline constexpr std::int64_t frames_between_hashes = 20;
+inline constexpr std::uint64_t most_kept_bytes = std::uint64_t{512}
+                                                 << 20;            // of the files of a scene, together
 inline constexpr std::uint64_t index_width = 7, state_width = 25;  // columns of /session/inputs/NAME/index and state
 
 class SessionLog {

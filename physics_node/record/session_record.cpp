@@ -1,14 +1,17 @@
 #include "physics_node/record/session_record.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "common/error/error.h"
 #include "common/record/check_file.h"
+#include "common/record/dataset_list.h"
 #include "common/scene/load_scene.h"
 #include "physics_node/record/session_log.h"
 
@@ -17,6 +20,32 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr std::uint64_t block_rows = 4096;
+// Of lists that a session keeps as a whole. Why: two numbers a second, and what people do, in a year and more.
+constexpr std::uint64_t most_numbers = 1 << 26;
+constexpr std::uint64_t most_scene_bytes = 1 << 24;  // sixteen times what a scene file may have
+constexpr std::uint64_t most_list_bytes = 1 << 24;   // of settings, and of the names of files
+
+/// What a scene cannot need is refused before it is read, so before the file is checked as well.
+void refuse_excess(const std::string& path) {
+  const std::map<std::string, std::uint64_t> most = {
+      {"/scene/text", most_scene_bytes},        {"/scene/settings", most_list_bytes},
+      {"/scene/files", most_list_bytes},        {"/session/flushed", most_numbers},
+      {"/session/hashes", most_numbers},        {"/session/commands", most_numbers},
+      {"/session/command_values", most_numbers}};
+  for (const DatasetFacts& dataset : list_datasets(path)) {
+    const auto known = most.find(dataset.path);
+    const bool image = dataset.path.starts_with("/scene/file_");
+    if (known == most.end() && !image) continue;
+    const std::uint64_t limit = image ? most_kept_bytes : known->second;
+    std::uint64_t numbers = 1;
+    for (const auto extent : dataset.shape)
+      numbers = extent > limit ? limit + 1 : std::min(numbers * extent, limit + 1);
+    if (numbers > limit)
+      throw InputError(
+          fmt::format("{}: dataset {} has {} numbers; at most {} can be of a session; it is damaged", path,
+                      dataset.path, fmt::join(dataset.shape, " x "), limit));
+  }
+}
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
@@ -56,6 +85,7 @@ void write_bytes(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
 
 SessionRecord::SessionRecord(const std::string& path) : path_(path) {
   if (!fs::is_regular_file(path)) throw InputError(path + ": no such file; give the record.h5 of a run");
+  refuse_excess(path);
   check_file(path);
   try {
     file_ = std::make_unique<Hdf5File>(path, Hdf5File::Mode::read);
@@ -85,8 +115,7 @@ SessionRecord::SessionRecord(const std::string& path) : path_(path) {
 }
 
 std::string SessionRecord::text_of(const std::string& dataset) const {
-  const auto bytes = file_->read<std::uint8_t>(dataset);
-  return {bytes.begin(), bytes.end()};
+  return file_->read_text(dataset, most_scene_bytes);
 }
 
 SessionRecord::LaidOut SessionRecord::lay_out(const std::string& folder) const {
@@ -101,7 +130,7 @@ SessionRecord::LaidOut SessionRecord::lay_out(const std::string& folder) const {
     if (file_->has(dataset)) {
       path =
           (fs::path(folder) / fmt::format("file_{:05}{}", f, fs::path(path).extension().string())).string();
-      write_bytes(path, file_->read<std::uint8_t>(dataset));
+      write_bytes(path, file_->read<std::uint8_t>(dataset, most_kept_bytes));
     }
     source.files.push_back({body, path, kind == "slice"});
   }
@@ -115,8 +144,8 @@ void SessionRecord::read_block(const std::string& tool, Track& track) const {
   const std::string base = "/session/inputs/" + tool;
   track.block_first = track.next;
   const std::uint64_t n = std::min(block_rows, track.n_rows - track.next);
-  track.index = file_->read_rows<std::uint64_t>(base + "/index", track.next, n);
-  track.state = file_->read_rows<double>(base + "/state", track.next, n);
+  track.index = file_->read_rows<std::uint64_t>(base + "/index", track.next, n, index_width);
+  track.state = file_->read_rows<double>(base + "/state", track.next, n, state_width);
 }
 
 void SessionRecord::inputs(std::uint64_t frame, const std::vector<ToolSpec>& specs,

@@ -144,5 +144,17 @@ TEST(Hdf5File, AKilledWriterLeavesWhatItFlushed) {
   for (std::uint64_t i = 0; i < flushed; ++i) ASSERT_EQ(trace[7 * i + 3], static_cast<double>(i));
 }
 
+TEST(Hdf5File, ReadsNoMoreThanWasExpected) {
+  const ScratchFolder folder;
+  const std::string path = folder / "a.h5";
+  Hdf5File file(path, Hdf5File::Mode::create);
+  const std::vector<std::uint8_t> bytes{'t', 'e', 'x', 't', '!', '!'};
+  file.write<std::uint8_t>("/rows", {3, 2}, bytes.data());
+  EXPECT_EQ(file.read_text("/rows", 6), "text!!");
+  EXPECT_THROW(static_cast<void>(file.read_text("/rows", 5)), std::runtime_error);
+  EXPECT_EQ(file.read_rows<double>("/rows", 1, 2, 2).size(), 4u);
+  EXPECT_THROW(static_cast<void>(file.read_rows<double>("/rows", 1, 2, 3)), std::runtime_error);
+}
+
 }  // namespace
 }  // namespace palpate
