@@ -194,6 +194,25 @@ void check_named_files(const House& house, Words& breaches) {
   if (n == 0) breaches.push_back(page + ":1: names no file; list those that a change touches");
 }
 
+/// What any page calls a file or folder of the house is the beginning of one, since many are named without their ending.
+void check_mentioned_files(const House& house, Words& breaches) {
+  static const std::regex path(
+      "`((?:idl|common|physics_node|haptic_node|render_node|deploy|bench|tests|scenes|cmake)/[\\w./"
+      "*{}-]*)[^`]*`");
+  for (const auto& [page, file] : house.files) {
+    if (!page.ends_with(".md") || page == "docs/contributing.md") continue;
+    for (std::size_t i = 0; i < file->lines.size(); ++i)
+      for (const auto& name : matches_of({page, {file->lines[i]}}, path)) {
+        const auto begin = name.substr(0, name.find_first_of("*{"));
+        const auto known = begin.substr(0, begin.find("NAME"));
+        const auto found = house.files.lower_bound(known);
+        if (found == house.files.end() || !found->first.starts_with(known))
+          breaches.push_back(page + ":" + std::to_string(i + 1) + ": there is no " + name +
+                             "; name the file as it is called today");
+      }
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> page_breaches(const std::vector<SourceFile>& files) {
@@ -205,6 +224,7 @@ std::vector<std::string> page_breaches(const std::vector<SourceFile>& files) {
   check_driver_options(house, breaches);
   check_summary_words(house, breaches);
   check_named_files(house, breaches);
+  check_mentioned_files(house, breaches);
   return breaches;
 }
 

@@ -62,6 +62,13 @@ TEST_F(PlantedHouse, RefusesListsThatNameNoFile) {
   EXPECT_THAT(breach("docs/contributing.md", "nothing\n"), HasSubstr("names no file"));
 }
 
+TEST_F(PlantedHouse, RefusesPagesThatMentionFilesOfTheDayBefore) {
+  EXPECT_TRUE(is_fine(
+      "docs/a.md", "`common/math/sum`, `common/math/{sum,units}`, `physics_node/main.cpp`, `other/x.h`\n"));
+  EXPECT_THAT(breach("docs/a.md", "\nin `common/maths/sum`\n"),
+              StartsWith("docs/a.md:2: there is no common/maths/sum"));
+}
+
 TEST_F(PlantedHouse, RefusesLinksThatLeadNowhere) {
   plant("docs/b.md", "# B\n\n## The `guard`, again\n");
   EXPECT_TRUE(
