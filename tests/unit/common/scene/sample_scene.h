@@ -1,12 +1,12 @@
 #pragma once
-// A scene that uses every key, and what the tests of the reader do with it.
+// A scene that uses most keys, and what the tests of the reader do with it. scene_tables.h has every key.
 
 #include <string>
 #include <vector>
 
 namespace palpate::test {
 
-/// Every key of a scene file once. The volume it names lies in scene_folder().
+/// Most keys of a scene file once. The volume it names lies in scene_folder().
 extern const char* const full_scene;
 
 /// The shortest scene that is right.
