@@ -154,6 +154,7 @@ void Recorder::work() noexcept {
 void Recorder::finish(const World& world) {
   if (finished_) return;
   finished_ = true;
+  note_end(world);
   session_->end(world);
   stop_ = true;
   thread_.join();

@@ -104,7 +104,20 @@ void Recorder::note_positions(const World& world) noexcept {
     ++dropped_;
     return;
   }
-  snapshot.t = world.t();
+  take_snapshot(world, snapshot);
+}
+
+/// The end is what a person looks at first: it is not left to the rate.
+void Recorder::note_end(const World& world) noexcept {
+  if (!spec_.positions || world.t() <= snapshot_t_ + 1e-9) return;
+  Snapshot& snapshot = *snapshots_[next_snapshot_];
+  while (snapshot.full && !failed_)
+    std::this_thread::sleep_for(std::chrono::microseconds(200));  // it is being written
+  if (!snapshot.full) take_snapshot(world, snapshot);
+}
+
+void Recorder::take_snapshot(const World& world, Snapshot& snapshot) noexcept {
+  snapshot.t = snapshot_t_ = world.t();
   for (std::size_t b = 0; b < world.n_bodies(); ++b) {
     std::size_t n = 0;
     for (const Index cell : world.body(b).body().lattice.masses) {

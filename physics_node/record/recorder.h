@@ -41,7 +41,7 @@ class Recorder {
   /// The disk took no more: what came since is lost, and finish() will say so.
   bool failed() const noexcept { return failed_; }
 
-  /// Writes what is left and closes the files. @throws std::runtime_error: disk full
+  /// Takes the positions at the end, writes what is left and closes the files. @throws std::runtime_error: disk full
   void finish(const World& world);
 
   /// CSV of a tool, relative to the folder.
@@ -85,6 +85,8 @@ class Recorder {
   void note_tools(const World& world) noexcept;
   void note_energy(const World& world) noexcept;
   void note_positions(const World& world) noexcept;
+  void note_end(const World& world) noexcept;
+  void take_snapshot(const World& world, Snapshot& snapshot) noexcept;
   /// Is it time for the next of what comes rate_Hz times a second? Counts it if so.
   bool is_due(const World& world, std::int64_t& n) const noexcept;
   /// Waits a little for the thread that writes, if it may. @return false if it may not
@@ -112,6 +114,7 @@ class Recorder {
   std::size_t next_snapshot_ = 0;  // frame()'s
   std::size_t next_written_ = 0;   // the thread's
   std::int64_t snapshots_due_ = 0;
+  double snapshot_t_ = -1;  // of the newest one [s]; below 0: none
   std::int64_t energies_due_ = 0;
   std::uint64_t dropped_ = 0;
   std::atomic<bool> stop_{false};

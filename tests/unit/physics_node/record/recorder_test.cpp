@@ -104,6 +104,31 @@ TEST_F(Recording, KeepsPositionsAtTheRateAskedFor) {
   for (const auto corner : file.read<std::uint32_t>("/bodies/body/facets")) ASSERT_LT(corner, n_masses_);
 }
 
+TEST(Recorder, KeepsTheEndOfARunThatEndsBetweenTwoSnapshots) {
+  for (const auto when_behind : {Recorder::WhenBehind::wait, Recorder::WhenBehind::drop}) {
+    const ScratchFolder folder;
+    Recipe recipe = pressed_slab_recipe();
+    recipe.world += "[record]\nwhat = [\"positions\"]\nrate_Hz = 50\n";
+    World world(scene_of(recipe));
+    Recorder recorder(world, SceneSource{}, folder.path(), when_behind);
+    for (int n = 0; n < 27; ++n) {
+      const auto hand = steady_hand({0, 0, 1.5});
+      run(world, hand, 1);
+      recorder.frame(world, std::span(&hand, 1));
+    }
+    recorder.finish(world);
+    const Hdf5File file(folder / "record.h5", Hdf5File::Mode::read);
+    const auto times = file.read<double>("/bodies/body/time");
+    ASSERT_EQ(times.size(), 3u);
+    EXPECT_NEAR(times[1], 0.02, 1e-9);
+    EXPECT_NEAR(times[2], world.t(), 1e-12);
+    const auto positions = file.read<float>("/bodies/body/position");
+    const auto& body = world.body(0);
+    const Index top = body.body().lattice.masses.back();
+    EXPECT_EQ(positions.back(), static_cast<float>(body.position(top).z())) << "where it is then";
+  }
+}
+
 TEST(Recorder, SaysWhereItCannotWrite) {
   const World world(pressed_slab());
   EXPECT_THROW(Recorder(world, SceneSource{}, "/nowhere/at/all", Recorder::WhenBehind::drop),
