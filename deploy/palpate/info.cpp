@@ -17,9 +17,33 @@
 namespace palpate::deploy {
 namespace {
 
+/// Instead of a file; empty: it is one.
+std::string what_it_is(std::filesystem::file_status status) {
+  using Type = std::filesystem::file_type;
+  switch (status.type()) {
+    case Type::regular:
+      return {};
+    case Type::not_found:
+      return "no such file";
+    case Type::directory:
+      return "is a folder";
+    case Type::fifo:
+      return "is a pipe, not a file";
+    case Type::socket:
+      return "is a socket, not a file";
+    case Type::character:
+    case Type::block:
+      return "is a device, not a file";
+    default:
+      return "cannot be looked at; check the rights of the folders above it";
+  }
+}
+
 std::string info(const std::string& path) {
-  if (!std::filesystem::is_regular_file(path))
-    throw InputError(fmt::format("{}: no such file; give a volume, scene or record", path));
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (const std::string what = what_it_is(status); !what.empty())
+    throw InputError(fmt::format("{}: {}; give a volume, scene or record", path, what));
   const std::string extension = std::filesystem::path(path).extension().string();
   if (extension == ".toml") return info_scene(path);
   try {

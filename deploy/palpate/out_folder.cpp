@@ -6,7 +6,11 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <fstream>
+#include <regex>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "common/error/error.h"
 #include "render_node/image/own_picture.h"
@@ -20,6 +24,35 @@ void remove_pictures(const fs::path& folder) {
   std::error_code error;
   for (const auto& picture : render::own_pictures(folder))
     fs::remove(folder / render::frame_name(picture.number), error);
+}
+
+/// Begins as palpate begins such a file, and is no link.
+bool is_own(const fs::path& file, const std::string& beginning) {
+  std::error_code error;
+  if (fs::is_symlink(file, error) || !fs::is_regular_file(file, error)) return false;
+  std::string found(beginning.size(), '\0');
+  std::ifstream(file, std::ios::binary).read(found.data(), static_cast<std::streamsize>(found.size()));
+  return found == beginning;
+}
+
+/// Traces and exports of an earlier run, which would lie beside the new results as if they were of them.
+void remove_results(const fs::path& out) {
+  static const std::regex trace("tool_.+\\.csv"),
+      mesh("(body_.+_[0-9]{5,}|scenery_.+|tools_[0-9]{5,})\\.vtp");
+  std::error_code error;
+  if (is_own(out / "energy.csv", "t_s,kinetic_J,")) fs::remove(out / "energy.csv", error);
+  const std::string xml = "<?xml version=\"1.0\"?>\n<VTKFile type=";
+  if (is_own(out / "record.pvd", xml)) fs::remove(out / "record.pvd", error);
+  const auto remove_named = [&](const fs::path& folder, const std::regex& name,
+                                const std::string& beginning) {
+    std::vector<fs::path> found;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+      if (std::regex_match(entry->path().filename().string(), name) && is_own(entry->path(), beginning))
+        found.push_back(entry->path());
+    for (const auto& file : found) fs::remove(file, error);
+  };
+  remove_named(out, trace, "t_s,x_m,y_m,z_m,fx_N,");
+  remove_named(out / "vtk", mesh, xml);
 }
 
 /// What lies behind a link is somebody else's.
@@ -58,6 +91,7 @@ HeldFolder prepare_out(const fs::path& out) {
   for (const char* name : {"physics.json", "haptic.json", "render.json"})
     fs::remove(out / "parts" / name, error);
   remove_pictures(out / "frames");
+  remove_results(out);
   return held;
 }
 

@@ -52,6 +52,8 @@ TEST(Command, AnswersAMistakeWithOneLineAndExitCodeTwo) {
   expect_mistake("run /no/such/scene.toml", "/no/such/scene.toml: no such file");
   expect_mistake("info", "file is required");
   expect_mistake("info /no/such/file.h5", "/no/such/file.h5: no such file");
+  expect_mistake("info /dev/zero", "/dev/zero: is a device, not a file");
+  expect_mistake("info /tmp", "/tmp: is a folder; give a volume");
   expect_mistake("info " + test::quoted(PALPATE), "is no file of palpate; give a volume");
   expect_mistake("plot /no/such/folder", "/no/such/folder: has no summary.json");
 }

@@ -37,6 +37,29 @@ TEST(OutFolder, IsMadeAndFreedOfAnEarlierSession) {
     EXPECT_TRUE(fs::exists(out / "frames" / name)) << name;
 }
 
+TEST(OutFolder, LosesTheResultsOfAnEarlierRunAndNothingElse) {
+  const test::TemporaryFolder folder;
+  const fs::path out = folder / "out";
+  fs::create_directories(out / "vtk");
+  const std::string xml = "<?xml version=\"1.0\"?>\n<VTKFile type=\"", tool = "t_s,x_m,y_m,z_m,fx_N,fy_N\n";
+  folder.write("out/energy.csv", "t_s,kinetic_J,elastic_J\n0,1,2\n");
+  folder.write("out/tool_tip.csv", tool);
+  folder.write("out/record.pvd", xml + "Collection\">");
+  folder.write("out/vtk/body_organ_00000.vtp", xml + "PolyData\">");
+  folder.write("out/tool_mine.csv", "my own numbers\n");
+  folder.write("out/traces.csv", tool);
+  folder.write("out/vtk/mine.vtp", xml + "PolyData\">");
+  folder.write("out/vtk/tools_00001.vtp", "mine");
+  folder.write("elsewhere.csv", tool);
+  fs::create_symlink(folder / "elsewhere.csv", out / "tool_link.csv");
+  (void)prepare_out(out);
+  for (const char* name : {"energy.csv", "tool_tip.csv", "record.pvd", "vtk/body_organ_00000.vtp"})
+    EXPECT_FALSE(fs::exists(out / name)) << name;
+  for (const char* name :
+       {"tool_mine.csv", "traces.csv", "vtk/mine.vtp", "vtk/tools_00001.vtp", "tool_link.csv"})
+    EXPECT_TRUE(fs::exists(out / name)) << name;
+}
+
 TEST(OutFolder, FollowsNoLinks) {
   const test::TemporaryFolder folder;
   const fs::path out = folder / "out", elsewhere = folder / "elsewhere";
