@@ -18,11 +18,15 @@ namespace palpate {
 namespace {
 
 constexpr std::uintmax_t most_bytes = 1024 * 1024;
+constexpr std::size_t most_title_bytes = 1000;  // Why: a record has room for 60 kB, a window's bar for a line
 
 void read_root(toml::table& table, ReadContext& context) {
   auto root = TableReader::of_file(table, context.scene.path, context.complaints);
   auto& scene = context.scene;
   set_if(scene.title, root.read_text("title"));
+  if (scene.title.size() > most_title_bytes)
+    root.complain("title", fmt::format("\"title\" has {} bytes; at most {} are kept with what comes of it",
+                                       scene.title.size(), most_title_bytes));
   if (const auto seed = root.read_integer("seed", 0, std::numeric_limits<std::int64_t>::max()))
     scene.seed = static_cast<std::uint64_t>(*seed);
   set_if(scene.gravity, root.read_vector("gravity_m_per_s2", {.lo = -1e4, .hi = 1e4}));

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
 
 #include "common/error/error.h"
 
@@ -20,6 +22,43 @@ bool any_yields(const Scene& scene) {
                      [](const MaterialSpec& material) { return material.yield_ratio.has_value(); });
 }
 
+/// Whose step is the shortest, and what would do.
+struct Culprit {
+  std::string place, advice;
+  double step = 0;  // [s]
+};
+
+/// A wave crosses a spacing in h sqrt(rho / E), a damper lets it go in rho h^2 / eta: good to a factor of a few, as is
+/// what it advises. Of materials that are given by the bulk; of others nothing is known here.
+std::optional<Culprit> shortest_step(const Scene& scene) {
+  constexpr double margin = 4;  // Why: a lattice is stable for about half the time that a wave takes
+  const double shortest = margin / (scene.physics.frame_Hz * most_steps_a_frame);
+  std::optional<Culprit> found;
+  for (const BodySpec& body : scene.bodies)
+    for (const MaterialSpec& material : scene.materials) {
+      const bool of_region =
+          std::any_of(body.regions.begin(), body.regions.end(),
+                      [&](const RegionSpec& region) { return region.material == material.name; });
+      if ((material.name != body.material && !of_region) || !material.density || !body.spacing) continue;
+      const double rho = *material.density, h = *body.spacing, modulus = material.modulus.value_or(0),
+                   eta = material.viscosity_bulk.value_or(0);
+      const double elastic = modulus > 0 ? h * std::sqrt(rho / modulus) : HUGE_VAL,
+                   viscous = eta > 0 ? rho * h * h / eta : HUGE_VAL, step = std::min(elastic, viscous);
+      if (!std::isfinite(step) || (found && found->step <= step)) continue;
+      const std::string most =
+          elastic <= viscous
+              ? fmt::format("modulus_kPa of at most about {:.2g}", 1e-3 * rho * std::pow(h / shortest, 2))
+              : fmt::format("viscosity_Pa_s of at most about {:.2g}", rho * h * h / shortest);
+      const double least = std::max(modulus * std::pow(shortest / h, 2), eta * shortest / (h * h));
+      found = {material.place.text(),
+               fmt::format(
+                   "give [material.{}] of body \"{}\" a {}, or a density_kg_per_m3 of at least about {:.2g}",
+                   material.name, body.name, most, least),
+               step};
+    }
+  return found;
+}
+
 }  // namespace
 
 double steps_a_frame(const Scene& scene, double stable_dt) {
@@ -27,13 +66,14 @@ double steps_a_frame(const Scene& scene, double stable_dt) {
                wanted = scene.physics.step.value_or(scene.physics.safety * stable_dt);
   const double steps = std::isfinite(wanted) ? std::max(1.0, std::ceil(frame / wanted - 1e-9)) : 1;
   if (steps <= most_steps_a_frame) return steps;
-  throw InputError(fmt::format(
-      "{}: a step of {:.2g} s would cut a frame into {:.2g}; {:g} may be: give softer or heavier material, a "
-      "wider spacing, or a "
-      "longer step",
-      scene.physics.place.line == 0 && scene.physics.place.file.empty() ? scene.path
-                                                                        : scene.physics.place.text(),
-      wanted, steps, most_steps_a_frame));
+  const std::string numbers = fmt::format("a step of {:.2g} s would cut a frame into {:.2g}; {:g} may be",
+                                          wanted, steps, most_steps_a_frame);
+  if (!scene.physics.step)
+    if (const auto culprit = shortest_step(scene))
+      throw InputError(fmt::format("{}: {}: {}", culprit->place, numbers, culprit->advice));
+  const bool placed = scene.physics.place.line != 0 || !scene.physics.place.file.empty();
+  throw InputError(fmt::format("{}: {}: give softer or heavier material, a wider spacing, or a longer step",
+                               placed ? scene.physics.place.text() : scene.path, numbers));
 }
 
 SpeedForecast forecast_speed(const Scene& scene, double masses, double stable_dt) {

@@ -230,6 +230,21 @@ TEST(SceneReader, LoadsAFile) {
   EXPECT_EQ(scene.bodies.size(), 4u);
 }
 
+TEST(SceneReader, RefusesATitleThatNoRecordHasRoomFor) {
+  const auto complaints = [](std::size_t n) {
+    try {
+      parse_scene("title = \"" + std::string(n, 'x') + "\"\n", "s.toml");
+    } catch (const InputError& error) {
+      return error.complaints();
+    }
+    return std::vector<std::string>();
+  };
+  const auto about_title =
+      testing::Contains(testing::StartsWith("s.toml:1:9: \"title\" has 1001 bytes; at most 1000 "));
+  EXPECT_THAT(complaints(1001), about_title);
+  EXPECT_THAT(complaints(1000), testing::Not(testing::Contains(HasSubstr("title"))));
+}
+
 TEST(SceneReader, RefusesWhatIsNoSceneFile) {
   const auto folder = test::scene_folder();
   EXPECT_EQ(load_complaint(folder + "/none.toml"), folder + "/none.toml: no such file; give the path of a scene file (TOML)");

@@ -9,6 +9,7 @@
 
 #include <csignal>
 #include <regex>
+#include <tuple>
 
 #include "common/error/error.h"
 #include "common/scene/load_scene.h"
@@ -280,6 +281,32 @@ TEST(SceneNumbers, EveryOneEndsWithASceneOrAComplaint) {
   }
   EXPECT_GT(refused, 1000);
   EXPECT_GT(taken, 100);
+}
+
+/// What is absurd in a material is named with its place and with what would do.
+TEST(SpeedForecast, NamesTheMaterialWhoseStepIsTooShort) {
+  const auto complaint = [](const std::string& density, const std::string& rest) {
+    const std::string text =
+        "[[body]]\nname = \"b\"\nmaterial = \"clay\"\nshape = \"box\"\nsize_mm = [30, 30, 30]\nspacing_mm = "
+        "5\n"
+        "[material.clay]\ndensity_kg_per_m3 = " +
+        density + "\n" + rest;
+    try {
+      const World world(parse_scene(text, "s.toml"));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  for (const auto& [density, rest, word] :
+       {std::tuple{"1000", "modulus_kPa = 1e12", "modulus_kPa of at most about"},
+        std::tuple{"1000", "modulus_kPa = 10\nviscosity_Pa_s = 1e12", "viscosity_Pa_s of at most"},
+        std::tuple{"1e-12", "modulus_kPa = 10", "density_kg_per_m3 of at least about"}}) {
+    const std::string said = complaint(density, rest);
+    EXPECT_THAT(said, testing::StartsWith("s.toml:7:")) << rest;
+    EXPECT_THAT(said, testing::HasSubstr("[material.clay] of body \"b\"")) << rest;
+    EXPECT_THAT(said, testing::HasSubstr(word)) << rest;
+  }
 }
 
 }  // namespace
