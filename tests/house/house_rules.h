@@ -28,6 +28,9 @@ std::vector<std::string> data_breaches(const SourceFile& file);     // data and 
 std::vector<std::string> page_breaches(const std::vector<SourceFile>& files);
 std::vector<std::string> link_breaches(const std::vector<SourceFile>& files);  // from page to page
 
+/// The same of rooms without unit tests, in a house that has any.
+std::vector<std::string> mirror_breaches(const std::vector<SourceFile>& files);
+
 /// All of them, for all files.
 std::vector<std::string> house_breaches(const std::filesystem::path& root);
 

@@ -61,6 +61,7 @@ std::vector<std::string> house_breaches(const fs::path& root) {
   }
   append(breaches, page_breaches(files));
   append(breaches, link_breaches(files));
+  append(breaches, mirror_breaches(files));
   return breaches;
 }
 
