@@ -11,12 +11,16 @@ namespace {
 /// Rooms without unit tests of their own name, and where their tests are.
 const std::map<std::string, std::string>& excused() {
   static const std::map<std::string, std::string> rooms = {
-      {"common/error", "a class and a macro; tests/unit/common/scene and tests/system/command_test.cpp see what they print"},
-      {"common/math", "constants and hashes; angles: tests/unit/physics_node/contact, hashes: tests/property/physics_golden_test.cpp"},
+      {"common/error",
+       "a class and a macro; tests/unit/common/scene and tests/system/command_test.cpp see what they print"},
+      {"common/math",
+       "constants and hashes; angles: tests/unit/physics_node/contact, hashes: "
+       "tests/property/physics_golden_test.cpp"},
       {"common/message", "plain structs; tests/unit/common/wire/convert_test.cpp sends each"},
       {"haptic_node/drivers/forcedimension", "tests/unit/haptic_node/drivers/forcedimension_driver_test.cpp"},
       {"haptic_node/drivers/inverse3", "tests/unit/haptic_node/drivers/inverse3_driver_test.cpp"},
-      {"haptic_node/drivers/kit", "tests/unit/haptic_node/drivers/plugin_abi_test.cpp opens each driver made with it"},
+      {"haptic_node/drivers/kit",
+       "tests/unit/haptic_node/drivers/plugin_abi_test.cpp opens each driver made with it"},
       {"haptic_node/drivers/mouse", "tests/unit/haptic_node/drivers/mouse_driver_test.cpp"},
       {"haptic_node/drivers/openhaptics", "tests/unit/haptic_node/drivers/openhaptics_driver_test.cpp"},
       {"haptic_node/drivers/openigtlink", "tests/unit/haptic_node/drivers/openigtlink_driver_test.cpp"},
@@ -39,9 +43,11 @@ std::vector<std::string> mirror_breaches(const std::vector<SourceFile>& files) {
   for (const SourceFile& file : files) {
     const std::string folder = folder_of(file.path);
     for (const auto* top : {"common/", "physics_node/", "haptic_node/", "render_node/"})
-      if (file.path.starts_with(top) && folder.find('/') != folder.npos && (ends_with(file.path, ".h") || ends_with(file.path, ".cpp")))
+      if (file.path.starts_with(top) && folder.find('/') != folder.npos &&
+          (ends_with(file.path, ".h") || ends_with(file.path, ".cpp")))
         rooms.insert(folder);
-    if (file.path.starts_with("tests/unit/") && ends_with(file.path, "_test.cpp")) tested.insert(folder.substr(11));
+    if (file.path.starts_with("tests/unit/") && ends_with(file.path, "_test.cpp"))
+      tested.insert(folder.substr(11));
   }
   std::vector<std::string> breaches;
   if (tested.empty()) return breaches;

@@ -60,17 +60,22 @@ TEST(CountTests, CountsCasesAndNamesThoseThatFailed) {
   results.program("a", "run");
   results.cases("a", passing("One") + passing("Two"));
   results.program("b", "fail");
-  results.cases("b", passing("Three") + "<testcase name=\"Four\" status=\"run\" classname=\"S\"><failure message=\"1 is not 2\"/></testcase>");
+  results.cases("b", passing("Three") +
+                         "<testcase name=\"Four\" status=\"run\" classname=\"S\"><failure message=\"1 is not "
+                         "2\"/></testcase>");
   EXPECT_EQ(results.counted(), "failed: b: S.Four\n3 passed, 1 failed, 0 skipped\n");
 }
 
 TEST(CountTests, NamesDisabledCasesAndProgramsThatAreLeftOut) {
   Results results;
   results.program("a", "run");
-  results.cases("a", passing("One") + "<testcase name=\"DISABLED_Two\" status=\"notrun\" result=\"suppressed\" classname=\"S\"/>");
+  results.cases(
+      "a", passing("One") +
+               "<testcase name=\"DISABLED_Two\" status=\"notrun\" result=\"suppressed\" classname=\"S\"/>");
   results.program("b", "disabled");
-  EXPECT_EQ(results.counted(), "skipped: a: S.DISABLED_Two: disabled\nskipped: b: left out of this build\n"
-                               "1 passed, 0 failed, 2 skipped\n");
+  EXPECT_EQ(results.counted(),
+            "skipped: a: S.DISABLED_Two: disabled\nskipped: b: left out of this build\n"
+            "1 passed, 0 failed, 2 skipped\n");
 }
 
 TEST(CountTests, CountsProgramsThatDieOrRunNothingAsFailed) {
@@ -92,7 +97,8 @@ TEST(CountTests, CountsProgramsThatDieOrRunNothingAsFailed) {
 
 TEST(CountTests, FailsWithoutResultsOfCTest) {
   const Results results;
-  EXPECT_THAT(results.counted_from(results.folder() / "nowhere.xml"), EndsWith("\n0 passed, 1 failed, 0 skipped\n"));
+  EXPECT_THAT(results.counted_from(results.folder() / "nowhere.xml"),
+              EndsWith("\n0 passed, 1 failed, 0 skipped\n"));
 }
 
 /// A case that skips when the test below asks it to; CTest sees it pass.
@@ -108,8 +114,9 @@ TEST(CountTests, NamesSkippedCasesAndTheirReasons) {
   const auto run = "'" + std::filesystem::read_symlink("/proc/self/exe").string() +
                    "' --gtest_filter='SampleOfASkippedCase.*' --gtest_output='xml:" + xml.string() + "'";
   output_of("PALPATE_SKIP_A_SAMPLE=1 " + run);
-  EXPECT_THAT(results.counted(), testing::MatchesRegex("skipped: sample: SampleOfASkippedCase.SkipsWhenAsked: "
-                                                       ".*no device here\n0 passed, 0 failed, 1 skipped\n"));
+  EXPECT_THAT(results.counted(),
+              testing::MatchesRegex("skipped: sample: SampleOfASkippedCase.SkipsWhenAsked: "
+                                    ".*no device here\n0 passed, 0 failed, 1 skipped\n"));
   output_of(run);
   EXPECT_EQ(results.counted(), "1 passed, 0 failed, 0 skipped\n");
 }

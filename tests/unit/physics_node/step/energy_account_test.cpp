@@ -34,9 +34,10 @@ TEST(EnergyLedger, MissesNothingWhereAllIsBooked) {
 
 /// Whatever is lost and not booked is missing by itself; so is what appears.
 TEST(EnergyLedger, MissesEachPlaceByWhatItLacks) {
-  for (double EnergyLedger::* place :
-       {&EnergyLedger::kinetic, &EnergyLedger::elastic, &EnergyLedger::gravitational, &EnergyLedger::dissipated,
-        &EnergyLedger::plastic, &EnergyLedger::numerical, &EnergyLedger::broken, &EnergyLedger::contact, &EnergyLedger::guard}) {
+  for (double EnergyLedger::*place :
+       {&EnergyLedger::kinetic, &EnergyLedger::elastic, &EnergyLedger::gravitational,
+        &EnergyLedger::dissipated, &EnergyLedger::plastic, &EnergyLedger::numerical, &EnergyLedger::broken,
+        &EnergyLedger::contact, &EnergyLedger::guard}) {
     EnergyLedger ledger = balanced_ledger();
     ledger.*place -= 0.25;
     EXPECT_DOUBLE_EQ(ledger.missing(), 0.25);
@@ -103,7 +104,8 @@ TEST(EnergyAccount, WritesOffWhatAGuardTook) {
 TEST(Rebound, IsThatOfItsRestitution) {
   for (const double e : {0.0, 0.3, 1.0}) {
     EXPECT_DOUBLE_EQ(-2.0 + rebound(e, -2.0, -2.0), 2.0 * e) << "an impact";
-    EXPECT_DOUBLE_EQ(-0.02 + rebound(e, -0.01, -0.02), 0.0) << "at rest, pressed on: all of the step's approach goes back";
+    EXPECT_DOUBLE_EQ(-0.02 + rebound(e, -0.01, -0.02), 0.0)
+        << "at rest, pressed on: all of the step's approach goes back";
     EXPECT_LE(rebound(e, -0.01, -5.0), 0.02) << "never more than an elastic impact";
   }
 }

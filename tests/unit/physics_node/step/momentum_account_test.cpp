@@ -40,7 +40,8 @@ MomentumAccount::Start start_of(const std::vector<Particle>& particles) {
 std::vector<Particle> some_particles() {
   test::Dice dice(5);
   std::vector<Particle> particles;
-  for (int n = 0; n < 7; ++n) particles.push_back({dice.between(0.001, 0.01), dice.within(0.1), dice.within(2)});
+  for (int n = 0; n < 7; ++n)
+    particles.push_back({dice.between(0.001, 0.01), dice.within(0.1), dice.within(2)});
   return particles;
 }
 

@@ -23,7 +23,8 @@ double growth(const StiffestMode& mode, double dt) {
 }
 
 TEST(StableStep, IsWhereTheStepItselfBeginsToGrow) {
-  for (const StiffestMode mode : {StiffestMode{1e6, 0}, StiffestMode{1e6, 50}, StiffestMode{1e6, 3000}, StiffestMode{4, 100}}) {
+  for (const StiffestMode mode :
+       {StiffestMode{1e6, 0}, StiffestMode{1e6, 50}, StiffestMode{1e6, 3000}, StiffestMode{4, 100}}) {
     const double bound = stable_step(mode, Integrator::symplectic_euler);
     EXPECT_LE(growth(mode, bound * (1 - 1e-6)), 1 + 1e-12) << mode.gamma;
     EXPECT_GT(growth(mode, bound * (1 + 1e-6)), 1 + 1e-9) << mode.gamma;
@@ -38,7 +39,8 @@ TEST(StableStep, IsTwoOverOmegaWithoutDampers) {
 
 /// A damper that sees a predicted velocity bounds the step as one of twice its rate would.
 TEST(StableStep, IsThatOfTwiceTheDampingWithVerlet) {
-  EXPECT_DOUBLE_EQ(stable_step({1e6, 400}, Integrator::velocity_verlet), stable_step({1e6, 800}, Integrator::symplectic_euler));
+  EXPECT_DOUBLE_EQ(stable_step({1e6, 400}, Integrator::velocity_verlet),
+                   stable_step({1e6, 800}, Integrator::symplectic_euler));
 }
 
 TEST(StableStep, HasNoBoundWhereNothingCanMoveOrTheStepIsImplicit) {
