@@ -17,15 +17,7 @@ namespace palpate::physics {
 namespace {
 
 constexpr Index masses_worth_a_team = 15000;  // below, a second thread brings little (palpate bench team)
-constexpr std::int64_t frames_between_saves = 50;
-// Kinetic and elastic energy over what was ever put in. A sound step lets them swing: with symplectic Euler by
-// 1 / (1 - w dt / 2), more than this only for waves of a few cells at steps near the stable one.
-constexpr double largest_growth = 4;         // before the guard acts
-constexpr double suspicious_growth = 1.5;    // before it measures anew
-constexpr double sound_growth = 2;           // between two saves, for the first of them to be good
-constexpr double negligible_energy = 1e-12;  // [J]
-constexpr int most_substeps = 256;           // of a frame in which something fast is near
-constexpr int most_recoveries = 6;           // each halves the step
+constexpr int most_substeps = 256;  // of a frame in which something fast is near
 
 /// @param n_chunks  of the body that has most: more threads than that would have nothing to do
 TeamChoice choose_threads(const Scene& scene, int spare_cores, Index n_masses, std::size_t n_chunks) {
@@ -61,15 +53,16 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
     any_yields_ = any_yields_ || any_yields(body);
     const Lattice& lattice = body.lattice;
     const double bucket = 4 * lattice.spacing();
-    bodies_.push_back(make_moving_body(std::move(body), scene.physics.precision, integrator));
+    bodies_.push_back(make_body_model(std::move(body), scene.physics.precision, integrator));
     fragments_.push_back(any_yields(bodies_.back()->body()) ? std::make_unique<Fragments>(*bodies_.back()) : nullptr);
     touchable_.push_back({bodies_.back().get(), std::make_unique<ContactSurface>(*bodies_.back(), bucket)});
   }
-  const std::vector<std::size_t> felt = make_tools();
+  toolbox_ = make_tools(scene_, bodies_, touchable_);
+  remarks_ = toolbox_.remarks;
   if (scene.contact.enabled && (bodies_.size() > 1 || any_yields_))
     collisions_ = std::make_unique<Collisions>(bodies_, fragments_, scene.contact);
   if (collisions_)
-    for (const std::size_t b : felt) collisions_->feel(b);
+    for (const std::size_t b : toolbox_.felt) collisions_->feel(b);
   if (bodies_.size() > 1 || any_yields_) inside_ = std::make_unique<InsideOthers>(bodies_);
   if (scene.floor) planes_.push_back({Vec3::UnitZ(), scene.floor->height});
   if (scene.floor || !scene.walls.empty())
@@ -77,7 +70,7 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
   for (const WallSpec& wall : scene.walls) planes_.push_back({wall.normal, wall.normal.dot(wall.point)});
   choice_ = choose_threads(scene, spare_cores, n_masses, n_chunks);
   if (choice_.most() > 1) team_ = std::make_unique<Team>(choice_.most());
-  gathered_.reserve(tools_.size() * ToolCoupling::most_forces);
+  gathered_.reserve(toolbox_.tools.size() * ToolCoupling::most_forces);
 
   frame_dt_ = 1.0 / scene.physics.frame_Hz;
   n_substeps_ = static_cast<int>(steps_a_frame(scene, stable_dt_));
@@ -90,41 +83,6 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
                     1e3 * dt_, 1e3 * stable_dt_));
   }
   restart_ledger();
-}
-
-std::vector<std::size_t> World::make_tools() {
-  std::vector<std::size_t> felt_bodies;
-  for (std::uint32_t n = 0; n < scene_.tools.size(); ++n) {
-    const ToolSpec& spec = scene_.tools[n];
-    if (spec.shape == ToolShape::point) {
-      tools_.push_back(std::make_unique<ToolCoupling>(spec, n, touchable_));
-      for (auto& body : bodies_) body->prepare_books();
-      continue;
-    }
-    if (spec.shape == ToolShape::stick) {
-      if (scene_.physics.integrator == Integrator::backward_euler)
-        throw InputError(spec.place.text() + ": a stick moves masses step by step, which \"backward_euler\" does not; write "
-                         "integrator = \"symplectic_euler\" or \"velocity_verlet\"");
-      auto stick = std::make_unique<StickTool>(spec, n, bodies_, touchable_);
-      for (const auto& body : bodies_)
-        if (body->body().n_held < body->body().lattice.n_masses() && spec.radius < 0.5 * body->body().lattice.spacing())
-          remarks_.push_back(fmt::format("{}: stick \"{}\" of radius {:.3g} mm meets masses {:.3g} mm apart and may slip between "
-                                         "them; give it half of that at least",
-                                         spec.place.text(), spec.name, 1e3 * spec.radius, 1e3 * body->body().lattice.spacing()));
-      led_tools_.push_back(stick.get());
-      tools_.push_back(std::move(stick));
-      for (auto& body : bodies_) body->prepare_contact();
-      continue;
-    }
-    std::size_t b = 0;
-    while (b < bodies_.size() && bodies_[b]->body().name != spec.body) ++b;
-    PALPATE_CHECK(b < bodies_.size() && !bodies_[b]->body().handle.empty(), "a tool names a body that has a handle");
-    auto tool = std::make_unique<BodyTool>(spec, n, b, *bodies_[b]);
-    led_tools_.push_back(tool.get());
-    felt_bodies.push_back(b);
-    tools_.push_back(std::move(tool));
-  }
-  return felt_bodies;
 }
 
 void World::restart_ledger() {
@@ -151,22 +109,9 @@ EnergyLedger World::watched_ledger() const noexcept {
   return account_.book(now, sum_losses(bodies_), watched_);
 }
 
-void World::move_bodies_implicitly(double dt, bool watch) noexcept {
-  const StageTimer timer(report_, Stage::integrate);
-  const ExplicitStep how{.dt = dt, .gravity = scene_.gravity, .watch = watch};
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    const ImplicitReport solved = bodies_[b]->implicit_step(how, gathered(b));
-    book_work(solved.work);
-    report_.newton_iterations += solved.newton_iterations;
-    report_.cg_iterations += solved.cg_iterations;
-    if (!solved.converged) ++report_.unsolved;
-  }
-  ++report_[Stage::element_forces].skipped;  // part of the solution
-}
-
 void World::book_work(double work) noexcept {
   if (!std::isfinite(work)) {
-    unusable_work_ = true;  // what it moved is not finite either
+    guard_.note_unusable_work();
     return;
   }
   report_.tool_work += work;
@@ -186,7 +131,7 @@ void World::follow_breaks() noexcept {
 
 std::span<const NodalForce> World::gathered(std::size_t body) noexcept {
   gathered_.clear();
-  for (const auto& tool : tools_)
+  for (const auto& tool : toolbox_.tools)
     if (tool->touched_body() == body)
       gathered_.insert(gathered_.end(), tool->forces().begin(), tool->forces().end());
   return gathered_;
@@ -200,27 +145,30 @@ void World::move_bodies(double dt, bool watch) noexcept {
                          .verlet = scene_.physics.integrator == Integrator::velocity_verlet,
                          .watch = watch,
                          .exact = may_be_struck() || pressed_ || pressed_before_};
-  const std::int64_t before = report_[Stage::element_forces].total_ns;
+  const Stage stage = is_implicit() ? Stage::integrate : Stage::element_forces;
+  const std::int64_t before = report_[stage].total_ns;
   {
-    const StageTimer timer(report_, Stage::element_forces);
-    for (auto& body : bodies_) report_.broken += body->element_forces_and_integrate(how);
+    const StageTimer timer(report_, stage);
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      const StepOutcome outcome = bodies_[b]->advance(how, gathered(b));
+      report_.broken += outcome.broken;
+      report_.newton_iterations += outcome.newton_iterations;
+      report_.cg_iterations += outcome.cg_iterations;
+      if (!outcome.solved) ++report_.unsolved;
+      book_work(outcome.work);
+    }
   }
-  choice_.took(report_[Stage::element_forces].total_ns - before);
-  ++report_[Stage::integrate].skipped;  // fused with the forces
+  choice_.took(report_[stage].total_ns - before);
+  ++report_[is_implicit() ? Stage::element_forces : Stage::integrate].skipped;  // one pass does both
 }
 
 void World::touch(double dt, double done) noexcept {
-  const bool implicit = scene_.physics.integrator == Integrator::backward_euler;
-  bool any = near_ || !planes_.empty() || !led_tools_.empty();
-  for (const auto& tool : tools_) any = any || (!implicit && !tool->forces().empty());
-  if (!any) {
+  if (!near_ && planes_.empty() && toolbox_.led.empty()) {
     ++report_[Stage::contact_forces].skipped;
     return;
   }
   const StageTimer timer(report_, Stage::contact_forces);
-  for (const auto& tool : tools_)
-    if (!implicit && !tool->forces().empty()) bodies_[tool->touched_body()]->kick(tool->forces(), dt);
-  for (LedTool* tool : led_tools_) {
+  for (LedTool* tool : toolbox_.led) {
     const LeadWork led = tool->lead(done, dt);
     book_work(led.work);
     report_.contact_lost += led.lost;
@@ -235,71 +183,49 @@ void World::touch(double dt, double done) noexcept {
     for (auto& body : bodies_) report_.contact_lost += body->bounce_off(plane, scene_.contact.restitution, dt).lost;
 }
 
-/// Of the forces of tools that give any. [W]
+/// Of the forces of tools that give any, where no step has solved for them. [W]
 double World::tools_power() const noexcept {
   double sum = 0;
-  for (const auto& tool : tools_)
+  if (is_implicit()) return sum;
+  for (const auto& tool : toolbox_.tools)
     if (!tool->forces().empty()) sum += bodies_[tool->touched_body()]->power(tool->forces());
   return sum;
 }
 
 void World::step(double dt, double done, bool watch) noexcept {
-  const bool implicit = scene_.physics.integrator == Integrator::backward_euler;
   if (may_be_struck())
     for (auto& body : bodies_) body->remember_velocities();
-  double power = 0;
-  if (implicit) {
-    move_bodies_implicitly(dt, watch);
-  } else {
-    for (LedTool* tool : led_tools_) tool->begin_step();
-    power = tools_power();
-    move_bodies(dt, watch);
-  }
+  if (!is_implicit())
+    for (LedTool* tool : toolbox_.led) tool->begin_step();
+  const double power = tools_power();
+  move_bodies(dt, watch);
   follow_breaks();
   if (watch) watched_ = Booked(report_);
   touch(dt, done);
-  if (!implicit && power + tools_power() != 0) book_work(0.5 * dt * (power + tools_power()));
+  if (power + tools_power() != 0) book_work(0.5 * dt * (power + tools_power()));
   ++report_.steps;
 }
 
 void World::save_all(bool good) noexcept {
   for (auto& body : bodies_) body->save(good);
-  sound_ = true;
+  guard_.saved();
 }
 
 void World::guard() noexcept {
   const StageTimer timer(report_, Stage::guard_finite);
-  double energy = 0, fallen = 0;
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    const Watch watch = bodies_[b]->watch();
-    if (!watch.is_finite() || unusable_work_) {
-      ++report_.nonfinite;
-      unusable_work_ = false;
-      return recover(b);
-    }
-    energy += watch.energy();
-    fallen += watch.fallen;
+  switch (guard_.look(bodies_, account_, scene_.gravity, report_)) {
+    case Guard::Verdict::go_back:
+      return recover();
+    case Guard::Verdict::save:
+      save_all(guard_.sound());
+      break;
+    case Guard::Verdict::sound:
+      break;
   }
-  account_.note(fallen);
   is_watched_ = true;
-  const double put_in = account_.put_in(fallen, report_);
-  // The kernels saw elastic energy before the last step; what grows fast is looked at once more, as it is now.
-  if (!(energy <= suspicious_growth * put_in + negligible_energy)) {
-    const Energies now = sum_energies(bodies_, scene_.gravity);
-    energy = now.kinetic + now.elastic;
-  }
-  if (!(energy <= largest_growth * put_in + negligible_energy)) {
-    ++report_.grown;
-    std::size_t fastest = 0;
-    for (std::size_t b = 1; b < bodies_.size(); ++b)
-      if (bodies_[b]->watch().speed > bodies_[fastest]->watch().speed) fastest = b;
-    return recover(fastest);
-  }
-  sound_ = sound_ && energy <= sound_growth * put_in + negligible_energy;
-  if (report_.frames % frames_between_saves == frames_between_saves - 1) save_all(sound_);
 }
 
-void World::recover(std::size_t culprit) noexcept {
+void World::recover() noexcept {
   is_watched_ = false;
   // Tools and gravity did work on a state that is thrown away: what is booked starts anew from the state restored.
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -310,51 +236,47 @@ void World::recover(std::size_t culprit) noexcept {
   if (collisions_) collisions_->restart();
   ++report_.restored;
   account_.write_off(ledger());
-  if (recoveries_ == most_recoveries) {
-    given_up_ = culprit;
-    return;
-  }
-  ++recoveries_;
+  if (!guard_.may_try_again()) return;
   n_substeps_ *= 2;
   dt_ = frame_dt_ / n_substeps_;
   ++report_.halved;
 }
 
 std::optional<std::string> World::stopped() const {
-  if (!given_up_) return std::nullopt;
+  if (!guard_.given_up()) return std::nullopt;
   return fmt::format(
       "body \"{}\" cannot be stepped: its energy grew or was not finite {} times although the step was "
       "halved to "
       "{:.3g} ms; look at its material, its first positions and what its tools do",
-      bodies_[*given_up_]->body().name, report_.restored, 1e3 * dt_);
+      bodies_[*guard_.given_up()]->body().name, report_.restored, 1e3 * dt_);
 }
 
 void World::take_tools(std::span<const std::optional<ToolState>> tools) noexcept {
-  if (tools_.empty()) {
+  if (toolbox_.tools.empty()) {
     ++report_[Stage::take_tools].skipped;
     return;
   }
   const StageTimer timer(report_, Stage::take_tools);
-  for (std::size_t n = 0; n < tools_.size(); ++n) {
+  for (std::size_t n = 0; n < toolbox_.tools.size(); ++n) {
     const bool fresh = n < tools.size() && tools[n].has_value();
-    tools_[n]->take(fresh ? &*tools[n] : nullptr, frame_dt_);
+    toolbox_.tools[n]->take(fresh ? &*tools[n] : nullptr, frame_dt_);
   }
 }
 
 bool World::is_pressed() const noexcept {
-  return std::any_of(tools_.begin(), tools_.end(), [](const auto& tool) { return !tool->forces().empty(); });
+  return std::any_of(toolbox_.tools.begin(), toolbox_.tools.end(), [](const auto& tool) { return !tool->forces().empty(); });
 }
 
 void World::find_contacts() noexcept {
   near_ = stick_near_ = false;
   pressed_before_ = pressed_;
-  if (tools_.empty() && !collisions_) {
+  if (toolbox_.tools.empty() && !collisions_) {
     ++report_[Stage::find_contacts].skipped;
     return;
   }
   const StageTimer timer(report_, Stage::find_contacts);
-  for (auto& tool : tools_) tool->find_contact(t_);
-  for (const LedTool* tool : led_tools_) stick_near_ = stick_near_ || tool->is_near();
+  for (auto& tool : toolbox_.tools) tool->find_contact(t_);
+  for (const LedTool* tool : toolbox_.led) stick_near_ = stick_near_ || tool->is_near();
   pressed_ = is_pressed();
   if (collisions_) near_ = collisions_->begin_frame(frame_dt_);
 }
@@ -366,17 +288,17 @@ int World::substeps_of_frame() const noexcept {
 }
 
 void World::frame(std::span<const std::optional<ToolState>> tools) noexcept {
-  if (given_up_) return;
+  if (has_stopped()) return;
   take_tools(tools);
   find_contacts();
   const int n_substeps = substeps_of_frame();
   const double dt = frame_dt_ / n_substeps;
   for (int n = 1; n <= n_substeps; ++n) step(dt, static_cast<double>(n) / n_substeps, n == n_substeps);
-  for (LedTool* tool : led_tools_) tool->end_frame(collisions_.get(), frame_dt_);
+  for (LedTool* tool : toolbox_.led) tool->end_frame(collisions_.get(), frame_dt_);
   guard();
   if (collisions_ && collisions_->bodies_are_near()) inside_->look_now_and_then();
   // backward_euler solves for all masses at once: none of them can be left out.
-  if (scene_.physics.sleep && scene_.physics.integrator != Integrator::backward_euler)
+  if (scene_.physics.sleep && !is_implicit())
     for (auto& body : bodies_) body->sleep_and_wake(frame_dt_);
   t_ += frame_dt_;
   ++report_.frames;
@@ -387,13 +309,13 @@ void World::reset() noexcept {
     bodies_[b]->reset();
     if (fragments_[b]) fragments_[b]->update(*bodies_[b]);
   }
-  for (auto& tool : tools_) tool->reset();
+  for (auto& tool : toolbox_.tools) tool->reset();
   if (collisions_) collisions_->restart();
   if (inside_) inside_->restart();
-  n_substeps_ = std::max(1, n_substeps_ >> recoveries_);
+  n_substeps_ = std::max(1, n_substeps_ >> guard_.recoveries());
   dt_ = frame_dt_ / n_substeps_;
-  recoveries_ = 0;
-  given_up_.reset();
+  guard_.reset();
+  pressed_ = pressed_before_ = false;
   restart_ledger();
 }
 

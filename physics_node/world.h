@@ -12,12 +12,9 @@
 #include "common/scene/scene.h"
 #include "physics_node/collision/collisions.h"
 #include "physics_node/collision/inside_others.h"
-#include "physics_node/contact/body_tool.h"
-#include "physics_node/contact/stick_tool.h"
-#include "physics_node/contact/tool_coupling.h"
+#include "physics_node/contact/make_tools.h"
 #include "physics_node/fragments/fragments.h"
-#include "physics_node/step/energy_account.h"
-#include "physics_node/step/moving_body.h"
+#include "physics_node/guard.h"
 #include "physics_node/step/step_report.h"
 #include "physics_node/step/team.h"
 #include "physics_node/step/team_choice.h"
@@ -45,15 +42,15 @@ class World {
   const TeamChoice& team_choice() const { return choice_; }
   double stable_step_seconds() const { return stable_dt_; }
   std::size_t n_bodies() const { return bodies_.size(); }
-  const MovingBody& body(std::size_t b) const { return *bodies_[b]; }
-  MovingBody& body(std::size_t b) {
+  const BodyModel& body(std::size_t b) const { return *bodies_[b]; }
+  BodyModel& body(std::size_t b) {
     return *bodies_[b];
   }  // to start a test or a benchmark from a given state
   /// What has come off; null for a body that cannot break.
   const Fragments* fragments(std::size_t b) const { return fragments_[b].get(); }
-  Tool& tool(std::size_t n) { return *tools_[n]; }
-  const Tool& tool(std::size_t n) const { return *tools_[n]; }
-  std::size_t n_tools() const { return tools_.size(); }
+  Tool& tool(std::size_t n) { return *toolbox_.tools[n]; }
+  const Tool& tool(std::size_t n) const { return *toolbox_.tools[n]; }
+  std::size_t n_tools() const { return toolbox_.tools.size(); }
   /// Contact between bodies and fragments; null where nothing could ever touch.
   const Collisions* collisions() const { return collisions_.get(); }
   /// Which bodies have gone into each other, as far as the frames have looked; null where a single body cannot break.
@@ -72,7 +69,7 @@ class World {
   void restart_ledger();
   /// Why the scene was given up, if it was: then frames no longer move anything, and the state is the last good one.
   std::optional<std::string> stopped() const;
-  bool has_stopped() const noexcept { return given_up_.has_value(); }
+  bool has_stopped() const noexcept { return guard_.given_up().has_value(); }
   /// What a person should know about this scene: one line each.
   const std::vector<std::string>& remarks() const { return remarks_; }
   void add_remarks(std::vector<std::string> more) { remarks_.insert(remarks_.end(), more.begin(), more.end()); }
@@ -80,13 +77,12 @@ class World {
  private:
   void step(double dt, double done, bool watch) noexcept;
   void move_bodies(double dt, bool watch) noexcept;
-  void move_bodies_implicitly(double dt, bool watch) noexcept;
   void touch(double dt, double done) noexcept;
   double tools_power() const noexcept;
   void take_tools(std::span<const std::optional<ToolState>> tools) noexcept;
   void find_contacts() noexcept;
   int substeps_of_frame() const noexcept;
-  std::vector<std::size_t> make_tools();  // @return bodies whose impulses somebody feels
+  bool is_implicit() const noexcept { return scene_.physics.integrator == Integrator::backward_euler; }
   /// May a velocity jump in this frame? Then contact wants to know what it was.
   bool may_be_struck() const noexcept { return near_ || stick_near_ || !planes_.empty(); }
   bool is_pressed() const noexcept;  // by a tool that gives forces
@@ -96,15 +92,14 @@ class World {
   void book_work(double work) noexcept;
   void follow_breaks() noexcept;
   /// Back to the last good state, with half the step; gives up after the step has been halved too often.
-  void recover(std::size_t culprit) noexcept;
+  void recover() noexcept;
 
   Scene scene_;
-  std::vector<std::unique_ptr<MovingBody>> bodies_;
+  BodyModels bodies_;
   std::vector<std::unique_ptr<Fragments>> fragments_;  // of each body that yields, null elsewhere
   std::vector<TouchableBody> touchable_;
-  std::vector<std::unique_ptr<Tool>> tools_;
-  std::vector<LedTool*> led_tools_;  // those of them that move tissue themselves: bodies and sticks
-  bool stick_near_ = false;          // one of them may touch in this frame
+  Toolbox toolbox_;
+  bool stick_near_ = false;  // one of those that lead may touch in this frame
   std::unique_ptr<Collisions> collisions_;
   std::unique_ptr<InsideOthers> inside_;
   std::vector<Plane> planes_;  // floor and walls
@@ -124,10 +119,7 @@ class World {
   bool any_yields_ = false;
   bool near_ = false;  // bodies or fragments may touch in this frame
   bool pressed_ = false, pressed_before_ = false;  // by a tool, in this frame and in the one before
-  int recoveries_ = 0;                   // since the step was last chosen
-  bool sound_ = true;                    // no growth since the last save
-  bool unusable_work_ = false;           // a tool's work was not finite since the guard last looked
-  std::optional<std::size_t> given_up_;  // the body that could not be stepped
+  Guard guard_;
 };
 
 }  // namespace palpate::physics

@@ -11,7 +11,7 @@ namespace palpate::bench {
 namespace {
 
 /// Glass: what is stretched by a thousandth breaks.
-std::unique_ptr<physics::MovingBody> make_cube() {
+std::unique_ptr<physics::BodyModel> make_cube() {
   MaterialSpec glass;
   glass.name = "glass";
   glass.mass = 1e-3;
@@ -23,7 +23,7 @@ std::unique_ptr<physics::MovingBody> make_cube() {
   cube.spacing = 0.01;
   cube.material = glass.name;
   cube.shape = BoxShape{Vec3::Constant(0.41)};
-  return physics::make_moving_body(physics::build_body(cube, glass), Precision::single_);
+  return physics::make_body_model(physics::build_body(cube, glass), Precision::single_);
 }
 
 double median(std::vector<double> values) {
@@ -35,7 +35,7 @@ double median(std::vector<double> values) {
 FragmentCost measure(int torn, int steps) {
   const auto body = make_cube();
   physics::Fragments followed(*body), flooded(*body);
-  body->element_forces_and_integrate({.dt = 0});
+  body->advance({.dt = 0}, {});
   const auto& masses = body->body().lattice.masses;
   std::mt19937_64 engine(1);
   FragmentCost cost;
@@ -45,7 +45,7 @@ FragmentCost measure(int torn, int steps) {
   for (int n = 0; n < steps; ++n) {
     for (int k = 0; k < torn; ++k)
       body->place(masses[engine() % masses.size()], Vec3(0.003, 0.001, 0), Vec3::Zero());
-    body->element_forces_and_integrate({.dt = 0});
+    body->advance({.dt = 0}, {});
     const Stopwatch first;
     followed.update(*body);
     follow.push_back(1e6 * first.cpu_s());

@@ -19,7 +19,7 @@ struct Way {
 
 /// v(-dt/2) = -g dt/2 makes symplectic Euler the leapfrog scheme: at t = 0 every spring is at rest, so g is the
 /// whole acceleration. Its positions are those of velocity Verlet.
-void start_half_step_back(physics::MovingBody& body, const Vec3& gravity, double dt) {
+void start_half_step_back(physics::BodyModel& body, const Vec3& gravity, double dt) {
   for (const physics::Index cell : body.body().lattice.masses)
     body.place(cell, Vec3::Zero(), -0.5 * dt * gravity);
 }

@@ -28,7 +28,7 @@ Outcome bar_stretch(const Settings& settings, LatticeKind lattice) {
   constexpr int frames = 20;
   apply(settings, 34 / w_1, frames, scene);
   physics::World world(scene);
-  const physics::MovingBody& body = world.body(0);
+  const physics::BodyModel& body = world.body(0);
   Outcome outcome = run(world, frames);
 
   const Eigen::Matrix3Xd exact = equilibrium(body.body(), scene.gravity);

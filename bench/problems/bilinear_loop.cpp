@@ -33,7 +33,7 @@ double bilinear_loop_error(double speed, int steps, Precision precision) {
   scene.physics.precision = precision;
   scene.physics.threads = 1;
   physics::World world(scene);
-  physics::MovingBody& body = world.body(0);
+  physics::BodyModel& body = world.body(0);
   const auto mass = free_mass(world);
 
   constexpr std::array turns{1.0, 1.10, 1.02, 1.15, 0.98, 1.20, 1.04};  // lengths
@@ -45,7 +45,7 @@ double bilinear_loop_error(double speed, int steps, Precision precision) {
       const double l = from + (to - from) * n / steps;
       const Vec3 u = (l - L) * pair_axis();
       body.place(mass, u, rate * pair_axis());
-      body.element_forces_and_integrate({.dt = dt});
+      body.advance({.dt = dt}, {});
       const double f = (rate - body.velocity(mass).dot(pair_axis())) * m / dt;
       l_max = std::max(l_max, l);
       const double exact = envelope(l_max) - k1 * (l_max - l) + c * rate;

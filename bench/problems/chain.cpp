@@ -59,7 +59,7 @@ Outcome chain_wave(const Settings& settings, int n, int mode) {
   Scene scene = chain_scene(n);
   apply(settings, T, frames, scene);
   physics::World world(scene);
-  physics::MovingBody& body = world.body(0);
+  physics::BodyModel& body = world.body(0);
   std::vector<physics::Index> cells;
   for (int i = 0; i <= n; ++i) {
     cells.push_back(body.body().lattice.mass_at({i, i, 0}));

@@ -55,7 +55,7 @@ Cube make_cube(const CubeKind& kind) {
   Cube cube;
   cube.stable_step = physics::stable_step(physics::stiffest_mode(body), Integrator::symplectic_euler);
   cube.step = 0.5 * cube.stable_step;
-  cube.body = physics::make_moving_body(std::move(body), kind.precision);
+  cube.body = physics::make_body_model(std::move(body), kind.precision);
   return cube;
 }
 

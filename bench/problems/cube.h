@@ -6,7 +6,7 @@
 #include <string>
 
 #include "common/scene/scene.h"
-#include "physics_node/step/moving_body.h"
+#include "physics_node/step/body_model.h"
 
 namespace palpate::bench {
 
@@ -28,7 +28,7 @@ struct CubeKind {
 };
 
 struct Cube {
-  std::unique_ptr<physics::MovingBody> body;
+  std::unique_ptr<physics::BodyModel> body;
   double stable_step = 0;  // [s]
   double step = 0;         // half of that [s]
   std::unique_ptr<physics::Team> team;  // made for the most threads that it was set moving for
@@ -42,7 +42,7 @@ void set_moving(const CubeKind& kind, Cube& cube, int threads);
 
 /// All that a step of a body without contact does, without weight.
 inline void step(Cube& cube, int threads) noexcept {
-  cube.body->element_forces_and_integrate({.dt = cube.step, .team = cube.team.get(), .threads = threads});
+  cube.body->advance({.dt = cube.step, .team = cube.team.get(), .threads = threads}, {});
 }
 
 }  // namespace palpate::bench

@@ -19,7 +19,7 @@ Drift free_flight(const Settings& settings, LatticeKind lattice, int steps) {
   const int frames = 50;
   apply(settings, settings.step * steps, frames, scene);
   physics::World world(scene);
-  physics::MovingBody& body = world.body(0);
+  physics::BodyModel& body = world.body(0);
   std::mt19937_64 engine(7);
   const auto dice = [&engine] { return static_cast<double>(engine() >> 11) * 0x1p-52 - 1; };
   const Vec3 flight(0.02, -0.01, 0.03), spin(3, 5, -4);  // [m/s], [rad/s]

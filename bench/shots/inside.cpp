@@ -8,9 +8,9 @@ namespace palpate::bench {
 
 using namespace physics;
 
-std::vector<Index> surface_of(const MovingBody& body) { return Candidates(body, true).cell(); }
+std::vector<Index> surface_of(const BodyModel& body) { return Candidates(body, true).cell(); }
 
-int count_inside(const MovingBody& inner, std::span<const Index> masses, const MovingBody& outer) {
+int count_inside(const BodyModel& inner, std::span<const Index> masses, const BodyModel& outer) {
   const Lattice& lattice = outer.body().lattice;
   const auto mask = [&](Index cell) { return outer.mask(cell); };
   const auto patterns = triangle_patterns(lattice);

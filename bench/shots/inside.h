@@ -4,16 +4,16 @@
 #include <span>
 #include <vector>
 
-#include "physics_node/step/moving_body.h"
+#include "physics_node/step/body_model.h"
 
 namespace palpate::bench {
 
 /// Masses that space reaches.
-std::vector<physics::Index> surface_of(const physics::MovingBody& body);
+std::vector<physics::Index> surface_of(const physics::BodyModel& body);
 
 /// How many of these masses of `inner` are inside the closed surface of `outer`. A ray may graze an edge: of three the
 /// majority decides.
-int count_inside(const physics::MovingBody& inner, std::span<const physics::Index> masses,
-                 const physics::MovingBody& outer);
+int count_inside(const physics::BodyModel& inner, std::span<const physics::Index> masses,
+                 const physics::BodyModel& outer);
 
 }  // namespace palpate::bench

@@ -86,7 +86,7 @@ ShotResult run_shot(const Shot& shot) {
   const double seconds = std::min(0.6, 0.15 / shot.speed) + 0.02;
   while (world.t() < seconds && !world.has_stopped()) world.frame({});
   const physics::CollisionTally& tally = world.collisions()->tally();
-  const physics::MovingBody &target = world.body(0), &bullet = world.body(1);
+  const physics::BodyModel &target = world.body(0), &bullet = world.body(1);
   ShotResult result;
   result.seed = shot.seed;
   result.speed = shot.speed;

@@ -119,7 +119,7 @@ StressScene random_scene(std::uint64_t seed) {
 void set_start(const StressScene& stress, physics::World& world) {
   Dice dice(stress.seed + 77);
   for (std::size_t b = 0; b < world.n_bodies(); ++b) {
-    physics::MovingBody& body = world.body(b);
+    physics::BodyModel& body = world.body(b);
     const physics::Lattice& lattice = body.body().lattice;
     const double L = lattice.rest_length[0];
     const Vec3 middle = lattice.rest_position(lattice.masses[lattice.masses.size() / 2]);
@@ -140,7 +140,7 @@ std::optional<ToolState> tool_at(const StressScene& stress, const physics::World
   if (stress.tool_force <= 0) return std::nullopt;
   Dice dice(stress.seed + 99);
   const Vec3 along = dice.within(1).normalized(), push = dice.within(1).normalized();
-  const physics::MovingBody& body = world.body(0);
+  const physics::BodyModel& body = world.body(0);
   const auto& masses = body.body().lattice.masses;
   const Vec3 middle = body.body().lattice.rest_position(masses[masses.size() / 2]);
   ToolState state;

@@ -30,7 +30,7 @@ Energy energy(const physics::World& world) {
 
 bool all_finite(const physics::World& world) {
   for (std::size_t b = 0; b < world.n_bodies(); ++b) {
-    const physics::MovingBody& body = world.body(b);
+    const physics::BodyModel& body = world.body(b);
     for (const physics::Index cell : body.body().lattice.masses)
       if (!body.position(cell).allFinite() || !body.velocity(cell).allFinite()) return false;
   }

@@ -15,11 +15,10 @@ Array3f float_of(const Vec3& p) {
   return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
 }
 
-std::uint8_t vertex_flags(const MovingBody& moving, Index cell) {
-  const std::uint8_t of_mass = moving.flags(cell);
-  unsigned flags = (of_mass & mass_broken) != 0 ? vertex_broken : 0;
-  if ((of_mass & mass_yielded) != 0) {
-    const auto share = static_cast<unsigned>(std::lround(63 * moving.yielded_share(cell)));
+std::uint8_t vertex_flags(const Condition& condition) {
+  unsigned flags = (condition.flags & mass_broken) != 0 ? vertex_broken : 0;
+  if ((condition.flags & mass_yielded) != 0) {
+    const auto share = static_cast<unsigned>(std::lround(63 * condition.yielded_share));
     flags |= vertex_yielded | share * vertex_share_one;
   }
   return static_cast<std::uint8_t>(flags);
@@ -74,7 +73,7 @@ std::vector<std::size_t> Appearance::outdated() {
   const bool went_back = world_.report().restored != restored_;
   restored_ = world_.report().restored;
   for (std::size_t b = 0; b < views_.size(); ++b) {
-    const MovingBody& moving = world_.body(b);
+    const BodyModel& moving = world_.body(b);
     const Body& body = moving.body();
     const bool by_threshold = wanted_ && body.cells && !body.cells->intensity.empty();
     bool by_breaks = false;
@@ -128,7 +127,7 @@ void Appearance::write_chunk(std::size_t body, std::uint32_t chunk,
                              const std::function<void(const BodySurface&)>& sink) {
   const View& view = views_[body];
   const Surface& surface = view.surface;
-  const MovingBody& moving = world_.body(body);
+  const BodyModel& moving = world_.body(body);
   BodySurface& out = *chunk_;
   out.body = static_cast<std::uint32_t>(body);
   out.revision = view.revision;
@@ -150,11 +149,10 @@ void Appearance::write_chunk(std::size_t body, std::uint32_t chunk,
   sink(out);
 }
 
-bool Appearance::block_changed(const View& view, const MovingBody& moving, std::size_t first,
-                               std::size_t last) const {
+bool Appearance::block_changed(const View& view, const NodeMotion& moving, std::size_t first, std::size_t last) const {
   for (std::size_t n = first; n < last; ++n) {
     const Index cell = view.surface.cell[n];
-    if (vertex_flags(moving, cell) != view.sent_flags[n]) return true;
+    if (vertex_flags(conditions_[n - first]) != view.sent_flags[n]) return true;
     const Array3f p = float_of(moving.position(cell));
     for (std::size_t a = 0; a < 3; ++a)
       if (!(std::abs(p[a] - view.sent[n][a]) <= visible_motion)) return true;
@@ -166,9 +164,10 @@ int Appearance::write_blocks(const std::function<void(const VertexBlock&)>& sink
   int blocks = 0;
   for (std::size_t b = 0; b < views_.size(); ++b) {
     View& view = views_[b];
-    const MovingBody& moving = world_.body(b);
+    const BodyModel& moving = world_.body(b);
     for (std::size_t first = 0; first < view.surface.n_moving(); first += max_block_vertices) {
       const std::size_t last = std::min<std::size_t>(first + max_block_vertices, view.surface.n_moving());
+      moving.conditions(std::span(view.surface.cell).subspan(first, last - first), conditions_);
       if (!block_changed(view, moving, first, last)) continue;
       VertexBlock& out = *block_;
       out.body = static_cast<std::uint32_t>(b);
@@ -181,7 +180,7 @@ int Appearance::write_blocks(const std::function<void(const VertexBlock&)>& sink
       for (std::size_t n = first; n < last; ++n) {
         const Index cell = view.surface.cell[n];
         out.position[n - first] = view.sent[n] = float_of(moving.position(cell));
-        out.flags[n - first] = view.sent_flags[n] = vertex_flags(moving, cell);
+        out.flags[n - first] = view.sent_flags[n] = vertex_flags(conditions_[n - first]);
       }
       sink(out);
       ++blocks;

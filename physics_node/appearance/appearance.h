@@ -58,7 +58,7 @@ class Appearance {
   Surface make(std::size_t body) const;
   std::vector<std::size_t> outdated();
   void show(std::size_t body, Surface surface);
-  bool block_changed(const View& view, const MovingBody& moving, std::size_t first, std::size_t last) const;
+  bool block_changed(const View& view, const NodeMotion& moving, std::size_t first, std::size_t last) const;
   void write_chunk(std::size_t body, std::uint32_t chunk,
                    const std::function<void(const BodySurface&)>& sink);
 
@@ -70,6 +70,7 @@ class Appearance {
   std::int64_t restored_ = 0;  // how often the guard had gone back when surfaces were last looked at
   std::unique_ptr<BodySurface> chunk_ = std::make_unique<BodySurface>();
   std::unique_ptr<VertexBlock> block_ = std::make_unique<VertexBlock>();
+  std::vector<Condition> conditions_ = std::vector<Condition>(max_block_vertices);  // of the block that is looked at
   std::future<Made> pending_;  // the last member: it is waited for before what it reads goes
 };
 

@@ -32,7 +32,7 @@ bool Candidates::is_candidate(Index cell, Mask live) const {
   return std::popcount(live) < complete_count(lattice, cell) || (with_front_ && lies_open(lattice, cell));
 }
 
-Candidates::Candidates(const MovingBody& moving, bool with_front)
+Candidates::Candidates(const BodyModel& moving, bool with_front)
     : moving_(&moving), with_front_(with_front) {
   const Lattice& lattice = moving.body().lattice;
   length_ = lattice.spacing();

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "physics_node/step/moving_body.h"
+#include "physics_node/step/body_model.h"
 
 namespace palpate::physics {
 
@@ -15,7 +15,7 @@ class Candidates {
   /// @param with_front  also masses that lack no element but lie open, as at the bottom of a pit of the fcc surface or in an
   ///   inner corner of voxels; and the neighbours of masses that lost elements, which a blade inside a cut meets
   ///   next. Deviation: in the paper a mass touches only where it lacks an element itself.
-  Candidates(const MovingBody& moving, bool with_front);
+  Candidates(const BodyModel& moving, bool with_front);
 
   /// Finds them anew: after a reset, or when elements came back.
   void restart() noexcept;
@@ -44,7 +44,7 @@ class Candidates {
   /// Does a live element join these two?
   bool are_joined(std::size_t a, std::size_t b) const noexcept;
 
-  const MovingBody& moving() const { return *moving_; }
+  const BodyModel& moving() const { return *moving_; }
   double length() const { return length_; }  // L, by which contact distances go [m]
   std::size_t most() const { return most_; }
 
@@ -54,7 +54,7 @@ class Candidates {
   void add(Index cell) noexcept;
   void add_front(Index cell) noexcept;
 
-  const MovingBody* moving_;
+  const BodyModel* moving_;
   double length_ = 0;
   double longest_element_ = 0;  // at rest [m]
   std::size_t most_ = 0;

@@ -8,7 +8,7 @@
 namespace palpate::physics {
 namespace {
 
-std::vector<ContactBody> contact_bodies(const std::vector<std::unique_ptr<MovingBody>>& bodies,
+std::vector<ContactBody> contact_bodies(const BodyModels& bodies,
                                         const std::vector<std::unique_ptr<Fragments>>& fragments,
                                         bool with_facets, bool with_front) {
   std::vector<ContactBody> made;
@@ -18,8 +18,8 @@ std::vector<ContactBody> contact_bodies(const std::vector<std::unique_ptr<Moving
   return made;
 }
 
-std::vector<MovingBody*> pointers(const std::vector<std::unique_ptr<MovingBody>>& bodies) {
-  std::vector<MovingBody*> made;
+std::vector<BodyModel*> pointers(const BodyModels& bodies) {
+  std::vector<BodyModel*> made;
   for (const auto& body : bodies) made.push_back(body.get());
   return made;
 }
@@ -29,11 +29,12 @@ constexpr double speed_margin = 1.25;     // of what a mass may gain within a fr
 
 }  // namespace
 
-Collisions::Collisions(const std::vector<std::unique_ptr<MovingBody>>& bodies,
+Collisions::Collisions(const BodyModels& bodies,
                        const std::vector<std::unique_ptr<Fragments>>& fragments, const ContactSpec& spec)
     : spec_(spec),
       swept_(spec.distance == ContactDistance::swept),
       moving_(pointers(bodies)),
+      pushes_(bodies.size()),
       bodies_(contact_bodies(bodies, fragments, swept_ || spec.count_passages, swept_)),
       near_(bodies_, swept_                ? PairKind::facets
                      : spec.count_passages ? PairKind::both
@@ -141,8 +142,9 @@ void Collisions::step(double dt) noexcept {
 
 void Collisions::give_impulses(double dt) noexcept {
   impulses_.for_each([&](PairEnd at, const Vec3& dv) {
-    moving_[at.body]->push(bodies_[at.body].candidates().cell()[at.n], dv, dt);
+    pushes_[at.body].add(*moving_[at.body], {bodies_[at.body].candidates().cell()[at.n], dv}, dt);
   });
+  for (std::size_t b = 0; b < pushes_.size(); ++b) pushes_[b].give(*moving_[b], dt);
 }
 
 void Collisions::restart() noexcept {

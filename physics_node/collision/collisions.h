@@ -25,7 +25,7 @@ struct CollisionTally {
 class Collisions {
  public:
   /// @param fragments  of each body, null where nothing yields; kept up to date before follow_breaks()
-  Collisions(const std::vector<std::unique_ptr<MovingBody>>& bodies,
+  Collisions(const BodyModels& bodies,
              const std::vector<std::unique_ptr<Fragments>>& fragments, const ContactSpec& spec);
 
   /// Which bodies may touch in the coming frame. @return false: none, so that there is nothing to do in its steps
@@ -64,7 +64,8 @@ class Collisions {
 
   ContactSpec spec_;
   bool swept_;
-  std::vector<MovingBody*> moving_;
+  std::vector<BodyModel*> moving_;
+  std::vector<PushBatch> pushes_;  // by body
   std::vector<ContactBody> bodies_;
   NearPairs near_;
   ContactImpulses impulses_;

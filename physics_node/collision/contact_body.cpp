@@ -5,7 +5,7 @@
 
 namespace palpate::physics {
 
-ContactBody::ContactBody(const MovingBody& moving, bool with_facets, bool with_front,
+ContactBody::ContactBody(const BodyModel& moving, bool with_facets, bool with_front,
                          const Fragments* fragments)
     : candidates_(moving, with_front), fragments_(fragments) {
   if (with_facets) facets_ = std::make_unique<Facets>(candidates_);

@@ -14,7 +14,7 @@ class ContactBody {
   /// @param with_facets  whether facets are followed; else there are none
   /// @param with_front   as for Candidates
   /// @param fragments    of the body; without, every candidate counts as come off
-  ContactBody(const MovingBody& moving, bool with_facets, bool with_front,
+  ContactBody(const BodyModel& moving, bool with_facets, bool with_front,
               const Fragments* fragments = nullptr);
 
   /// Follows the elements that broke in the last step.
@@ -46,7 +46,7 @@ class ContactBody {
 
   const Candidates& candidates() const { return candidates_; }
   const Facets* facets() const { return facets_.get(); }
-  const MovingBody& moving() const { return candidates_.moving(); }
+  const BodyModel& moving() const { return candidates_.moving(); }
 
  private:
   bool read(double dt, std::span<const std::uint32_t> which) noexcept;

@@ -15,7 +15,7 @@ Facets::Facets(const Candidates& candidates)
 
 void Facets::restart(const Candidates& candidates) noexcept {
   const Lattice& lattice = candidates.moving().body().lattice;
-  const MovingBody& moving = candidates.moving();
+  const BodyModel& moving = candidates.moving();
   const auto mask = [&](Index cell) { return moving.mask(cell); };
   facets_.clear();
   in_facet_.assign(candidates.size(), 0);

@@ -32,7 +32,7 @@ Eigen::AlignedBox3d scenery_box(const Cells& cells) {
   return box;
 }
 
-std::size_t masses_of(const std::vector<std::unique_ptr<MovingBody>>& bodies) {
+std::size_t masses_of(const BodyModels& bodies) {
   std::size_t n = 0;
   for (const auto& body : bodies) n += static_cast<std::size_t>(body->body().lattice.n_masses());
   return n;
@@ -40,7 +40,7 @@ std::size_t masses_of(const std::vector<std::unique_ptr<MovingBody>>& bodies) {
 
 }  // namespace
 
-InsideOthers::InsideOthers(const std::vector<std::unique_ptr<MovingBody>>& bodies)
+InsideOthers::InsideOthers(const BodyModels& bodies)
     : now_(bodies.size(), 0),
       most_(bodies.size(), 0),
       grid_(std::min(most_points, masses_of(bodies))),
@@ -116,7 +116,7 @@ void InsideOthers::mark_in_tetrahedron(const std::array<Vec3, 4>& x, Index piece
 
 /// @param apart  of a body with itself: its own volumes hold nothing of their own fragment
 void InsideOthers::mark_in_volumes(const Other& outer, const Fragments* apart) noexcept {
-  const MovingBody& moving = *outer.moving;
+  const BodyModel& moving = *outer.moving;
   const Body& body = moving.body();
   const Lattice& lattice = body.lattice;
   const auto mask = [&](Index cell) { return moving.mask(cell); };

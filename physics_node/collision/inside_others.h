@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "physics_node/step/body_model.h"
 #include "physics_node/collision/point_grid.h"
 #include "physics_node/fragments/fragments.h"
 #include "physics_node/lattice/volumes.h"
@@ -17,7 +18,7 @@ namespace palpate::physics {
 class InsideOthers {
  public:
   /// @param bodies  which outlive this
-  explicit InsideOthers(const std::vector<std::unique_ptr<MovingBody>>& bodies);
+  explicit InsideOthers(const BodyModels& bodies);
 
   /// Counts once. Contract: allocates and throws nothing. Cost: a pass over all masses for the boxes round the bodies, some
   /// 5 ns each; where two boxes overlap, the masses and volumes there.
@@ -35,7 +36,7 @@ class InsideOthers {
 
  private:
   struct Other {
-    const MovingBody* moving = nullptr;
+    const BodyModel* moving = nullptr;
     std::vector<Vec3> rest;  // of each mass, in storage order [m]
     VolumePatterns volumes;
     Vec3i shift = Vec3i::Zero();  // from grid coordinates to cells, of voxels

@@ -9,7 +9,7 @@ Eigen::Quaterniond quaternion(const Array4& q) { return {q[0], q[1], q[2], q[3]}
 
 }  // namespace
 
-BodyTool::BodyTool(const ToolSpec& tool, std::uint32_t index, std::size_t body, MovingBody& moving)
+BodyTool::BodyTool(const ToolSpec& tool, std::uint32_t index, std::size_t body, NodeMotion& moving)
     : LedTool(index, tool.set_point),
       body_(body),
       moving_(moving),

@@ -9,7 +9,7 @@ namespace palpate::physics {
 class BodyTool final : public LedTool {
  public:
   /// @param body  index of the body that it is
-  BodyTool(const ToolSpec& tool, std::uint32_t index, std::size_t body, MovingBody& moving);
+  BodyTool(const ToolSpec& tool, std::uint32_t index, std::size_t body, NodeMotion& moving);
 
   void take(const ToolState* state, double dt) noexcept override;
   void find_contact(double) noexcept override {}
@@ -33,7 +33,7 @@ class BodyTool final : public LedTool {
 
  private:
   std::size_t body_;
-  MovingBody& moving_;
+  NodeMotion& moving_;
   Handle handle_;
   double low_pass_Hz_;
   TangentEstimate tangent_;

@@ -4,7 +4,7 @@
 
 namespace palpate::physics {
 
-ContactSurface::ContactSurface(const MovingBody& moving, double bucket_size)
+ContactSurface::ContactSurface(const BodyModel& moving, double bucket_size)
     : surface_(make_surface(moving, std::nullopt, 0)), bucket_size_(bucket_size) {
   Vec3 high = Vec3::Zero();
   if (!surface_.rest.empty()) low_ = high = surface_.rest.front();
@@ -38,7 +38,7 @@ std::size_t ContactSurface::bucket_of(const Vec3& p) const {
   return static_cast<std::size_t>(at.x() + n_buckets_.x() * (at.y() + n_buckets_.y() * at.z()));
 }
 
-void ContactSurface::facets_near(const Vec3& p, double radius, const MovingBody& moving,
+void ContactSurface::facets_near(const Vec3& p, double radius, const NodeMotion& moving,
                                  std::vector<std::uint32_t>& out) const {
   const auto take = [&](std::uint32_t facet) {
     if ((centroid(facet, moving) - p).squaredNorm() <= radius * radius) out.push_back(facet);
@@ -57,7 +57,7 @@ void ContactSurface::facets_near(const Vec3& p, double radius, const MovingBody&
       }
 }
 
-Vec3 ContactSurface::centroid(std::uint32_t facet, const MovingBody& moving) const {
+Vec3 ContactSurface::centroid(std::uint32_t facet, const NodeMotion& moving) const {
   const auto& c = surface_.facets[facet];
   Vec3 sum = Vec3::Zero();
   for (std::size_t n = 0; n < 4; ++n) sum += surface_.position(c[n], moving);
@@ -76,7 +76,7 @@ Vec3 ContactSurface::rest_area(std::uint32_t facet) const {
 }
 
 ContactSurface::CentroidAndArea ContactSurface::centroid_and_area(std::uint32_t facet,
-                                                                  const MovingBody& moving) const {
+                                                                  const NodeMotion& moving) const {
   const auto& c = surface_.facets[facet];
   const Vec3 p0 = surface_.position(c[0], moving);
   const Vec3 p1 = surface_.position(c[1], moving);

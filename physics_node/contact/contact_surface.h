@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "physics_node/step/body_model.h"
 #include "physics_node/surface/surface.h"
 
 namespace palpate::physics {
@@ -11,23 +12,23 @@ namespace palpate::physics {
 /// grid of buckets; moving facets are looked through one by one, and the caller keeps what it found for a while.
 class ContactSurface {
  public:
-  ContactSurface(const MovingBody& moving, double bucket_size);
+  ContactSurface(const BodyModel& moving, double bucket_size);
 
   const Surface& surface() const { return surface_; }
   double bucket_size() const { return bucket_size_; }
 
   /// Appends the facets whose centroid lies within `radius` of `p` now. Allocates only while `out` grows.
-  void facets_near(const Vec3& p, double radius, const MovingBody& moving,
+  void facets_near(const Vec3& p, double radius, const NodeMotion& moving,
                    std::vector<std::uint32_t>& out) const;
 
-  Vec3 centroid(std::uint32_t facet, const MovingBody& moving) const;
+  Vec3 centroid(std::uint32_t facet, const NodeMotion& moving) const;
   Vec3 rest_centroid(std::uint32_t facet) const;
   Vec3 rest_area(std::uint32_t facet) const;  // as below [m^2]
   /// The centroid and, half the cross product of the diagonals, the normal times the area [m^2].
   struct CentroidAndArea {
     Vec3 centroid, area;
   };
-  CentroidAndArea centroid_and_area(std::uint32_t facet, const MovingBody& moving) const;
+  CentroidAndArea centroid_and_area(std::uint32_t facet, const NodeMotion& moving) const;
 
  private:
   std::size_t bucket_of(const Vec3& p) const;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/math/six.h"
-#include "physics_node/step/moving_body.h"
+#include "physics_node/step/node_motion.h"
 
 namespace palpate::physics {
 
@@ -34,9 +34,9 @@ class Handle {
   ///   v := (p + R (X - X_tip) - x_0) / dt,   x := x_0 + dt v.
   /// The hand's work is that of the impulse m (v - v_1), v_1 as the elements left it: m (v - v_1) . (v_0 + v) / 2, with v_0 from
   /// note() before the step; where nobody noted it, as with backward_euler, which has impulses act at its end, with v_1.
-  HandleWork lead(MovingBody& moving, const Pose& pose, double dt) noexcept;
+  HandleWork lead(NodeMotion& moving, const Pose& pose, double dt) noexcept;
   /// Remembers how fast its masses move.
-  void note(const MovingBody& moving) noexcept;
+  void note(const NodeMotion& moving) noexcept;
   void reset() noexcept { noted_ = false; }
 
   std::size_t size() const { return cell_.size(); }
@@ -47,6 +47,7 @@ class Handle {
   std::vector<std::uint32_t> all_;  // 0, 1, 2 ...
   std::vector<Vec3> rest_, x_, v_, v_move_, v_0_;
   std::vector<double> mass_;
+  std::vector<NodalPush> pushes_;
   bool noted_ = false;
 };
 

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics_node/step/moving_body.h"
+#include "physics_node/step/node_motion.h"
 
 namespace palpate::physics {
 

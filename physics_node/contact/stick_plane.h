@@ -32,7 +32,7 @@ struct StickPlane {
 class StickSurface {
  public:
   /// @param surface, moving  outlive it. @param radius  of the stick [m]
-  StickSurface(const ContactSurface& surface, const MovingBody& moving, double radius);
+  StickSurface(const ContactSurface& surface, const NodeMotion& moving, double radius);
 
   /// Looks for facets around the stick; keeps what it found until stick or tissue may have left it.
   void look(const Stick& stick, double t) noexcept;
@@ -52,7 +52,7 @@ class StickSurface {
   void collect(const Stick& stick, bool at_rest) noexcept;
 
   const ContactSurface& surface_;
-  const MovingBody& moving_;
+  const NodeMotion& moving_;
   double reach_, depth_;             // R, D [m]
   std::vector<std::uint32_t> near_;  // facets around the stick
   std::vector<Facet> facets_;        // those that it may touch

@@ -18,7 +18,7 @@ constexpr double patch_half = 0.020;  // side of the plane's square about the ti
 }  // namespace
 
 StickTool::StickTool(const ToolSpec& tool, std::uint32_t index,
-                     const std::vector<std::unique_ptr<MovingBody>>& bodies,
+                     const BodyModels& bodies,
                      const std::vector<TouchableBody>& surfaces)
     : LedTool(index, tool.set_point),
       length_(tool.length),
@@ -112,7 +112,7 @@ LeadWork StickTool::lead_body(Near& near, const Stick& before, const Stick& now,
     const double dv = depth / dt, m = near.mass[i];
     const bool carried =
         (near.x[i] - before.axis_point(before.nearest(near.x[i]))).norm() < radius_ + on_surface;
-    near.moving->push(near.cell[i], dv * n, dt);
+    near.pushes.add(*near.moving, {near.cell[i], dv * n}, dt);
     const double J = m * dv, given = J * (n.dot(near.v[i]) + 0.5 * dv);
     // A mass that is carried takes all that the hand gives; one that is struck leaves a part.
     sum.work += carried ? given : J * v_s;
@@ -121,6 +121,7 @@ LeadWork StickTool::lead_body(Near& near, const Stick& before, const Stick& now,
     sum_.add(-m * dv * n, at - to_.p);
     ++contacts_;
   }
+  near.pushes.give(*near.moving, dt);
   return sum;
 }
 

@@ -23,7 +23,7 @@ namespace palpate::physics {
 class StickTool final : public LedTool {
  public:
   /// @param bodies, surfaces  of each body; outlive the tool
-  StickTool(const ToolSpec& tool, std::uint32_t index, const std::vector<std::unique_ptr<MovingBody>>& bodies,
+  StickTool(const ToolSpec& tool, std::uint32_t index, const BodyModels& bodies,
             const std::vector<TouchableBody>& surfaces);
 
   void take(const ToolState* state, double dt) noexcept override;
@@ -52,11 +52,12 @@ class StickTool final : public LedTool {
  private:
   /// Masses of one body near the stick; arrays of one length.
   struct Near {
-    MovingBody* moving = nullptr;
+    NodeMotion* moving = nullptr;
     std::vector<std::uint32_t> all;  // 0, 1, 2 ...
     std::vector<Index> cell;
     std::vector<Vec3> rest, x, v, v_move;
     std::vector<double> mass;
+    PushBatch pushes;
     std::size_t n = 0;
   };
   void list(Near& near) noexcept;

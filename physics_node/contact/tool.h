@@ -8,7 +8,7 @@
 #include "physics_node/contact/low_pass.h"
 #include "physics_node/contact/norton_spring.h"
 #include "physics_node/contact/tangent_estimate.h"
-#include "physics_node/step/moving_body.h"
+#include "physics_node/step/body_model.h"
 
 namespace palpate::physics {
 

@@ -27,7 +27,7 @@ struct MassShare {
 class ToolContact {
  public:
   /// @param radius  of the tip: its force fades out smoothly over twice that, and over two cells at least [m]
-  ToolContact(const ContactSurface& surface, const MovingBody& moving, double radius);
+  ToolContact(const ContactSurface& surface, const NodeMotion& moving, double radius);
 
   /// Looks for facets around `p`; keeps what it found until the tool or the tissue may have left it.
   void look(const Vec3& p, double t) noexcept;
@@ -70,7 +70,7 @@ class ToolContact {
   const Facet* nearest(const Vec3& p) const noexcept;
 
   const ContactSurface& surface_;
-  const MovingBody& moving_;
+  const NodeMotion& moving_;
   double radius_;  // R [m]
   double reach_;   // facets within this distance are kept [m]
   Vec3 searched_at_ = Vec3::Constant(1e9);

@@ -24,7 +24,7 @@
 namespace palpate::physics {
 
 struct TouchableBody {
-  const MovingBody* moving = nullptr;
+  const NodeMotion* moving = nullptr;
   std::unique_ptr<ContactSurface> surface;
 };
 
@@ -62,7 +62,7 @@ class ToolCoupling final : public Tool {
   ForceModel model_;
   double stiffness_;                   // of the hand's spring, K [N/m]
   std::vector<ToolContact> contacts_;  // with each body
-  std::vector<const MovingBody*> moving_;
+  std::vector<const NodeMotion*> moving_;
   bool seen_ = false;
   bool engaged_ = false;
   Vec3 tip_ = Vec3::Zero();

@@ -6,7 +6,7 @@
 
 namespace palpate::physics {
 
-Fragments::Fragments(const MovingBody& moving) {
+Fragments::Fragments(const Topology& moving) {
   const Lattice& lattice = moving.body().lattice;
   const auto n = static_cast<std::size_t>(lattice.n_cells());
   label_ = ZeroedArray<Index>(n);
@@ -102,7 +102,7 @@ bool Fragments::is_settled(Index front) noexcept {
   return first == none;
 }
 
-Index Fragments::grow(Index front, const MovingBody& moving) noexcept {
+Index Fragments::grow(Index front, const Topology& moving) noexcept {
   Chain& waiting = fronts_[static_cast<std::size_t>(front)].waiting;
   const Index cell = waiting.head;
   waiting.head = next_[static_cast<std::size_t>(cell)];
@@ -153,7 +153,7 @@ void Fragments::forget(const Chain& chain) noexcept {
     front_of_[static_cast<std::size_t>(cell)] = 0;
 }
 
-void Fragments::update(const MovingBody& moving) noexcept {
+void Fragments::update(const Topology& moving) noexcept {
   if (moving.fresh_overflow()) return recompute(moving);
   if (moving.fresh_breaks().empty()) return;
   fronts_.clear();
@@ -185,7 +185,7 @@ void Fragments::update(const MovingBody& moving) noexcept {
   }
 }
 
-void Fragments::recompute(const MovingBody& moving) noexcept {
+void Fragments::recompute(const Topology& moving) noexcept {
   const Lattice& lattice = moving.body().lattice;
   masses_.clear();
   for (const Index cell : lattice.masses) label_[static_cast<std::size_t>(cell)] = 0;

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "physics_node/step/moving_body.h"
+#include "physics_node/step/topology.h"
 #include "physics_node/step/zeroed_array.h"
 
 namespace palpate::physics {
@@ -21,12 +21,12 @@ namespace palpate::physics {
 /// Memory: 12 bytes a storage cell, touched where there are masses. Contract: after construction nothing allocates or throws.
 class Fragments {
  public:
-  explicit Fragments(const MovingBody& moving);
+  explicit Fragments(const Topology& moving);
 
   /// To be called after every step in which elements may have broken, and after the state was replaced.
-  void update(const MovingBody& moving) noexcept;
+  void update(const Topology& moving) noexcept;
   /// From nothing, by a flood over all masses. Labels then count in storage order.
-  void recompute(const MovingBody& moving) noexcept;
+  void recompute(const Topology& moving) noexcept;
 
   Index count() const noexcept { return static_cast<Index>(masses_.size()); }
   /// Of the fragment that a mass belongs to, in [0, count()); -1 in an empty cell.
@@ -66,7 +66,7 @@ class Fragments {
   /// Do all its links lead to itself? Forgets those that do.
   bool is_settled(Index front) noexcept;
   /// Looks at the neighbours of the next mass that a front has reached. @return the front that it is part of now
-  Index grow(Index front, const MovingBody& moving) noexcept;
+  Index grow(Index front, const Topology& moving) noexcept;
   void close(Index front) noexcept;
   void forget(const Chain& chain) noexcept;
 

@@ -6,7 +6,7 @@
 
 namespace palpate::physics {
 
-std::vector<FragmentMeasure> measure_fragments(const MovingBody& moving, const Fragments& fragments) {
+std::vector<FragmentMeasure> measure_fragments(const NodeMotion& moving, const Fragments& fragments) {
   std::vector<FragmentMeasure> all(static_cast<std::size_t>(fragments.count()));
   for (std::size_t n = 0; n < all.size(); ++n) all[n].label = static_cast<Index>(n);
   for (const Index cell : moving.body().lattice.masses) {
@@ -25,7 +25,7 @@ std::vector<FragmentMeasure> measure_fragments(const MovingBody& moving, const F
   return all;
 }
 
-double fragment_shape_rms(const MovingBody& moving, const Fragments& fragments, Index label) {
+double fragment_shape_rms(const NodeMotion& moving, const Fragments& fragments, Index label) {
   const Index n = fragments.masses()[static_cast<std::size_t>(label)];
   if (n < 3) return 0;
   Eigen::Matrix3Xd rest(3, n), now(3, n);

@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "physics_node/step/momentum_account.h"
+#include "physics_node/step/node_motion.h"
 #include "physics_node/fragments/fragments.h"
 
 namespace palpate::physics {
@@ -16,10 +18,10 @@ struct FragmentMeasure {
 };
 
 /// The heaviest first; of equal ones, the one with the smaller label. One pass over the masses.
-std::vector<FragmentMeasure> measure_fragments(const MovingBody& moving, const Fragments& fragments);
+std::vector<FragmentMeasure> measure_fragments(const NodeMotion& moving, const Fragments& fragments);
 
 /// Root mean square distance of a fragment's masses to where they rest, after the best rigid fit [m]. 0 for a fragment of
 /// less than three masses, which has no shape.
-double fragment_shape_rms(const MovingBody& moving, const Fragments& fragments, Index label);
+double fragment_shape_rms(const NodeMotion& moving, const Fragments& fragments, Index label);
 
 }  // namespace palpate::physics

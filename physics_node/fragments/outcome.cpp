@@ -29,7 +29,7 @@ Outcome classify(const OutcomeMeasures& m) {
   return Outcome::restitution;
 }
 
-OutcomeMeasures measure_outcome(const MovingBody& moving, const Fragments* fragments) {
+OutcomeMeasures measure_outcome(const BodyModel& moving, const Fragments* fragments) {
   const Lattice& lattice = moving.body().lattice;
   const BodyCounts counts = moving.counts();
   OutcomeMeasures m;

@@ -4,6 +4,7 @@
 // Source: Wakamatsu & Honma 2011, section on the fall of a sphere: the state before, and five states after an impact.
 // The paper shows pictures and no measure; measures and thresholds are ours (docs/reference/outcomes.md, EQUATIONS C-17, C-18).
 
+#include "physics_node/step/body_model.h"
 #include "physics_node/fragments/fragments.h"
 
 namespace palpate::physics {
@@ -42,6 +43,6 @@ inline constexpr double crush_shape = 0.1;
 Outcome classify(const OutcomeMeasures& measures);
 
 /// @param fragments  null for a body that cannot break
-OutcomeMeasures measure_outcome(const MovingBody& moving, const Fragments* fragments);
+OutcomeMeasures measure_outcome(const BodyModel& moving, const Fragments* fragments);
 
 }  // namespace palpate::physics

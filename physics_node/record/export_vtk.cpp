@@ -26,7 +26,7 @@ class ExportedBody {
         base_("/bodies/" + scene.bodies[b].name),
         rgba_(body_colour(scene, b)),
         threshold_(scene.render.threshold),
-        moving_(make_moving_body(build_body(scene.bodies[b], scene.materials), Precision::single_)),
+        moving_(make_body_model(build_body(scene.bodies[b], scene.materials), Precision::single_)),
         live_(*moving_),
         number_(static_cast<std::size_t>(body().lattice.n_cells())) {
     if (file.shape(base_ + "/rest").at(0) != body().lattice.masses.size())
@@ -121,7 +121,7 @@ class ExportedBody {
   std::string base_;
   std::uint32_t rgba_;
   std::optional<double> threshold_;
-  std::unique_ptr<MovingBody> moving_;
+  std::unique_ptr<BodyModel> moving_;
   LiveElements live_;
   std::vector<std::uint32_t> number_;  // of the mass in a storage cell, as the record counts
   std::vector<Mask> masks_;

@@ -15,7 +15,7 @@ namespace palpate::physics {
 namespace {
 
 /// Facets whose four corners are masses, by mass number, for viewers.
-std::vector<std::uint32_t> mass_facets(const MovingBody& moving) {
+std::vector<std::uint32_t> mass_facets(const BodyModel& moving) {
   const Surface surface = make_surface(moving, std::nullopt, 0);
   std::vector<std::uint32_t> number(static_cast<std::size_t>(moving.body().lattice.n_cells()), 0);
   std::uint32_t next = 0;
@@ -57,7 +57,7 @@ void Recorder::make_files(const World& world, const SceneSource& source) {
   hdf5_->set_text("commit", commit());
   hdf5_->set_text("scene_checksum", hex_of(world.scene().checksum));
   for (std::size_t b = 0; b < world.n_bodies(); ++b) {
-    const MovingBody& moving = world.body(b);
+    const BodyModel& moving = world.body(b);
     const std::string base = "/bodies/" + moving.body().name;
     const auto facets = mass_facets(moving);
     std::vector<float> rest;

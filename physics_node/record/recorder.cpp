@@ -18,6 +18,8 @@ Recorder::Recorder(const World& world, const SceneSource& source, const std::str
   tallies_.resize(tool_names_.size());
   make_files(world, source);
   if (spec_.positions) {
+    for (std::size_t b = 0; b < world.n_bodies(); ++b)
+      conditions_.emplace_back(static_cast<std::size_t>(world.body(b).body().lattice.n_masses()));
     for (std::size_t s = 0; s < n_snapshots; ++s) {
       auto snapshot = std::make_unique<Snapshot>();
       for (std::size_t b = 0; b < world.n_bodies(); ++b) {
@@ -120,15 +122,18 @@ void Recorder::take_snapshot(const World& world, Snapshot& snapshot) noexcept {
   snapshot.t = snapshot_t_ = world.t();
   for (std::size_t b = 0; b < world.n_bodies(); ++b) {
     std::size_t n = 0;
-    for (const Index cell : world.body(b).body().lattice.masses) {
+    const std::vector<Index>& masses = world.body(b).body().lattice.masses;
+    world.body(b).conditions(masses, conditions_[b]);
+    for (const Index cell : masses) {
       const Vec3 p = world.body(b).position(cell);
       for (int a = 0; a < 3; ++a)
         snapshot.position[b][3 * n + static_cast<std::size_t>(a)] = static_cast<float>(p[a]);
       if (!snapshot.live[b].empty()) {
         snapshot.live[b][n] = world.body(b).mask(cell);
-        snapshot.yielded[b][n] = static_cast<std::uint8_t>(255 * world.body(b).yielded_share(cell) + 0.5);
+        snapshot.yielded[b][n] = static_cast<std::uint8_t>(255 * conditions_[b][n].yielded_share + 0.5);
       }
-      snapshot.flags[b][n++] = world.body(b).flags(cell);
+      snapshot.flags[b][n] = conditions_[b][n].flags;
+      ++n;
     }
   }
   snapshot.full = true;

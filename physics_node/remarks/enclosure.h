@@ -12,7 +12,7 @@ namespace palpate::physics {
 class Enclosure {
  public:
   /// Cost: one surface of the body, scenery included.
-  explicit Enclosure(const MovingBody& body);
+  explicit Enclosure(const BodyModel& body);
 
   /// By the parity of hits of three rays, of which two must agree. Cost: three passes over the facets.
   bool contains(const Vec3& p) const;

@@ -11,7 +11,7 @@
 namespace palpate::physics {
 
 using Remarks = std::vector<std::string>;
-using Bodies = std::vector<const MovingBody*>;  // as loaded, one for each of the scene
+using Bodies = std::vector<const BodyModel*>;  // as loaded, one for each of the scene
 
 /// All of the below about a world that has just been loaded, in the order of a scene file.
 /// Cost: some passes over masses and surfaces; a second for a head of 256 x 256 x 77 cells.

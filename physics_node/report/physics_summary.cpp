@@ -15,7 +15,7 @@ namespace {
 
 nlohmann::json triple(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
 
-nlohmann::json body_part(const MovingBody& moving, const Fragments* fragments) {
+nlohmann::json body_part(const BodyModel& moving, const Fragments* fragments) {
   const BodyCounts counts = moving.counts();
   const auto n_masses = static_cast<double>(moving.body().lattice.n_masses());
   const auto elements = static_cast<double>(std::max<std::int64_t>(counts.elements, 1));
@@ -134,7 +134,7 @@ nlohmann::json physics_summary(const World& world, const Recorder* recorder, dou
   }
   Momenta momenta;
   for (std::size_t b = 0; b < world.n_bodies(); ++b) {
-    const MovingBody& moving = world.body(b);
+    const BodyModel& moving = world.body(b);
     part["bodies"][moving.body().name] = body_part(moving, world.fragments(b));
     nlohmann::json& of_body = part["bodies"][moving.body().name];
     if (world.n_bodies() > 1) {

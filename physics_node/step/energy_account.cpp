@@ -5,7 +5,7 @@
 
 namespace palpate::physics {
 
-Energies sum_energies(const MovingBodies& bodies, const Vec3& gravity) {
+Energies sum_energies(const BodyModels& bodies, const Vec3& gravity) {
   Energies sum;
   for (const auto& body : bodies) {
     const Energies e = body->energies(gravity);
@@ -29,19 +29,19 @@ void add(const Losses& lost, Losses& sum) {
 
 }  // namespace
 
-Losses sum_losses(const MovingBodies& bodies) {
+Losses sum_losses(const BodyModels& bodies) {
   Losses sum;
   for (const auto& body : bodies) add(body->losses(), sum);
   return sum;
 }
 
-Losses sum_losses_and_due(const MovingBodies& bodies) {
+Losses sum_losses_and_due(const BodyModels& bodies) {
   Losses sum = sum_losses(bodies);
   for (const auto& body : bodies) add(body->due(), sum);
   return sum;
 }
 
-void EnergyAccount::restart(const MovingBodies& bodies, const Vec3& gravity, const StepReport& report) {
+void EnergyAccount::restart(const BodyModels& bodies, const Vec3& gravity, const StepReport& report) {
   start_ = sum_energies(bodies, gravity);
   lost_ = sum_losses_and_due(bodies);
   booked_ = Booked(report);

@@ -5,17 +5,17 @@
 #include <vector>
 
 #include "physics_node/step/energy_ledger.h"
-#include "physics_node/step/moving_body.h"
+#include "physics_node/step/body_model.h"
 #include "physics_node/step/step_report.h"
 
 namespace palpate::physics {
 
-using MovingBodies = std::vector<std::unique_ptr<MovingBody>>;
 
-Energies sum_energies(const MovingBodies& bodies, const Vec3& gravity);
-Losses sum_losses(const MovingBodies& bodies);
-/// The same with what the next step will book at once: see MovingBody::due().
-Losses sum_losses_and_due(const MovingBodies& bodies);
+
+Energies sum_energies(const BodyModels& bodies, const Vec3& gravity);
+Losses sum_losses(const BodyModels& bodies);
+/// The same with what the next step will book at once: see Books::due().
+Losses sum_losses_and_due(const BodyModels& bodies);
 
 /// What tools and contact have done, as the report has counted it.
 struct Booked {
@@ -28,7 +28,7 @@ struct Booked {
 class EnergyAccount {
  public:
   /// What is there now is what the ledger starts from.
-  void restart(const MovingBodies& bodies, const Vec3& gravity, const StepReport& report);
+  void restart(const BodyModels& bodies, const Vec3& gravity, const StepReport& report);
 
   /// The ledger of a moment, from energies and losses then and what tools and contact had done by then.
   EnergyLedger book(const Energies& now, const Losses& lost, const Booked& booked) const noexcept;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "physics_node/step/element_step.h"
-#include "physics_node/step/moving_body.h"
+#include "physics_node/step/node_motion.h"
 
 namespace palpate::physics {
 namespace {

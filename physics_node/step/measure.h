@@ -1,7 +1,7 @@
 #pragma once
 // What a body's state amounts to: energies, momenta, counts. For reports, not for the step.
 
-#include "physics_node/step/moving_body.h"
+#include "physics_node/step/books.h"
 #include "physics_node/step/state.h"
 
 namespace palpate::physics {

@@ -1,12 +1,12 @@
 #include "physics_node/surface/live_elements.h"
 
 namespace palpate::physics {
-LiveElements::LiveElements(const MovingBody& moving)
+LiveElements::LiveElements(const Topology& moving)
     : mask_(static_cast<std::size_t>(moving.body().lattice.n_cells())) {
   copy(moving);
 }
 
-void LiveElements::copy(const MovingBody& moving) {
+void LiveElements::copy(const Topology& moving) {
   for (const Index cell : moving.body().lattice.masses)
     mask_[static_cast<std::size_t>(cell)] = moving.mask(cell);
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "physics_node/body/body.h"
-#include "physics_node/step/moving_body.h"
+#include "physics_node/step/topology.h"
 #include "physics_node/step/zeroed_array.h"
 
 namespace palpate::physics {
@@ -15,8 +15,8 @@ namespace palpate::physics {
 class LiveElements {
  public:
   /// Copies the masks of all masses. Cost: one virtual call per mass.
-  explicit LiveElements(const MovingBody& moving);
-  void copy(const MovingBody& moving);
+  explicit LiveElements(const Topology& moving);
+  void copy(const Topology& moving);
   /// From the masks of all masses, in storage order, as a record holds them.
   void copy(const Body& body, std::span<const Mask> masks);
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "physics_node/body/body.h"
-#include "physics_node/step/moving_body.h"
+#include "physics_node/step/body_model.h"
 #include "physics_node/surface/live_elements.h"
 
 namespace palpate::physics {
@@ -23,7 +23,7 @@ struct Surface {
   std::size_t n_vertices() const { return rest.size(); }
   std::size_t n_moving() const { return cell.size(); }
   /// Position now: of a moving vertex from the body, of the scenery from rest.
-  Vec3 position(std::size_t vertex, const MovingBody& moving) const {
+  Vec3 position(std::size_t vertex, const NodeMotion& moving) const {
     return vertex < cell.size() ? Vec3(rest[vertex] + moving.displacement(cell[vertex])) : rest[vertex];
   }
 };
@@ -45,6 +45,6 @@ Surface fcc_surface(const Body& body, const LiveElements& live, std::uint32_t rg
 Surface make_surface(const Body& body, const LiveElements& live, std::optional<double> threshold,
                      std::uint32_t plain_rgba);
 /// The same from the elements alive now.
-Surface make_surface(const MovingBody& moving, std::optional<double> threshold, std::uint32_t plain_rgba);
+Surface make_surface(const Topology& moving, std::optional<double> threshold, std::uint32_t plain_rgba);
 
 }  // namespace palpate::physics

@@ -184,7 +184,7 @@ Surface make_surface(const Body& body, const LiveElements& live, std::optional<d
   return fcc_surface(body, live, plain_rgba);
 }
 
-Surface make_surface(const MovingBody& moving, std::optional<double> threshold, std::uint32_t plain_rgba) {
+Surface make_surface(const Topology& moving, std::optional<double> threshold, std::uint32_t plain_rgba) {
   return make_surface(moving.body(), LiveElements(moving), threshold, plain_rgba);
 }
 

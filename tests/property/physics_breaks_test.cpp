@@ -24,7 +24,7 @@ Recipe brittle_box(const char* lattice, double width_mm = 50) {
 using Ends = std::tuple<Index, Index, int>;
 
 /// Elements by what the masks of their first ends say.
-std::set<Ends> live_elements(const MovingBody& moving) {
+std::set<Ends> live_elements(const BodyModel& moving) {
   const Lattice& lattice = moving.body().lattice;
   std::set<Ends> live;
   for (const Index cell : lattice.masses)
@@ -36,20 +36,20 @@ std::set<Ends> live_elements(const MovingBody& moving) {
   return live;
 }
 
-void shake(MovingBody& moving, double speed, std::uint64_t seed) {
+void shake(BodyModel& moving, double speed, std::uint64_t seed) {
   Dice dice(seed);
   for (const Index cell : moving.body().lattice.masses) moving.place(cell, Vec3::Zero(), dice.within(speed));
 }
 
 TEST(FreshBreaks, AreWhatTheMasksLost) {
   for (const char* lattice : {"fcc", "voxel"}) {
-    const auto moving = make_moving_body(body_of(brittle_box(lattice)), Precision::single_);
+    const auto moving = make_body_model(body_of(brittle_box(lattice)), Precision::single_);
     shake(*moving, 1.5, 3);
-    moving->element_forces_and_integrate({.dt = 2e-4});
+    moving->advance({.dt = 2e-4}, {});
     std::set<Ends> before = live_elements(*moving);
     std::int64_t broken = moving->breaks();
     for (int n = 0; n < 150; ++n) {
-      const std::int64_t now = moving->element_forces_and_integrate({.dt = 2e-4});
+      const std::int64_t now = moving->advance({.dt = 2e-4}, {}).broken;
       const std::set<Ends> after = live_elements(*moving);
       std::set<Ends> lost;
       Index last = 0;
@@ -75,13 +75,13 @@ TEST(FreshBreaks, AreWhatTheMasksLost) {
 TEST(FreshBreaks, ComeInOneOrderForAnyNumberOfThreads) {
   std::vector<std::vector<Ends>> lists;
   for (const int threads : {1, 2, 5}) {
-    const auto moving = make_moving_body(body_of(brittle_box("fcc", 210)), Precision::single_);
+    const auto moving = make_body_model(body_of(brittle_box("fcc", 210)), Precision::single_);
     ASSERT_GT(moving->body().lattice.chunks.size(), 1u);
     shake(*moving, 2, 4);
     std::vector<Ends> all;
     Team team(threads);
     for (int n = 0; n < 30; ++n) {
-      moving->element_forces_and_integrate({.dt = 2e-4, .team = &team, .threads = threads});
+      moving->advance({.dt = 2e-4, .team = &team, .threads = threads}, {});
       for (const Break& one : moving->fresh_breaks()) all.emplace_back(one.first, one.other, one.half);
     }
     lists.push_back(all);
@@ -107,11 +107,11 @@ TEST(FreshBreaks, SayWhenTheyAreNotAll) {
 }
 
 TEST(FreshBreaks, KnowThatAStateWasReplaced) {
-  const auto moving = make_moving_body(body_of(brittle_box("fcc")), Precision::double_);
+  const auto moving = make_body_model(body_of(brittle_box("fcc")), Precision::double_);
   const ExplicitStep step{.dt = 2e-4};
   EXPECT_TRUE(moving->fresh_overflow());
-  moving->element_forces_and_integrate(step);
-  moving->element_forces_and_integrate(step);
+  moving->advance(step, {});
+  moving->advance(step, {});
   for (const bool restore : {true, false}) {
     EXPECT_FALSE(moving->fresh_overflow());
     if (restore) {
@@ -120,12 +120,12 @@ TEST(FreshBreaks, KnowThatAStateWasReplaced) {
       moving->reset();
     }
     EXPECT_TRUE(moving->fresh_overflow());
-    moving->element_forces_and_integrate(step);
+    moving->advance(step, {});
     EXPECT_TRUE(moving->fresh_overflow());
-    moving->element_forces_and_integrate(step);
+    moving->advance(step, {});
     EXPECT_FALSE(moving->fresh_overflow());
   }
-  const auto elastic = make_moving_body(body_of(Recipe{}), Precision::double_);
+  const auto elastic = make_body_model(body_of(Recipe{}), Precision::double_);
   EXPECT_FALSE(elastic->fresh_overflow());
 }
 
@@ -133,13 +133,13 @@ TEST(Momentum, IsNotChangedByABreak) {
   for (const Integrator integrator : {Integrator::symplectic_euler, Integrator::velocity_verlet}) {
     Recipe recipe = brittle_box("fcc");
     recipe.material += "\nviscosity_N_s_per_m = 0.05";
-    const auto moving = make_moving_body(body_of(recipe), Precision::double_, integrator);
+    const auto moving = make_body_model(body_of(recipe), Precision::double_, integrator);
     shake(*moving, 2, 5);
     double scale = 0;  // sum of |m v|: what the sums round by
     for (const Index cell : moving->body().lattice.masses) scale += 1e-3 * moving->velocity(cell).norm();
     const Momenta start = moving->momenta();
     for (int n = 0; n < 200; ++n) {
-      moving->element_forces_and_integrate({.dt = 2e-4, .verlet = integrator == Integrator::velocity_verlet});
+      moving->advance({.dt = 2e-4, .verlet = integrator == Integrator::velocity_verlet}, {});
       const Momenta now = moving->momenta();
       ASSERT_LT((now.linear - start.linear).norm(), 1e-13 * scale) << "step " << n;
       // Central forces turn nothing; Verlet's velocity of whole steps is exact in it to second order only.
@@ -173,7 +173,7 @@ TEST_P(MomentumBooks, HoldWhatGravityFloorAndPushesPutIn) {
   recipe.gravity = "[1, 0, -9.81]";
   recipe.world = floor_at(0);
   World world(scene_of(recipe));
-  MovingBody& body = world.body(0);
+  BodyModel& body = world.body(0);
   for (int n = 0; n < 150; ++n) {
     const NodalForce push{body.body().lattice.masses[100], Vec3(0.1, -0.2, 0.05)};
     body.kick({&push, 1}, world.step_seconds());

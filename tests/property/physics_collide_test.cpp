@@ -17,24 +17,24 @@ namespace {
 
 Scene scene_called(const std::string& name) { return load_scene(std::string(SCENES) + "/" + name + ".toml"); }
 
-double broken_share(const MovingBody& body) {
+double broken_share(const BodyModel& body) {
   return static_cast<double>(body.breaks()) / static_cast<double>(body.body().lattice.n_elements());
 }
 
-Vec3 centre(const MovingBody& body) {
+Vec3 centre(const BodyModel& body) {
   Vec3 sum = Vec3::Zero();
   for (const Index cell : body.body().lattice.masses) sum += body.position(cell);
   return sum / static_cast<double>(body.body().lattice.n_masses());
 }
 
-Vec3 mean_velocity(const MovingBody& body) {
+Vec3 mean_velocity(const BodyModel& body) {
   Vec3 sum = Vec3::Zero();
   for (const Index cell : body.body().lattice.masses) sum += body.velocity(cell);
   return sum / static_cast<double>(body.body().lattice.n_masses());
 }
 
 /// Angle of the best rigid fit of the shape at rest [degrees].
-double turned_by(const MovingBody& body) {
+double turned_by(const BodyModel& body) {
   const auto& masses = body.body().lattice.masses;
   Eigen::Matrix3Xd rest(3, masses.size()), now(3, masses.size());
   for (std::size_t n = 0; n < masses.size(); ++n) {
@@ -46,7 +46,7 @@ double turned_by(const MovingBody& body) {
 }
 
 /// The lowest mass of the bottom edge at x, from where it is at rest: how high it is now [m].
-double height_of_edge(const MovingBody& body, double x) {
+double height_of_edge(const BodyModel& body, double x) {
   double lowest = 1e9;
   for (const Index cell : body.body().lattice.masses) {
     const Vec3 rest = body.body().lattice.rest_position(cell);
@@ -57,7 +57,7 @@ double height_of_edge(const MovingBody& body, double x) {
 
 /// Share of the elements that broke among those of masses for which `holds(rest position)`.
 template <class Holds>
-double broken_share_where(const MovingBody& body, const Holds& holds) {
+double broken_share_where(const BodyModel& body, const Holds& holds) {
   double broken = 0, all = 0;
   const Lattice& lattice = body.body().lattice;
   for (const Index cell : lattice.masses) {
@@ -94,7 +94,7 @@ double largest(const World& world, std::size_t b) {
 
 TEST(Collide, AOneSphereRunsThroughTheOther) {
   World world(scene_called("collide_a"));
-  const MovingBody &target = world.body(0), &bullet = world.body(1);
+  const BodyModel &target = world.body(0), &bullet = world.body(1);
   const double speed = mean_velocity(bullet).x();
   run(world);
   const double kept = mean_velocity(bullet).x() / speed;
@@ -122,7 +122,7 @@ const Vec3 struck(-0.05, 0, 0.1);
 
 TEST(Collide, CBothAreDestroyedWhereTheyTouchAndTheFarEdgeOfTheCubeLifts) {
   World world(scene_called("collide_c"));
-  const MovingBody &cube = world.body(0), &ball = world.body(1);
+  const BodyModel &cube = world.body(0), &ball = world.body(1);
   const double before = height_of_edge(cube, 0.05);
   double lift = 0, near_then = 0, turn = 0;
   run(world, [&] {
@@ -152,7 +152,7 @@ TEST(Collide, CBothAreDestroyedWhereTheyTouchAndTheFarEdgeOfTheCubeLifts) {
 
 TEST(Collide, DTheHarderCubeCracksNearContactAndFloorAndTurnsALittle) {
   World world(scene_called("collide_d"));
-  const MovingBody& cube = world.body(0);
+  const BodyModel& cube = world.body(0);
   double turn = 0;
   run(world, [&] { turn = std::max(turn, turned_by(cube)); });
   const double contact = broken_share_where(cube, [](const Vec3& p) { return (p - struck).norm() < 0.045; });

@@ -23,7 +23,7 @@ Recipe glass(const char* lattice, double width_mm) {
 }
 
 /// Numbers of the components, by the simplest way: spread the smallest number until nothing changes.
-std::map<Index, Index> brute_force(const MovingBody& moving) {
+std::map<Index, Index> brute_force(const BodyModel& moving) {
   const Lattice& lattice = moving.body().lattice;
   std::map<Index, Index> number;
   for (const Index cell : lattice.masses) number[cell] = cell;
@@ -41,7 +41,7 @@ std::map<Index, Index> brute_force(const MovingBody& moving) {
   return number;
 }
 
-void expect_same_pieces(const Fragments& fragments, const MovingBody& moving, const std::string& where) {
+void expect_same_pieces(const Fragments& fragments, const BodyModel& moving, const std::string& where) {
   const std::map<Index, Index> expected = brute_force(moving);
   std::map<Index, Index> label_of, masses;
   for (const auto& [cell, number] : expected) {
@@ -58,10 +58,10 @@ void expect_same_pieces(const Fragments& fragments, const MovingBody& moving, co
 }
 
 /// Moves the masses that `chosen` picks, lets what is stretched break, and puts them back.
-void tear(MovingBody& moving, const std::function<Vec3(const Vec3&)>& displacement) {
+void tear(BodyModel& moving, const std::function<Vec3(const Vec3&)>& displacement) {
   for (const Index cell : moving.body().lattice.masses)
     moving.place(cell, displacement(moving.body().lattice.rest_position(cell)), Vec3::Zero());
-  moving.element_forces_and_integrate({.dt = 0});
+  moving.advance({.dt = 0}, {});
 }
 
 class RandomTears : public testing::TestWithParam<const char*> {};
@@ -70,10 +70,10 @@ TEST_P(RandomTears, LeaveThePiecesOfAFlood) {
   const std::uint64_t seed = std::random_device{}();
   for (std::uint64_t round = 0; round < 6; ++round) {
     Dice dice(seed + round);
-    const auto moving = make_moving_body(body_of(glass(GetParam(), 70)), Precision::double_);
+    const auto moving = make_body_model(body_of(glass(GetParam(), 70)), Precision::double_);
     Fragments fragments(*moving);
     Fragments flood(*moving);
-    moving->element_forces_and_integrate({.dt = 0});
+    moving->advance({.dt = 0}, {});
     for (int n = 0; n < 25; ++n) {
       const std::string where =
           std::string(GetParam()) + " seed " + std::to_string(seed + round) + " tear " + std::to_string(n);
@@ -107,9 +107,9 @@ TEST(Fragments, FollowAMiddleThatComesOffAtBothEnds) {
     double from, to;  // the middle [m]
   };
   for (const Case middle : {Case{-0.006, 0.006}, Case{-0.025, 0.025}, Case{-0.03, 0.01}}) {
-    const auto moving = make_moving_body(body_of(glass("fcc", 90)), Precision::double_);
+    const auto moving = make_body_model(body_of(glass("fcc", 90)), Precision::double_);
     Fragments fragments(*moving);
-    moving->element_forces_and_integrate({.dt = 0});
+    moving->advance({.dt = 0}, {});
     fragments.update(*moving);
     ASSERT_EQ(fragments.count(), 1);
     tear(*moving, [&](const Vec3& p) -> Vec3 {
@@ -122,9 +122,9 @@ TEST(Fragments, FollowAMiddleThatComesOffAtBothEnds) {
 }
 
 TEST(Fragments, AreOfOneMassEachWhenAllIsBroken) {
-  const auto moving = make_moving_body(body_of(glass("fcc", 50)), Precision::double_);
+  const auto moving = make_body_model(body_of(glass("fcc", 50)), Precision::double_);
   Fragments fragments(*moving);
-  moving->element_forces_and_integrate({.dt = 0});
+  moving->advance({.dt = 0}, {});
   tear(*moving, [&](const Vec3& p) -> Vec3 { return p; });  // twice the size
   fragments.update(*moving);
   EXPECT_EQ(fragments.count(), moving->body().lattice.n_masses());
@@ -132,9 +132,9 @@ TEST(Fragments, AreOfOneMassEachWhenAllIsBroken) {
 }
 
 TEST(Fragments, FollowTheStateThatTheGuardBringsBack) {
-  const auto moving = make_moving_body(body_of(glass("fcc", 50)), Precision::double_);
+  const auto moving = make_body_model(body_of(glass("fcc", 50)), Precision::double_);
   Fragments fragments(*moving);
-  moving->element_forces_and_integrate({.dt = 0});
+  moving->advance({.dt = 0}, {});
   const auto slide = [](double from) {
     return [from](const Vec3& p) -> Vec3 { return p.x() > from ? Vec3(0, 0.02, 0) : Vec3::Zero(); };
   };

@@ -11,7 +11,7 @@
 #include "common/record/png_file.h"
 #include "common/scene/load_scene.h"
 #include "physics_node/body/trim.h"
-#include "physics_node/step/moving_body.h"
+#include "physics_node/step/body_model.h"
 #include "physics_node/world.h"
 #include "tests/support/image/scratch_folder.h"
 #include "tests/support/physics/made_volume.h"
@@ -211,7 +211,7 @@ TEST(Floor, MeetsEveryMassOfATurnedBodyAtItsOwnHeight) {
   const double height = 0.0021, dt = 1e-9;
   std::int64_t below = 0;
   for (const Index cell : body.lattice.masses) below += body.lattice.rest_position(cell).z() < height ? 1 : 0;
-  const auto moving = make_moving_body(body, Precision::double_);
+  const auto moving = make_body_model(body, Precision::double_);
   moving->prepare_contact();
   moving->remember_velocities();
   EXPECT_EQ(moving->bounce_off({Vec3::UnitZ(), height}, 1, dt).masses, below);

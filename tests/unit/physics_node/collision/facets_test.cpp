@@ -25,7 +25,7 @@ TEST_P(ClosedSurface, EveryEdgeIsInAnEvenNumberOfBoundaryFacets) {
   Recipe recipe;
   recipe.lattice = GetParam().lattice;
   recipe.shape = GetParam().shape;
-  const auto moving = make_moving_body(test::body_of(recipe), Precision::double_);
+  const auto moving = make_body_model(test::body_of(recipe), Precision::double_);
   const Candidates candidates(*moving, true);
   const Facets facets(candidates);
   std::set<Facets::Corners> known(facets.all().begin(), facets.all().end());
@@ -55,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(Lattices, ClosedSurface,
 
 TEST(Facets, ALooseMassIsAFacetOfOnePoint) {
   Recipe recipe = test::pair_of_masses("mass_g = 1\nk1_N_per_m = 100");
-  const auto moving = make_moving_body(test::body_of(recipe), Precision::double_);
+  const auto moving = make_body_model(test::body_of(recipe), Precision::double_);
   const Candidates candidates(*moving, false);
   const Facets facets(candidates);
   ASSERT_EQ(facets.all().size(), 2U);
@@ -64,7 +64,7 @@ TEST(Facets, ALooseMassIsAFacetOfOnePoint) {
 }
 
 TEST(Candidates, AreTheMassesWithFewerElementsThanDeepInside) {
-  const auto moving = make_moving_body(test::body_of({.shape = Recipe::sphere(50)}), Precision::single_);
+  const auto moving = make_body_model(test::body_of({.shape = Recipe::sphere(50)}), Precision::single_);
   const Candidates candidates(*moving, false);
   std::size_t expected = 0;
   for (const Index cell : moving->body().lattice.masses)

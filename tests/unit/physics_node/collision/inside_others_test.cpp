@@ -13,12 +13,12 @@ namespace {
 
 using namespace test;
 
-std::unique_ptr<MovingBody> moving(const Recipe& recipe) {
-  return make_moving_body(body_of(recipe), Precision::double_);
+std::unique_ptr<BodyModel> moving(const Recipe& recipe) {
+  return make_body_model(body_of(recipe), Precision::double_);
 }
 
 /// Volume of all that a body fills [m^3].
-double filled_volume(const MovingBody& body) {
+double filled_volume(const BodyModel& body) {
   const Lattice& lattice = body.body().lattice;
   const auto patterns = volume_patterns(lattice);
   const auto mask = [&](Index cell) { return body.mask(cell); };
@@ -81,7 +81,7 @@ class OfEachLattice : public testing::TestWithParam<const char*> {
     }
   }
 
-  std::vector<std::unique_ptr<MovingBody>> bodies;
+  std::vector<std::unique_ptr<BodyModel>> bodies;
 };
 
 TEST_P(OfEachLattice, AreTheMassesBetweenItsFaces) {
@@ -127,7 +127,7 @@ TEST(InsideOthers, FindsNothingInWhatHasBrokenOpen) {
   ball.shape = Recipe::sphere(12);
   ball.spacing_mm = 4.3;
   ball.body = "at_mm = [20, 20, 20]";
-  std::vector<std::unique_ptr<MovingBody>> bodies;
+  std::vector<std::unique_ptr<BodyModel>> bodies;
   bodies.push_back(moving(brittle));
   bodies.push_back(moving(ball));
   InsideOthers inside(bodies);
@@ -137,7 +137,7 @@ TEST(InsideOthers, FindsNothingInWhatHasBrokenOpen) {
     const Vec3 rest = bodies[0]->body().lattice.rest_position(cell);
     bodies[0]->place(cell, 0.1 * rest, Vec3::Zero());
   }
-  bodies[0]->element_forces_and_integrate({.dt = 0});
+  bodies[0]->advance({.dt = 0}, {});
   ASSERT_EQ(bodies[0]->counts().live_elements, 0);
   inside.look();
   EXPECT_EQ(inside.now(1), 0);
@@ -147,7 +147,7 @@ TEST(InsideOthers, AreNotThoseOfBodiesThatAreFlush) {
   for (const char* lattice : {"fcc", "voxel"}) {
     Recipe upper = cube(lattice);
     upper.body = "at_mm = [20, 20, 60]";
-    std::vector<std::unique_ptr<MovingBody>> bodies;
+    std::vector<std::unique_ptr<BodyModel>> bodies;
     bodies.push_back(moving(cube(lattice)));
     bodies.push_back(moving(upper));
     InsideOthers inside(bodies);

@@ -18,13 +18,13 @@ Key key(const NearPair& p) { return {p.mass.body, p.mass.n, p.other.body, p.othe
 
 /// Two lumps of masses thrown about, so that many of them are near each other.
 struct Heap {
-  std::vector<std::unique_ptr<MovingBody>> moving;
+  std::vector<std::unique_ptr<BodyModel>> moving;
   std::vector<ContactBody> bodies;
 
   Heap(std::uint64_t seed, double spread) {
     for (const double spacing : {10.0, 6.0}) {
       Recipe recipe{.shape = Recipe::sphere(20), .spacing_mm = spacing};
-      moving.push_back(make_moving_body(test::body_of(recipe), Precision::double_));
+      moving.push_back(make_body_model(test::body_of(recipe), Precision::double_));
     }
     Dice dice(seed);
     for (auto& body : moving)
@@ -123,9 +123,9 @@ TEST(NearPairs, AreMadeAnewOnlyWhenSomethingHasMovedByHalfTheSkin) {
 
 // All corners of a stretched facet may be far outside the box of what it reaches over.
 TEST(NearPairs, HoldASmallBodyUnderAWidelyStretchedFacet) {
-  std::vector<std::unique_ptr<MovingBody>> moving;
+  std::vector<std::unique_ptr<BodyModel>> moving;
   for (const double radius : {50.0, 6.0})
-    moving.push_back(make_moving_body(
+    moving.push_back(make_body_model(
         test::body_of({.shape = Recipe::sphere(radius), .spacing_mm = radius / 5}), Precision::double_));
   const Lattice& lattice = moving[0]->body().lattice;
   std::vector<ContactBody> bodies;
@@ -153,7 +153,7 @@ TEST(NearPairs, HoldASmallBodyUnderAWidelyStretchedFacet) {
 
 TEST(NearPairs, OfABodyAtRestAreNone) {
   std::vector<ContactBody> bodies;
-  const auto moving = make_moving_body(test::body_of({.shape = Recipe::sphere(50)}), Precision::double_);
+  const auto moving = make_body_model(test::body_of({.shape = Recipe::sphere(50)}), Precision::double_);
   bodies.emplace_back(*moving, true, false);
   bodies[0].refresh(0);
   NearPairs near(bodies, PairKind::both);

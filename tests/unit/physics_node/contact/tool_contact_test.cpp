@@ -16,10 +16,10 @@ using namespace test;
 /// A body at rest and a tip beside it.
 struct Touch {
   explicit Touch(const Recipe& recipe, double radius = 0.003)
-      : moving(make_moving_body(body_of(recipe), Precision::double_)),
+      : moving(make_body_model(body_of(recipe), Precision::double_)),
         surface(*moving, 0.02),
         contact(surface, *moving, radius) {}
-  std::unique_ptr<MovingBody> moving;
+  std::unique_ptr<BodyModel> moving;
   ContactSurface surface;
   ToolContact contact;
 };

@@ -52,15 +52,15 @@ OutcomeMeasures cut_bar(double spacing_mm, const Opening& opening) {
   recipe.material = "density_kg_per_m3 = 1000\nmodulus_kPa = 10\nyield_ratio = 1.05\nbreak_ratio = 1.1";
   recipe.shape = Recipe::box(240, 20, 20);
   recipe.spacing_mm = spacing_mm;
-  const auto moving = make_moving_body(body_of(recipe), Precision::double_);
+  const auto moving = make_body_model(body_of(recipe), Precision::double_);
   Fragments fragments(*moving);
-  moving->element_forces_and_integrate({.dt = 0});
+  moving->advance({.dt = 0}, {});
   for (const Opening& place : {opening, Opening([](const Vec3& p) { return p; })}) {
     for (const Index cell : moving->body().lattice.masses) {
       const Vec3 p = moving->body().lattice.rest_position(cell);
       moving->place(cell, place(p) - p, Vec3::Zero());
     }
-    moving->element_forces_and_integrate({.dt = 0});
+    moving->advance({.dt = 0}, {});
     fragments.update(*moving);
   }
   OutcomeMeasures measures = measure_outcome(*moving, &fragments);
@@ -109,15 +109,15 @@ TEST(FragmentMeasures, AddUpToTheBody) {
   Recipe recipe;
   recipe.material = "mass_g = 1\nk1_N_per_m = 200\nyield_ratio = 1.0005\nbreak_ratio = 1.001";
   recipe.shape = Recipe::box(60, 40, 40);
-  const auto moving = make_moving_body(body_of(recipe), Precision::double_);
+  const auto moving = make_body_model(body_of(recipe), Precision::double_);
   Fragments fragments(*moving);
-  moving->element_forces_and_integrate({.dt = 0});
+  moving->advance({.dt = 0}, {});
   for (const Index cell : moving->body().lattice.masses) {
     const Vec3 p = moving->body().lattice.rest_position(cell);
     const bool right = p.x() > 0.01;
     moving->place(cell, right ? Vec3(0.02, 0, 0) : Vec3::Zero(), right ? Vec3(1, 2, 3) : Vec3(0, 0, -1));
   }
-  moving->element_forces_and_integrate({.dt = 0});
+  moving->advance({.dt = 0}, {});
   fragments.update(*moving);
   const auto pieces = measure_fragments(*moving, fragments);
   ASSERT_EQ(pieces.size(), 2u);

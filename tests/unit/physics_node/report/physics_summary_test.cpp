@@ -142,7 +142,7 @@ json warnings_with(double part) {
   World world(scene_of(recipe));
   for (int n = 0; n < 200; ++n) world.frame({});
   EXPECT_EQ(physics_summary(world, nullptr, 1).at("warnings"), json::array());
-  MovingBody& cube = world.body(0);
+  BodyModel& cube = world.body(0);
   for (const Index cell : cube.body().lattice.masses)
     cube.place(cell, cube.displacement(cell), std::sqrt(1 + part) * cube.velocity(cell));
   world.frame({});
@@ -169,7 +169,7 @@ json warnings_of_a_smash(double step_ms) {
   recipe.physics = fmt::format("step_ms = {}", step_ms);
   recipe.world = floor_at(-21);
   World world(scene_of(recipe));
-  MovingBody& cube = world.body(0);
+  BodyModel& cube = world.body(0);
   for (const Index cell : cube.body().lattice.masses) cube.place(cell, Vec3::Zero(), Vec3(1, 0, -4));
   world.restart_ledger();
   for (int n = 0; n < 200; ++n) world.frame({});

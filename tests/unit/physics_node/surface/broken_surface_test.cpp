@@ -23,9 +23,9 @@ Recipe fragile(const std::string& lattice, const std::string& shape) {
 }
 
 /// Pulls these masses a metre away, all by the same, so that they lose every element to the others.
-void pull(MovingBody& moving, const std::vector<Index>& masses) {
+void pull(BodyModel& moving, const std::vector<Index>& masses) {
   for (const Index mass : masses) moving.place(mass, Vec3(0, 0, 1), Vec3::Zero());
-  moving.element_forces_and_integrate({.dt = 1e-9, .watch = true});
+  moving.advance({.dt = 1e-9, .watch = true}, {});
 }
 
 double volume_inside(const Surface& surface) {
@@ -43,7 +43,7 @@ double volume_at(const Vec3i& grid) { return cell_m3 * 8 * ((grid.sum() & 1) != 
 
 TEST(BrokenVoxelSurface, LosesTheTetrahedraAtMassesThatAreGone) {
   const auto moving =
-      make_moving_body(body_of(fragile("voxel", Recipe::box(130, 130, 130))), Precision::double_);
+      make_body_model(body_of(fragile("voxel", Recipe::box(130, 130, 130))), Precision::double_);
   const Lattice& lattice = moving->body().lattice;
   const std::uint64_t seed = 7;
   Dice dice(seed);
@@ -73,7 +73,7 @@ TEST(BrokenVoxelSurface, LosesTheTetrahedraAtMassesThatAreGone) {
 TEST(BrokenVoxelSurface, LosesWhatIsRoundOneMass) {
   for (const Vec3i& grid : {Vec3i(3, 3, 3), Vec3i(3, 3, 4)}) {
     const auto moving =
-        make_moving_body(body_of(fragile("voxel", Recipe::box(60, 60, 60))), Precision::double_);
+        make_body_model(body_of(fragile("voxel", Recipe::box(60, 60, 60))), Precision::double_);
     pull(*moving, {moving->body().lattice.mass_at(grid)});
     EXPECT_NEAR(volume_inside(make_surface(*moving, std::nullopt, 0)), 216 * cell_m3 - volume_at(grid),
                 1e-15);
@@ -83,7 +83,7 @@ TEST(BrokenVoxelSurface, LosesWhatIsRoundOneMass) {
 TEST(BrokenVoxelSurface, StaysClosedAtACornerOfABox) {
   for (const Vec3i& corner : {Vec3i(0, 0, 0), Vec3i(3, 0, 0)}) {
     const auto moving =
-        make_moving_body(body_of(fragile("voxel", Recipe::box(30, 30, 30))), Precision::double_);
+        make_body_model(body_of(fragile("voxel", Recipe::box(30, 30, 30))), Precision::double_);
     pull(*moving, {moving->body().lattice.mass_at(corner)});
     const double lost = (corner.sum() & 1) != 0 ? 1.0 / 6 : 5.0 / 6;
     EXPECT_NEAR(volume_inside(make_surface(*moving, std::nullopt, 0)), (27 - lost) * cell_m3, 1e-15);
@@ -92,7 +92,7 @@ TEST(BrokenVoxelSurface, StaysClosedAtACornerOfABox) {
 
 TEST(BrokenVoxelSurface, LeavesWholeCellsAsTheyWere) {
   const auto moving =
-      make_moving_body(body_of(fragile("voxel", Recipe::box(60, 30, 30))), Precision::double_);
+      make_body_model(body_of(fragile("voxel", Recipe::box(60, 30, 30))), Precision::double_);
   const Surface before = make_surface(*moving, std::nullopt, 0);
   pull(*moving, {moving->body().lattice.mass_at({0, 0, 0})});
   const Surface after = make_surface(*moving, std::nullopt, 0);
@@ -110,20 +110,20 @@ INSTANTIATE_TEST_SUITE_P(Lattices, LooseParts, testing::Values("fcc", "voxel"));
 
 TEST_P(LooseParts, AreNoneInAWholeBox) {
   const auto moving =
-      make_moving_body(body_of(fragile(GetParam(), Recipe::box(60, 60, 60))), Precision::double_);
+      make_body_model(body_of(fragile(GetParam(), Recipe::box(60, 60, 60))), Precision::double_);
   EXPECT_TRUE(loose_parts(moving->body(), LiveElements(*moving)).empty());
 }
 
 TEST_P(LooseParts, KeepALoneElementAndALoneMassInSight) {
   const auto moving =
-      make_moving_body(body_of(fragile(GetParam(), Recipe::box(90, 90, 90))), Precision::double_);
+      make_body_model(body_of(fragile(GetParam(), Recipe::box(90, 90, 90))), Precision::double_);
   const Lattice& lattice = moving->body().lattice;
   const Index first = lattice.mass_at({4, 4, 4});
   const Index other = lattice.mass_at(Vec3i(4, 4, 4) + half_directions(lattice.kind)[0]);
   const Index alone = lattice.mass_at({8, 8, 8});
   pull(*moving, {first, other});
   moving->place(alone, Vec3(0, 1, 0), Vec3::Zero());
-  moving->element_forces_and_integrate({.dt = 1e-9, .watch = true});
+  moving->advance({.dt = 1e-9, .watch = true}, {});
   const LiveElements live(*moving);
   const auto parts = loose_parts(moving->body(), live);
   ASSERT_EQ(parts.size(), 2u);

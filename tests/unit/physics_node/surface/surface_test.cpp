@@ -15,7 +15,7 @@ namespace {
 using namespace test;
 
 struct Made {
-  std::unique_ptr<MovingBody> moving;
+  std::unique_ptr<BodyModel> moving;
   Surface surface;
 };
 
@@ -23,7 +23,7 @@ Made surface_of(const std::string& lattice, const std::string& shape) {
   Recipe recipe;
   recipe.lattice = lattice;
   recipe.shape = shape;
-  Made made{make_moving_body(body_of(recipe), Precision::double_), {}};
+  Made made{make_body_model(body_of(recipe), Precision::double_), {}};
   made.surface = make_surface(*made.moving, std::nullopt, 0xFF112233);
   return made;
 }
@@ -80,7 +80,7 @@ TEST(VoxelSurface, ShowsOnlyWhatReachesTheThreshold) {
   write_volume(made_volume({3, 1, 1}, [](int i, int, int) { return 100.F * static_cast<float>(i + 1); }),
                path);
   const auto moving =
-      make_moving_body(build_body(volume_body(path, 50, 400), soft_material()), Precision::double_);
+      make_body_model(build_body(volume_body(path, 50, 400), soft_material()), Precision::double_);
   const auto from = [&](std::optional<double> threshold) { return make_surface(*moving, threshold, 0); };
   EXPECT_EQ(from(std::nullopt).facets.size(), 14u);
   EXPECT_EQ(from(std::nullopt).hidden, 2u);
@@ -98,7 +98,7 @@ TEST(VoxelSurface, PutsSceneryBehindMovingVertices) {
   write_volume(made_volume({6, 3, 3}, [](int, int, int) { return 100.F; }), path);
   BodySpec spec = volume_body(path, 50, 200);
   std::get<VolumeShape>(spec.shape).deformable = {false, {0, 1, 1}, 1};
-  const auto moving = make_moving_body(build_body(spec, soft_material()), Precision::double_);
+  const auto moving = make_body_model(build_body(spec, soft_material()), Precision::double_);
   const Surface surface = make_surface(*moving, std::nullopt, 0);
   expect_closed(surface);
   EXPECT_EQ(surface.facets.size(), 2u * (18 + 18 + 9));
@@ -132,7 +132,7 @@ TEST(FccSurface, OfACubeHoldsItsVolumeButForItsEdges) {
   Recipe recipe;
   recipe.shape = Recipe::box(60, 60, 60);
   recipe.spacing_mm = 10 * std::numbers::sqrt2;
-  const auto moving = make_moving_body(body_of(recipe), Precision::double_);
+  const auto moving = make_body_model(body_of(recipe), Precision::double_);
   const Surface surface = make_surface(*moving, std::nullopt, 0);
   EXPECT_NEAR(volume_inside(surface), 204e-6, 1e-12);
 }

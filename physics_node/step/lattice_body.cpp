@@ -1,11 +1,11 @@
-#include "physics_node/step/moving_body.h"
+#include "physics_node/step/body_model.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "common/math/state_hash.h"
 #include "physics_node/step/bounce.h"
-#include "physics_node/step/element_step.h"
+#include "physics_node/step/implicit_step.h"
 #include "physics_node/step/measure.h"
 #include "physics_node/step/saved_state.h"
 #include "physics_node/step/sleep.h"
@@ -21,36 +21,21 @@ bool has_losses(const Body& body) {
 }
 
 template <class Real>
-class LatticeBody final : public MovingBody {
+class LatticeBody final : public BodyModel {
  public:
   LatticeBody(Body body, Integrator integrator)
-      : body_(std::move(body)), state_(body_), sleep_(body_), saved_{{body_, state_}, {body_, state_}} {
+      : BodyModel(body_), body_(std::move(body)), state_(body_), sleep_(body_), saved_{{body_, state_}, {body_, state_}} {
+    NodeMotion::show({state_.u[0].data(), state_.u[1].data(), state_.u[2].data()},
+                     {state_.v[0].data(), state_.v[1].data(), state_.v[2].data()});
+    Topology::show({state_.mask.data(), state_.mask.size()});
     if (integrator == Integrator::velocity_verlet)
       for (auto& axis : state_.v_half) axis = ZeroedArray<Real>(n_cells());
     if (integrator == Integrator::backward_euler) implicit_ = std::make_unique<ImplicitStep<Real>>(body_);
     reset();
   }
 
-  const Body& body() const noexcept override { return body_; }
-
-  std::int64_t element_forces_and_integrate(const ExplicitStep& step) noexcept override {
-    if (step.verlet && step.dt != state_.dt_before) begin_leapfrog();
-    momentum_.step(step.gravity, step.verlet && !state_.v_half_known ? 0.5 * step.dt : step.dt, step.dt);
-    return element_step(body_, state_, step);  // sleeping rows are skipped
-  }
-
-  ImplicitReport implicit_step(const ExplicitStep& step,
-                               std::span<const NodalForce> forces) noexcept override {
-    for (const NodalForce& nodal : forces) sleep_.wake_cell(body_, state_, nodal.cell);
-    for (const NodalForce& nodal : forces)
-      momentum_.hit(step.dt * nodal.force, position(nodal.cell));  // before it moves on with it
-    momentum_.step(step.gravity, step.dt, step.dt);
-    const ImplicitReport report = implicit_->step(body_, state_, step, forces);
-    // Commits yield and break where the step ended, and lets the ledger watch.
-    ExplicitStep look = step;
-    look.dt = 0;
-    element_step(body_, state_, look);
-    return report;
+  StepOutcome advance(const ExplicitStep& step, std::span<const NodalForce> forces) noexcept override {
+    return implicit_ ? solve(step, forces) : integrate(step, forces);
   }
 
   double power(std::span<const NodalForce> forces) const noexcept override {
@@ -80,22 +65,9 @@ class LatticeBody final : public MovingBody {
     }
   }
 
-  void push(Index cell, const Vec3& dv, double dt) noexcept override {
+  void push(std::span<const NodalPush> pushes, double dt) noexcept override {
     if (implicit_) dt = 0;
-    const auto c = static_cast<std::size_t>(cell);
-    if (state_.inverse_mass[c] == 0) return;
-    sleep_.wake_cell(body_, state_, cell);
-    const bool verlet = state_.v_half[0].size() > 0;
-    momentum_.push(dv / static_cast<double>(state_.inverse_mass[c]), position(cell) - dt * vector_of(moving_velocity(state_), cell),
-                   dt);
-    for (std::size_t a = 0; a < 3; ++a) {
-      const double d = dv[static_cast<Eigen::Index>(a)];
-      state_.v[a][c] += static_cast<Real>(d);
-      state_.u[a][c] += static_cast<Real>(dt * d);
-      if (verlet) state_.v_half[a][c] += static_cast<Real>(d);
-      // The impulse acts before the elements do: who reads the mean of this and the velocity after them finds all of it.
-      if (v_before_[a].size() > 0) v_before_[a][c] += static_cast<Real>(d);
-    }
+    for (const NodalPush& one : pushes) push_one(one, dt);
   }
 
   void prepare_contact() override {
@@ -191,11 +163,6 @@ class LatticeBody final : public MovingBody {
     state_.forget_last_step();
   }
 
-  Vec3 position(Index cell) const noexcept override {
-    return body_.lattice.rest_position(cell) + vector_of(state_.u, cell);
-  }
-  Vec3 displacement(Index cell) const noexcept override { return vector_of(state_.u, cell); }
-  Vec3 velocity(Index cell) const noexcept override { return vector_of(state_.v, cell); }
   void read(std::span<const std::uint32_t> which, std::span<const Index> cells, std::span<const Vec3> rest, double dt, std::span<Vec3> x, std::span<Vec3> v,
             std::span<Vec3> v_move) const noexcept override {
     const Three<Real>& moving = moving_velocity(state_);
@@ -207,21 +174,18 @@ class LatticeBody final : public MovingBody {
       if (!implicit_) x[n] -= dt * v_move[n];
     }
   }
-  Mask mask(Index cell) const noexcept override { return state_.mask[static_cast<std::size_t>(cell)]; }
-  std::span<const Mask> masks() const noexcept override { return {state_.mask.data(), state_.mask.size()}; }
   std::span<const Break> fresh_breaks() const noexcept override { return state_.fresh.list; }
   bool fresh_overflow() const noexcept override { return any_yields(body_) && state_.fresh.overflow; }
   std::int64_t breaks() const noexcept override { return state_.breaks; }
-  std::uint8_t flags(Index cell) const noexcept override {
-    std::uint8_t flags = 0;
-    if (state_.mask[static_cast<std::size_t>(cell)] != body_.lattice.mask[static_cast<std::size_t>(cell)])
-      flags |= mass_broken;
-    if (any_yields(body_) && has_yielded(body_, state_, cell)) flags |= mass_yielded;
-    return flags;
-  }
-
-  double yielded_share(Index cell) const noexcept override {
-    return any_yields(body_) ? physics::yielded_share(body_, state_, cell) : 0;
+  void conditions(std::span<const Index> cells, std::span<Condition> out) const noexcept override {
+    const bool yields = any_yields(body_);
+    for (std::size_t n = 0; n < cells.size(); ++n) {
+      const Index cell = cells[n];
+      out[n] = {};
+      if (mask(cell) != body_.lattice.mask[static_cast<std::size_t>(cell)]) out[n].flags |= mass_broken;
+      if (yields && has_yielded(body_, state_, cell)) out[n].flags |= mass_yielded;
+      if (yields) out[n].yielded_share = yielded_share(body_, state_, cell);
+    }
   }
 
   Energies energies(const Vec3& gravity) const override { return measure_energies(body_, state_, gravity); }
@@ -232,7 +196,6 @@ class LatticeBody final : public MovingBody {
   void restart_momentum() noexcept override {
     momentum_.restart(measure_momenta(body_, state_.u, moving_velocity(state_)));
   }
-  MomentumAccount& momentum_account() noexcept override { return momentum_; }
   MomentumBalance momentum_balance() const override {
     return momentum_.balance(measure_momenta(body_, state_.u, moving_velocity(state_)).momenta);
   }
@@ -257,6 +220,47 @@ class LatticeBody final : public MovingBody {
   }
 
  private:
+  StepOutcome integrate(const ExplicitStep& step, std::span<const NodalForce> forces) noexcept {
+    if (step.verlet && step.dt != state_.dt_before) begin_leapfrog();
+    momentum_.step(step.gravity, step.verlet && !state_.v_half_known ? 0.5 * step.dt : step.dt, step.dt);
+    const StepOutcome outcome{.broken = element_step(body_, state_, step)};  // sleeping rows are skipped
+    kick(forces, step.dt);
+    return outcome;
+  }
+
+  StepOutcome solve(const ExplicitStep& step, std::span<const NodalForce> forces) noexcept {
+    for (const NodalForce& nodal : forces) sleep_.wake_cell(body_, state_, nodal.cell);
+    for (const NodalForce& nodal : forces)
+      momentum_.hit(step.dt * nodal.force, position(nodal.cell));  // before it moves on with it
+    momentum_.step(step.gravity, step.dt, step.dt);
+    const ImplicitReport report = implicit_->step(body_, state_, step, forces);
+    // Commits yield and break where the step ended, and lets the ledger watch.
+    ExplicitStep look = step;
+    look.dt = 0;
+    return {.broken = element_step(body_, state_, look),
+            .solved = report.converged,
+            .work = report.work,
+            .newton_iterations = report.newton_iterations,
+            .cg_iterations = report.cg_iterations};
+  }
+
+  void push_one(const NodalPush& one, double dt) noexcept {
+    const auto c = static_cast<std::size_t>(one.cell);
+    if (state_.inverse_mass[c] == 0) return;
+    sleep_.wake_cell(body_, state_, one.cell);
+    const bool verlet = state_.v_half[0].size() > 0;
+    momentum_.push(one.dv / static_cast<double>(state_.inverse_mass[c]),
+                   position(one.cell) - dt * vector_of(moving_velocity(state_), one.cell), dt);
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double d = one.dv[static_cast<Eigen::Index>(a)];
+      state_.v[a][c] += static_cast<Real>(d);
+      state_.u[a][c] += static_cast<Real>(dt * d);
+      if (verlet) state_.v_half[a][c] += static_cast<Real>(d);
+      // The impulse acts before the elements do: who reads the mean of this and the velocity after them finds all of it.
+      if (v_before_[a].size() > 0) v_before_[a][c] += static_cast<Real>(d);
+    }
+  }
+
   /// With another step the velocity half a step ago is another one: the step starts from the one now. Its momentum is another
   /// too, by what acted meanwhile.
   void begin_leapfrog() noexcept {
@@ -280,7 +284,7 @@ class LatticeBody final : public MovingBody {
 
 }  // namespace
 
-std::unique_ptr<MovingBody> make_moving_body(Body body, Precision precision, Integrator integrator) {
+std::unique_ptr<BodyModel> make_body_model(Body body, Precision precision, Integrator integrator) {
   if (precision == Precision::single_)
     return std::make_unique<LatticeBody<float>>(std::move(body), integrator);
   return std::make_unique<LatticeBody<double>>(std::move(body), integrator);

@@ -1,0 +1,61 @@
+#include "physics_node/contact/make_tools.h"
+
+#include <fmt/format.h>
+
+#include "common/error/error.h"
+#include "physics_node/contact/body_tool.h"
+#include "physics_node/contact/stick_tool.h"
+
+namespace palpate::physics {
+namespace {
+
+void add_point(const ToolSpec& spec, std::uint32_t n, const BodyModels& bodies, const std::vector<TouchableBody>& touchable,
+               Toolbox& box) {
+  box.tools.push_back(std::make_unique<ToolCoupling>(spec, n, touchable));
+  for (const auto& body : bodies) body->prepare_books();
+}
+
+void add_stick(const Scene& scene, std::uint32_t n, const BodyModels& bodies, const std::vector<TouchableBody>& touchable,
+               Toolbox& box) {
+  const ToolSpec& spec = scene.tools[n];
+  if (scene.physics.integrator == Integrator::backward_euler)
+    throw InputError(spec.place.text() + ": a stick moves masses step by step, which \"backward_euler\" does not; write "
+                     "integrator = \"symplectic_euler\" or \"velocity_verlet\"");
+  auto stick = std::make_unique<StickTool>(spec, n, bodies, touchable);
+  for (const auto& body : bodies)
+    if (body->body().n_held < body->body().lattice.n_masses() && spec.radius < 0.5 * body->body().lattice.spacing())
+      box.remarks.push_back(fmt::format("{}: stick \"{}\" of radius {:.3g} mm meets masses {:.3g} mm apart and may slip between "
+                                        "them; give it half of that at least",
+                                        spec.place.text(), spec.name, 1e3 * spec.radius, 1e3 * body->body().lattice.spacing()));
+  box.led.push_back(stick.get());
+  box.tools.push_back(std::move(stick));
+  for (const auto& body : bodies) body->prepare_contact();
+}
+
+void add_body(const ToolSpec& spec, std::uint32_t n, const BodyModels& bodies, Toolbox& box) {
+  std::size_t b = 0;
+  while (b < bodies.size() && bodies[b]->body().name != spec.body) ++b;
+  PALPATE_CHECK(b < bodies.size() && !bodies[b]->body().handle.empty(), "a tool names a body that has a handle");
+  auto tool = std::make_unique<BodyTool>(spec, n, b, *bodies[b]);
+  box.led.push_back(tool.get());
+  box.felt.push_back(b);
+  box.tools.push_back(std::move(tool));
+}
+
+}  // namespace
+
+Toolbox make_tools(const Scene& scene, const BodyModels& bodies, const std::vector<TouchableBody>& touchable) {
+  Toolbox box;
+  for (std::uint32_t n = 0; n < scene.tools.size(); ++n) {
+    const ToolSpec& spec = scene.tools[n];
+    if (spec.shape == ToolShape::point)
+      add_point(spec, n, bodies, touchable, box);
+    else if (spec.shape == ToolShape::stick)
+      add_stick(scene, n, bodies, touchable, box);
+    else
+      add_body(spec, n, bodies, box);
+  }
+  return box;
+}
+
+}  // namespace palpate::physics

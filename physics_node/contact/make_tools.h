@@ -1,0 +1,24 @@
+#pragma once
+// From the tools of a scene to what presses its bodies.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "physics_node/contact/led_tool.h"
+#include "physics_node/contact/tool_coupling.h"
+
+namespace palpate::physics {
+
+struct Toolbox {
+  std::vector<std::unique_ptr<Tool>> tools;  // one for each of the scene
+  std::vector<LedTool*> led;                 // those of them that move tissue themselves: bodies and sticks
+  std::vector<std::size_t> felt;             // bodies whose impulses somebody feels
+  std::vector<std::string> remarks;          // what a person should know: one line each
+};
+
+/// Makes them, and has the bodies make room for what these tools want to know.
+/// @throws InputError  where a tool cannot work with the scene's integrator
+Toolbox make_tools(const Scene& scene, const BodyModels& bodies, const std::vector<TouchableBody>& touchable);
+
+}  // namespace palpate::physics

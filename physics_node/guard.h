@@ -1,0 +1,39 @@
+#pragma once
+// Watches that a scene's energy stays finite and within what was put in, and says when to go back.
+
+#include <optional>
+
+#include "physics_node/step/body_model.h"
+#include "physics_node/step/energy_account.h"
+
+namespace palpate::physics {
+
+class Guard {
+ public:
+  enum class Verdict { sound, save, go_back };
+
+  /// Looks at what the last watched step of a frame saw: a pass over rows, over all elements only where energy has grown.
+  /// `save` is said every 50 frames.
+  Verdict look(const BodyModels& bodies, EnergyAccount& account, const Vec3& gravity, StepReport& report) noexcept;
+
+  /// A tool's work was not finite, and what it moved is not either.
+  void note_unusable_work() noexcept { unusable_work_ = true; }
+  /// No growth since the last save: what was saved then is good.
+  bool sound() const noexcept { return sound_; }
+  void saved() noexcept { sound_ = true; }
+  /// The state was thrown away. @return false: too often, the scene is given up
+  bool may_try_again() noexcept;
+  int recoveries() const noexcept { return recoveries_; }
+  /// The body that cannot be stepped; frames then no longer move anything.
+  std::optional<std::size_t> given_up() const noexcept { return given_up_; }
+  void reset() noexcept;
+
+ private:
+  bool sound_ = true;
+  bool unusable_work_ = false;
+  int recoveries_ = 0;  // since the step was last chosen
+  std::size_t culprit_ = 0;
+  std::optional<std::size_t> given_up_;
+};
+
+}  // namespace palpate::physics

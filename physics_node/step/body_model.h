@@ -1,0 +1,25 @@
+#pragma once
+// A body that moves: one object with four faces. Whoever uses it takes the face it needs.
+
+#include <memory>
+#include <vector>
+
+#include "physics_node/step/books.h"
+#include "physics_node/step/node_motion.h"
+#include "physics_node/step/stepper.h"
+#include "physics_node/step/topology.h"
+
+namespace palpate::physics {
+
+class BodyModel : public Stepper, public NodeMotion, public Books, public Topology {
+ public:
+  using NodeMotion::body;
+
+ protected:
+  explicit BodyModel(const Body& body) : NodeMotion(body), Topology(body) {}
+};
+using BodyModels = std::vector<std::unique_ptr<BodyModel>>;
+
+std::unique_ptr<BodyModel> make_body_model(Body body, Precision precision, Integrator integrator = Integrator::symplectic_euler);
+
+}  // namespace palpate::physics

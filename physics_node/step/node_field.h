@@ -1,0 +1,32 @@
+#pragma once
+// A vector of every node of a body, in the precision of its state.
+
+#include <cstddef>
+
+#include "common/scene/scene.h"
+#include "physics_node/lattice/lattice_types.h"
+
+namespace palpate::physics {
+
+/// A view: the body owns the numbers, and they change with each step.
+class NodeField {
+ public:
+  NodeField() = default;
+  NodeField(const float* x, const float* y, const float* z) : data_{x, y, z}, single_(true) {}
+  NodeField(const double* x, const double* y, const double* z) : data_{x, y, z} {}
+
+  Vec3 operator[](Index node) const noexcept { return single_ ? at<float>(node) : at<double>(node); }
+
+ private:
+  template <class Real>
+  Vec3 at(Index node) const noexcept {
+    const auto n = static_cast<std::size_t>(node);
+    return {static_cast<double>(static_cast<const Real*>(data_[0])[n]), static_cast<double>(static_cast<const Real*>(data_[1])[n]),
+            static_cast<double>(static_cast<const Real*>(data_[2])[n])};
+  }
+
+  const void* data_[3] = {};
+  bool single_ = false;
+};
+
+}  // namespace palpate::physics
