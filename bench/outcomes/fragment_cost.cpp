@@ -6,6 +6,7 @@
 
 #include "bench/problems/stopwatch.h"
 #include "physics_node/fragments/fragments.h"
+#include "physics_node/step/body_model.h"
 
 namespace palpate::bench {
 namespace {

@@ -10,6 +10,7 @@
 
 #include "bench/problems/lattice_statics.h"
 #include "bench/problems/problems.h"
+#include "physics_node/step/body_model.h"
 
 namespace palpate::bench {
 

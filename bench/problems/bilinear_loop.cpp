@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "bench/problems/problems.h"
+#include "physics_node/step/body_model.h"
 
 namespace palpate::bench {
 namespace {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "bench/problems/problems.h"
+#include "physics_node/step/body_model.h"
 
 namespace palpate::bench {
 namespace {

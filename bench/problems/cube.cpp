@@ -1,4 +1,5 @@
 #include "bench/problems/cube.h"
+#include "physics_node/step/body_model.h"
 
 #include <cmath>
 #include <random>

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "bench/problems/problems.h"
+#include "physics_node/step/body_model.h"
 
 namespace palpate::bench {
 

@@ -3,6 +3,7 @@
 #include "physics_node/collision/candidates.h"
 #include "physics_node/collision/point_triangle.h"
 #include "physics_node/lattice/triangles.h"
+#include "physics_node/step/body_model.h"
 
 namespace palpate::bench {
 

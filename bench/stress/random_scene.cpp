@@ -8,6 +8,7 @@
 #include "bench/problems/dice.h"
 #include "bench/problems/settings.h"
 #include "common/message/vec3.h"
+#include "physics_node/step/body_model.h"
 
 namespace palpate::bench {
 namespace {

@@ -9,6 +9,7 @@
 #include "bench/machine/result_folder.h"
 #include "bench/problems/settings.h"
 #include "bench/problems/stopwatch.h"
+#include "physics_node/step/body_model.h"
 
 namespace palpate::bench {
 namespace {

@@ -23,9 +23,9 @@ void add_stick(const Scene& scene, std::uint32_t n, const BodyModels& bodies, co
                      "integrator = \"symplectic_euler\" or \"velocity_verlet\"");
   auto stick = std::make_unique<StickTool>(spec, n, bodies, touchable);
   for (const auto& body : bodies)
-    if (body->body().n_held < body->body().lattice.n_masses() && spec.radius < 0.5 * body->body().lattice.spacing())
-      box.remarks.push_back(fmt::format("{}: stick \"{}\" of radius {:.3g} mm meets masses {:.3g} mm apart and may slip between "
-                                        "them; give it half of that at least",
+    if (any_yields(body->body()) && spec.radius < 0.5 * body->body().lattice.spacing())
+      box.remarks.push_back(fmt::format("{}: stick \"{}\" of radius {:.3g} mm meets only masses, {:.3g} mm apart, where tissue has "
+                                        "broken, and may slip between them there; give it half of that at least",
                                         spec.place.text(), spec.name, 1e3 * spec.radius, 1e3 * body->body().lattice.spacing()));
   box.led.push_back(stick.get());
   box.tools.push_back(std::move(stick));

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "physics_node/appearance/colours.h"
+#include "physics_node/step/body_model.h"
 #include "tests/support/image/scratch_folder.h"
 #include "tests/support/physics/made_volume.h"
 #include "tests/support/physics/pressed_world.h"

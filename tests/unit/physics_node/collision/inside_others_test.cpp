@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "physics_node/report/physics_summary.h"
+#include "physics_node/step/body_model.h"
 #include "tests/support/physics/small_worlds.h"
 
 namespace palpate::physics {

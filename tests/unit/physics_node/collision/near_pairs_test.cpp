@@ -1,5 +1,6 @@
 #include "physics_node/collision/near_pairs.h"
 #include "physics_node/collision/facet_now.h"
+#include "physics_node/step/body_model.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #include "physics_node/contact/tool_contact.h"
+#include "physics_node/step/body_model.h"
 
 #include <gtest/gtest.h>
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "physics_node/fragments/measure_fragments.h"
+#include "physics_node/step/body_model.h"
 #include "tests/support/physics/small_worlds.h"
 
 namespace palpate::physics::test {

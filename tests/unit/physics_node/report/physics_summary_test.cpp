@@ -1,4 +1,5 @@
 #include "physics_node/report/physics_summary.h"
+#include "physics_node/step/body_model.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+#include "physics_node/step/body_model.h"
 #include "physics_node/surface/surface.h"
 
 #include <gtest/gtest.h>
