@@ -10,7 +10,8 @@ constexpr double largest_growth = 4;         // before the guard acts
 constexpr double suspicious_growth = 1.5;    // before it measures anew
 constexpr double sound_growth = 2;           // between two saves, for the first of them to be good
 constexpr double negligible_energy = 1e-12;  // [J]
-constexpr int most_recoveries = 6;           // Why: each halves the step; at a 64th nothing that can be stepped still grows
+constexpr int most_recoveries =
+    6;  // Why: each halves the step; at a 64th nothing that can be stepped still grows
 
 std::size_t fastest_of(const BodyModels& bodies) noexcept {
   std::size_t fastest = 0;
@@ -21,7 +22,8 @@ std::size_t fastest_of(const BodyModels& bodies) noexcept {
 
 }  // namespace
 
-Guard::Verdict Guard::look(const BodyModels& bodies, EnergyAccount& account, const Vec3& gravity, StepReport& report) noexcept {
+Guard::Verdict Guard::look(const BodyModels& bodies, EnergyAccount& account, const Vec3& gravity,
+                           StepReport& report) noexcept {
   double energy = 0, fallen = 0;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const Watch watch = bodies[b]->watch();

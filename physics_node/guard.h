@@ -14,7 +14,8 @@ class Guard {
 
   /// Looks at what the last watched step of a frame saw: a pass over rows, over all elements only where energy has grown.
   /// `save` is said every 50 frames.
-  Verdict look(const BodyModels& bodies, EnergyAccount& account, const Vec3& gravity, StepReport& report) noexcept;
+  Verdict look(const BodyModels& bodies, EnergyAccount& account, const Vec3& gravity,
+               StepReport& report) noexcept;
 
   /// A tool's work was not finite, and what it moved is not either.
   void note_unusable_work() noexcept { unusable_work_ = true; }

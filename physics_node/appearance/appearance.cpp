@@ -149,7 +149,8 @@ void Appearance::write_chunk(std::size_t body, std::uint32_t chunk,
   sink(out);
 }
 
-bool Appearance::block_changed(const View& view, const NodeMotion& moving, std::size_t first, std::size_t last) const {
+bool Appearance::block_changed(const View& view, const NodeMotion& moving, std::size_t first,
+                               std::size_t last) const {
   for (std::size_t n = first; n < last; ++n) {
     const Index cell = view.surface.cell[n];
     if (vertex_flags(conditions_[n - first]) != view.sent_flags[n]) return true;

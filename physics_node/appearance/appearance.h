@@ -70,7 +70,8 @@ class Appearance {
   std::int64_t restored_ = 0;  // how often the guard had gone back when surfaces were last looked at
   std::unique_ptr<BodySurface> chunk_ = std::make_unique<BodySurface>();
   std::unique_ptr<VertexBlock> block_ = std::make_unique<VertexBlock>();
-  std::vector<Condition> conditions_ = std::vector<Condition>(max_block_vertices);  // of the block that is looked at
+  std::vector<Condition> conditions_ =
+      std::vector<Condition>(max_block_vertices);  // of the block that is looked at
   std::future<Made> pending_;  // the last member: it is waited for before what it reads goes
 };
 

@@ -32,8 +32,7 @@ bool Candidates::is_candidate(Index cell, Mask live) const {
   return std::popcount(live) < complete_count(lattice, cell) || (with_front_ && lies_open(lattice, cell));
 }
 
-Candidates::Candidates(const BodyModel& moving, bool with_front)
-    : moving_(&moving), with_front_(with_front) {
+Candidates::Candidates(const BodyModel& moving, bool with_front) : moving_(&moving), with_front_(with_front) {
   const Lattice& lattice = moving.body().lattice;
   length_ = lattice.spacing();
   longest_element_ = 1.01 * *std::max_element(lattice.rest_length.begin(), lattice.rest_length.end());

@@ -29,8 +29,8 @@ constexpr double speed_margin = 1.25;     // of what a mass may gain within a fr
 
 }  // namespace
 
-Collisions::Collisions(const BodyModels& bodies,
-                       const std::vector<std::unique_ptr<Fragments>>& fragments, const ContactSpec& spec)
+Collisions::Collisions(const BodyModels& bodies, const std::vector<std::unique_ptr<Fragments>>& fragments,
+                       const ContactSpec& spec)
     : spec_(spec),
       swept_(spec.distance == ContactDistance::swept),
       moving_(pointers(bodies)),

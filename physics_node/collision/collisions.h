@@ -25,8 +25,8 @@ struct CollisionTally {
 class Collisions {
  public:
   /// @param fragments  of each body, null where nothing yields; kept up to date before follow_breaks()
-  Collisions(const BodyModels& bodies,
-             const std::vector<std::unique_ptr<Fragments>>& fragments, const ContactSpec& spec);
+  Collisions(const BodyModels& bodies, const std::vector<std::unique_ptr<Fragments>>& fragments,
+             const ContactSpec& spec);
 
   /// Which bodies may touch in the coming frame. @return false: none, so that there is nothing to do in its steps
   bool begin_frame(double frame_seconds) noexcept;

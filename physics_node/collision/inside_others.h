@@ -8,10 +8,10 @@
 #include <memory>
 #include <vector>
 
-#include "physics_node/step/body_model.h"
 #include "physics_node/collision/point_grid.h"
 #include "physics_node/fragments/fragments.h"
 #include "physics_node/lattice/volumes.h"
+#include "physics_node/step/body_model.h"
 
 namespace palpate::physics {
 

@@ -9,24 +9,26 @@
 namespace palpate::physics {
 namespace {
 
-void add_point(const ToolSpec& spec, std::uint32_t n, const BodyModels& bodies, const std::vector<TouchableBody>& touchable,
-               Toolbox& box) {
+void add_point(const ToolSpec& spec, std::uint32_t n, const BodyModels& bodies,
+               const std::vector<TouchableBody>& touchable, Toolbox& box) {
   box.tools.push_back(std::make_unique<ToolCoupling>(spec, n, touchable));
   for (const auto& body : bodies) body->prepare_books();
 }
 
-void add_stick(const Scene& scene, std::uint32_t n, const BodyModels& bodies, const std::vector<TouchableBody>& touchable,
-               Toolbox& box) {
+void add_stick(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
+               const std::vector<TouchableBody>& touchable, Toolbox& box) {
   const ToolSpec& spec = scene.tools[n];
   if (scene.physics.integrator == Integrator::backward_euler)
-    throw InputError(spec.place.text() + ": a stick moves masses step by step, which \"backward_euler\" does not; write "
+    throw InputError(spec.place.text() +
+                     ": a stick moves masses step by step, which \"backward_euler\" does not; write "
                      "integrator = \"symplectic_euler\" or \"velocity_verlet\"");
   auto stick = std::make_unique<StickTool>(spec, n, bodies, touchable);
   for (const auto& body : bodies)
     if (any_yields(body->body()) && spec.radius < 0.5 * body->body().lattice.spacing())
-      box.remarks.push_back(fmt::format("{}: stick \"{}\" of radius {:.3g} mm meets only masses, {:.3g} mm apart, where tissue has "
-                                        "broken, and may slip between them there; give it half of that at least",
-                                        spec.place.text(), spec.name, 1e3 * spec.radius, 1e3 * body->body().lattice.spacing()));
+      box.remarks.push_back(fmt::format(
+          "{}: stick \"{}\" of radius {:.3g} mm meets only masses, {:.3g} mm apart, where tissue has "
+          "broken, and may slip between them there; give it half of that at least",
+          spec.place.text(), spec.name, 1e3 * spec.radius, 1e3 * body->body().lattice.spacing()));
   box.led.push_back(stick.get());
   box.tools.push_back(std::move(stick));
   for (const auto& body : bodies) body->prepare_contact();
@@ -35,7 +37,8 @@ void add_stick(const Scene& scene, std::uint32_t n, const BodyModels& bodies, co
 void add_body(const ToolSpec& spec, std::uint32_t n, const BodyModels& bodies, Toolbox& box) {
   std::size_t b = 0;
   while (b < bodies.size() && bodies[b]->body().name != spec.body) ++b;
-  PALPATE_CHECK(b < bodies.size() && !bodies[b]->body().handle.empty(), "a tool names a body that has a handle");
+  PALPATE_CHECK(b < bodies.size() && !bodies[b]->body().handle.empty(),
+                "a tool names a body that has a handle");
   auto tool = std::make_unique<BodyTool>(spec, n, b, *bodies[b]);
   box.led.push_back(tool.get());
   box.felt.push_back(b);
@@ -44,7 +47,8 @@ void add_body(const ToolSpec& spec, std::uint32_t n, const BodyModels& bodies, T
 
 }  // namespace
 
-Toolbox make_tools(const Scene& scene, const BodyModels& bodies, const std::vector<TouchableBody>& touchable) {
+Toolbox make_tools(const Scene& scene, const BodyModels& bodies,
+                   const std::vector<TouchableBody>& touchable) {
   Toolbox box;
   for (std::uint32_t n = 0; n < scene.tools.size(); ++n) {
     const ToolSpec& spec = scene.tools[n];

@@ -10,8 +10,8 @@ namespace {
 
 constexpr double on_surface = 1e-6;  // of the stick, so that a face was carried in the step before [m]
 constexpr double exit_speed = 1.0;   // Why: as of masses, so that a face and its corners come out alike [m/s]
-constexpr double inner = 1e-6;       // of the weights, for a point that lies in the triangle and not on its edge
-constexpr double touching = 1e-9;    // Why: nearer, the direction from the face to the axis is rounding [m]
+constexpr double inner = 1e-6;  // of the weights, for a point that lies in the triangle and not on its edge
+constexpr double touching = 1e-9;  // Why: nearer, the direction from the face to the axis is rounding [m]
 
 /// The nearest points of an axis and a triangle that it does not go through.
 struct Nearest {
@@ -102,8 +102,9 @@ void StickFaces::list(const Stick& stick, double reach) noexcept {
   }
 }
 
-LeadWork StickFaces::give_way(const std::array<std::uint32_t, 3>& corner, const FaceHit& hit, const Stick& before, const Stick& now,
-                              const Vec3& origin, double dt, ContactSum& sum) noexcept {
+LeadWork StickFaces::give_way(const std::array<std::uint32_t, 3>& corner, const FaceHit& hit,
+                              const Stick& before, const Stick& now, const Vec3& origin, double dt,
+                              ContactSum& sum) noexcept {
   const Surface& surface = surface_->surface();
   std::array<std::uint32_t, 3> which{};
   std::array<Index, 3> cells{};
@@ -124,11 +125,14 @@ LeadWork StickFaces::give_way(const std::array<std::uint32_t, 3>& corner, const 
   }
   LeadWork led;
   if (!(W > 1e-12)) return led;  // nothing there gives way
-  model_->read({which.data(), n}, {cells.data(), n}, {rest.data(), n}, dt, {x.data(), n}, {v.data(), n}, {v_move.data(), n});
+  model_->read({which.data(), n}, {cells.data(), n}, {rest.data(), n}, dt, {x.data(), n}, {v.data(), n},
+               {v_move.data(), n});
   Vec3 x_0 = Vec3::Zero(), v_p = Vec3::Zero(), v_moved = Vec3::Zero();
   for (std::size_t c = 0; c < 3; ++c)
-    if (corner[c] >= surface.n_moving()) x_0 += hit.weight[static_cast<Eigen::Index>(c)] * surface.rest[corner[c]];
-  for (std::size_t i = 0; i < n; ++i) x_0 += weight[i] * x[i], v_p += weight[i] * v[i], v_moved += weight[i] * v_move[i];
+    if (corner[c] >= surface.n_moving())
+      x_0 += hit.weight[static_cast<Eigen::Index>(c)] * surface.rest[corner[c]];
+  for (std::size_t i = 0; i < n; ++i)
+    x_0 += weight[i] * x[i], v_p += weight[i] * v[i], v_moved += weight[i] * v_move[i];
   const Vec3 axis_motion = now.axis_point(hit.t) - before.axis_point(hit.t);
   const double depth = std::min(hit.depth, dt * (exit_speed + axis_motion.norm() / dt + v_moved.norm()));
   const double J = depth / (dt * W);
@@ -145,8 +149,8 @@ LeadWork StickFaces::give_way(const std::array<std::uint32_t, 3>& corner, const 
   return led;
 }
 
-LeadWork StickFaces::lead(const Stick& before, const Stick& now, const Vec3& origin, double dt, ContactSum& sum,
-                          std::uint32_t& contacts) noexcept {
+LeadWork StickFaces::lead(const Stick& before, const Stick& now, const Vec3& origin, double dt,
+                          ContactSum& sum, std::uint32_t& contacts) noexcept {
   LeadWork led;
   const Surface& surface = surface_->surface();
   for (const std::uint32_t facet : near_) {
@@ -154,8 +158,9 @@ LeadWork StickFaces::lead(const Stick& before, const Stick& now, const Vec3& ori
     for (std::size_t half = 0; half < 2; ++half) {
       const std::array<std::uint32_t, 3> corner{corners[0], corners[1 + half], corners[2 + half]};
       if (corner[1] == corner[2]) continue;
-      const FaceHit hit = meet(now, {surface.position(corner[0], *model_), surface.position(corner[1], *model_),
-                                     surface.position(corner[2], *model_)});
+      const FaceHit hit =
+          meet(now, {surface.position(corner[0], *model_), surface.position(corner[1], *model_),
+                     surface.position(corner[2], *model_)});
       if (!hit.hit || hit.depth <= 0) continue;
       const LeadWork one = give_way(corner, hit, before, now, origin, dt, sum);
       led.work += one.work;

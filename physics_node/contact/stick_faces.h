@@ -12,10 +12,10 @@ namespace palpate::physics {
 /// A triangle of the surface under the capsule: what point of it meets which point of the axis, and by how much it has to give way.
 struct FaceHit {
   bool hit = false;
-  Vec3 weight = Vec3::Zero();   // barycentric, of the point of the triangle
-  double t = 0;                 // of the point of the axis
-  Vec3 push = Vec3::UnitZ();    // where tissue gives way to, unit
-  double depth = 0;             // [m]
+  Vec3 weight = Vec3::Zero();  // barycentric, of the point of the triangle
+  double t = 0;                // of the point of the axis
+  Vec3 push = Vec3::UnitZ();   // where tissue gives way to, unit
+  double depth = 0;            // [m]
 };
 
 /// A triangle meets a stick that comes from outside: the nearer of axis and triangle, pushed to the radius. An axis that has come
@@ -37,12 +37,13 @@ class StickFaces {
   std::size_t size() const noexcept { return near_.size(); }
   /// A step of dt in which the stick went from `before` to `now`, after the elements have moved everything.
   /// @param sum  takes the impulses on the stick, about `origin`; @param contacts  counts the faces
-  LeadWork lead(const Stick& before, const Stick& now, const Vec3& origin, double dt, ContactSum& sum, std::uint32_t& contacts) noexcept;
+  LeadWork lead(const Stick& before, const Stick& now, const Vec3& origin, double dt, ContactSum& sum,
+                std::uint32_t& contacts) noexcept;
 
  private:
   bool is_whole(std::uint32_t facet) const noexcept;
-  LeadWork give_way(const std::array<std::uint32_t, 3>& corner, const FaceHit& hit, const Stick& before, const Stick& now,
-                    const Vec3& origin, double dt, ContactSum& sum) noexcept;
+  LeadWork give_way(const std::array<std::uint32_t, 3>& corner, const FaceHit& hit, const Stick& before,
+                    const Stick& now, const Vec3& origin, double dt, ContactSum& sum) noexcept;
 
   const ContactSurface* surface_;
   BodyModel* model_;

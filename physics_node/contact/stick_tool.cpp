@@ -17,8 +17,7 @@ constexpr double patch_half = 0.020;  // side of the plane's square about the ti
 
 }  // namespace
 
-StickTool::StickTool(const ToolSpec& tool, std::uint32_t index,
-                     const BodyModels& bodies,
+StickTool::StickTool(const ToolSpec& tool, std::uint32_t index, const BodyModels& bodies,
                      const std::vector<TouchableBody>& surfaces)
     : LedTool(index, tool.set_point),
       length_(tool.length),

@@ -3,9 +3,9 @@
 
 #include <vector>
 
+#include "physics_node/fragments/fragments.h"
 #include "physics_node/step/momentum_account.h"
 #include "physics_node/step/node_motion.h"
-#include "physics_node/fragments/fragments.h"
 
 namespace palpate::physics {
 

@@ -4,8 +4,8 @@
 // Source: Wakamatsu & Honma 2011, section on the fall of a sphere: the state before, and five states after an impact.
 // The paper shows pictures and no measure; measures and thresholds are ours (docs/reference/outcomes.md, EQUATIONS C-17, C-18).
 
-#include "physics_node/step/body_model.h"
 #include "physics_node/fragments/fragments.h"
+#include "physics_node/step/body_model.h"
 
 namespace palpate::physics {
 

@@ -112,8 +112,8 @@ class Recorder {
   std::unique_ptr<SpscRing<EnergyRow, 1024>> energy_rows_;
   std::vector<std::unique_ptr<Snapshot>> snapshots_;
   std::vector<std::vector<Condition>> conditions_;  // by body, of its masses; only while there are snapshots
-  std::size_t next_snapshot_ = 0;  // frame()'s
-  std::size_t next_written_ = 0;   // the thread's
+  std::size_t next_snapshot_ = 0;                   // frame()'s
+  std::size_t next_written_ = 0;                    // the thread's
   std::int64_t snapshots_due_ = 0;
   double snapshot_t_ = -1;  // of the newest one [s]; below 0: none
   std::int64_t energies_due_ = 0;

@@ -20,6 +20,7 @@ class BodyModel : public Stepper, public NodeMotion, public Books, public Topolo
 };
 using BodyModels = std::vector<std::unique_ptr<BodyModel>>;
 
-std::unique_ptr<BodyModel> make_body_model(Body body, Precision precision, Integrator integrator = Integrator::symplectic_euler);
+std::unique_ptr<BodyModel> make_body_model(Body body, Precision precision,
+                                           Integrator integrator = Integrator::symplectic_euler);
 
 }  // namespace palpate::physics

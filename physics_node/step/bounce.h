@@ -2,8 +2,8 @@
 // Floor and walls.
 
 #include "physics_node/step/momentum_account.h"
-#include "physics_node/step/stepper.h"
 #include "physics_node/step/state.h"
+#include "physics_node/step/stepper.h"
 
 namespace palpate::physics {
 

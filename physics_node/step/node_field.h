@@ -21,7 +21,8 @@ class NodeField {
   template <class Real>
   Vec3 at(Index node) const noexcept {
     const auto n = static_cast<std::size_t>(node);
-    return {static_cast<double>(static_cast<const Real*>(data_[0])[n]), static_cast<double>(static_cast<const Real*>(data_[1])[n]),
+    return {static_cast<double>(static_cast<const Real*>(data_[0])[n]),
+            static_cast<double>(static_cast<const Real*>(data_[1])[n]),
             static_cast<double>(static_cast<const Real*>(data_[2])[n])};
   }
 

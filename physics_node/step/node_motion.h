@@ -27,7 +27,9 @@ class NodeMotion {
   virtual ~NodeMotion() = default;
   const Body& body() const noexcept { return *body_; }
 
-  Vec3 position(Index cell) const noexcept { return body_->lattice.rest_position(cell) + displacements_[cell]; }
+  Vec3 position(Index cell) const noexcept {
+    return body_->lattice.rest_position(cell) + displacements_[cell];
+  }
   Vec3 displacement(Index cell) const noexcept { return displacements_[cell]; }  // from rest [m]
   Vec3 velocity(Index cell) const noexcept { return velocities_[cell]; }         // [m/s]
 
@@ -35,8 +37,9 @@ class NodeMotion {
   /// them. With the explicit integrators v is the mean of v_move before and after the elements acted, so that an impulse that
   /// keeps the energy of v keeps the energy that the integrator keeps.
   /// @param which  of the others, which are as long as each other; @param rest  their rest positions
-  virtual void read(std::span<const std::uint32_t> which, std::span<const Index> cells, std::span<const Vec3> rest, double dt,
-                    std::span<Vec3> x, std::span<Vec3> v, std::span<Vec3> v_move) const noexcept = 0;
+  virtual void read(std::span<const std::uint32_t> which, std::span<const Index> cells,
+                    std::span<const Vec3> rest, double dt, std::span<Vec3> x, std::span<Vec3> v,
+                    std::span<Vec3> v_move) const noexcept = 0;
   /// Impulses at the beginning of the step just integrated: add dv to the velocity of a mass and dt dv to its place. A held mass
   /// stays; a sleeping one wakes. With backward_euler, whose step is solved as a whole, contact acts at its end instead: an
   /// impulse changes the velocity only, and read() and bounce_off() tell of the end.
@@ -76,7 +79,8 @@ class PushBatch {
   }
 
  private:
-  static constexpr std::size_t most = 256;  // Why: a virtual call for each costs nothing then, and the batch stays in cache
+  static constexpr std::size_t most =
+      256;  // Why: a virtual call for each costs nothing then, and the batch stays in cache
   std::vector<NodalPush> list_;
 };
 

@@ -12,8 +12,9 @@ namespace palpate::physics {
 
 /// What a node has been through.
 struct Condition {
-  std::uint8_t flags = 0;    // mass_flags.h
-  double yielded_share = 0;  // of its live elements, [0, 1]; of a node without any, whether one had yielded before it broke
+  std::uint8_t flags = 0;  // mass_flags.h
+  double yielded_share =
+      0;  // of its live elements, [0, 1]; of a node without any, whether one had yielded before it broke
 };
 
 class Topology {

@@ -33,7 +33,8 @@ TEST(StickFace, GivesWayToTheRadius) {
   ASSERT_TRUE(through.hit);
   EXPECT_NEAR(through.depth, r + 0.0004, 1e-12);
   EXPECT_LT((through.push + Vec3::UnitZ()).norm(), 1e-9);
-  EXPECT_FALSE(meet({Vec3(0.002, 0.002, -0.0012), Vec3(0, 0, 0.05), r}, x).hit) << "it belongs to the other side";
+  EXPECT_FALSE(meet({Vec3(0.002, 0.002, -0.0012), Vec3(0, 0, 0.05), r}, x).hit)
+      << "it belongs to the other side";
   // Beside an edge, from outside: away from the edge.
   const FaceHit edge = meet({Vec3(-0.02, -0.0005, 0.0005), Vec3(0.06, 0, 0), r}, x);
   ASSERT_TRUE(edge.hit);
@@ -49,7 +50,8 @@ Scene block(const std::string& lattice) {
   recipe.material = "density_kg_per_m3 = 1000\nmodulus_kPa = 20\nviscosity_Pa_s = 5";
   recipe.body = "fixed = [\"-z\"]";
   recipe.world =
-      "[[tool]]\nname = \"stick\"\nshape = \"stick\"\nlength_mm = 60\nradius_mm = 1\ndevice = \"hand\"\nlow_pass_Hz = 40\n"
+      "[[tool]]\nname = \"stick\"\nshape = \"stick\"\nlength_mm = 60\nradius_mm = 1\ndevice = "
+      "\"hand\"\nlow_pass_Hz = 40\n"
       "[device.hand]\ndriver = \"simulated\"\nwaypoints = [[0, 0, 0, 50], [1, 0, 0, 40]]\n";
   return scene_of(recipe);
 }
@@ -75,7 +77,8 @@ double distance(const Vec3& p, const Surface& surface, const NodeMotion& moving)
   double least = 1;
   for (const auto& facet : surface.facets)
     for (std::size_t half = 0; half < 2; ++half)
-      least = std::min(least, closest_point(p, {surface.position(facet[0], moving), surface.position(facet[1 + half], moving),
+      least = std::min(least, closest_point(p, {surface.position(facet[0], moving),
+                                                surface.position(facet[1 + half], moving),
                                                 surface.position(facet[2 + half], moving)})
                                   .distance);
   return least;
@@ -140,9 +143,10 @@ TEST(StickFaces, LetNothingThrough) {
     const double depth = deepest(press);
     inside += depth > 0 ? 1 : 0;
     worst = std::max(worst, depth);
-    EXPECT_LT(depth, 0.5 * r) << fmt::format("pose {}: {}, axis {:.3f} {:.3f} {:.3f}, from {:.4f} {:.4f} {:.4f}, {:.2f} m/s", n,
-                                             press.lattice, press.axis.x(), press.axis.y(), press.axis.z(), press.from.x(),
-                                             press.from.y(), press.from.z(), press.speed);
+    EXPECT_LT(depth, 0.5 * r) << fmt::format(
+        "pose {}: {}, axis {:.3f} {:.3f} {:.3f}, from {:.4f} {:.4f} {:.4f}, {:.2f} m/s", n, press.lattice,
+        press.axis.x(), press.axis.y(), press.axis.z(), press.from.x(), press.from.y(), press.from.z(),
+        press.speed);
   }
   fmt::print("in {} of {} poses the axis was inside, at most {:.2g} mm\n", inside, n_poses, 1e3 * worst);
 }

@@ -92,8 +92,7 @@ TEST(BrokenVoxelSurface, StaysClosedAtACornerOfABox) {
 }
 
 TEST(BrokenVoxelSurface, LeavesWholeCellsAsTheyWere) {
-  const auto moving =
-      make_body_model(body_of(fragile("voxel", Recipe::box(60, 30, 30))), Precision::double_);
+  const auto moving = make_body_model(body_of(fragile("voxel", Recipe::box(60, 30, 30))), Precision::double_);
   const Surface before = make_surface(*moving, std::nullopt, 0);
   pull(*moving, {moving->body().lattice.mass_at({0, 0, 0})});
   const Surface after = make_surface(*moving, std::nullopt, 0);

@@ -1,5 +1,5 @@
-#include "physics_node/step/body_model.h"
 #include "physics_node/surface/surface.h"
+#include "physics_node/step/body_model.h"
 
 #include <gtest/gtest.h>
 
