@@ -72,11 +72,12 @@ static const hdev_api table = {
 #endif
 #if BROKEN == FIRST_TABLE
     (hdev_status(*)(hdev*, uint32_t))1,
-    (hdev_status(*)(const hdev_host*, const char*, const char* const*, uint32_t))1
+    (hdev_status(*)(const hdev_host*, const char*, const char* const*, uint32_t))1,
 #else
     NULL,
-    NULL
+    NULL,
 #endif
+    NULL
 };
 
 const hdev_api* hdev_plugin_query(uint32_t major, uint32_t minor) {
