@@ -16,8 +16,6 @@ class ContactSurface {
 
   const Surface& surface() const { return surface_; }
   double bucket_size() const { return bucket_size_; }
-  /// Of which at least one corner moves.
-  const std::vector<std::uint32_t>& moving_facets() const { return moving_facets_; }
 
   /// Appends the facets whose centroid lies within `radius` of `p` now. Allocates only while `out` grows.
   void facets_near(const Vec3& p, double radius, const NodeMotion& moving,

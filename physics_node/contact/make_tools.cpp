@@ -24,11 +24,13 @@ void add_stick(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
                      "integrator = \"symplectic_euler\" or \"velocity_verlet\"");
   auto stick = std::make_unique<StickTool>(spec, n, bodies, touchable);
   for (const auto& body : bodies)
-    if (any_yields(body->body()) && spec.radius < 0.5 * body->body().lattice.spacing())
-      box.remarks.push_back(fmt::format(
-          "{}: stick \"{}\" of radius {:.3g} mm meets only masses, {:.3g} mm apart, where tissue has "
-          "broken, and may slip between them there; give it half of that at least",
-          spec.place.text(), spec.name, 1e3 * spec.radius, 1e3 * body->body().lattice.spacing()));
+    if (body->body().n_held < body->body().lattice.n_masses() &&
+        spec.radius < 0.75 * body->body().lattice.spacing())
+      box.remarks.push_back(
+          fmt::format("{}: stick \"{}\" of radius {:.3g} mm meets masses {:.3g} mm apart, not the faces "
+                      "between them, and may "
+                      "slip between them; give it three quarters of that at least, and move it slowly",
+                      spec.place.text(), spec.name, 1e3 * spec.radius, 1e3 * body->body().lattice.spacing()));
   box.led.push_back(stick.get());
   box.tools.push_back(std::move(stick));
   for (const auto& body : bodies) body->prepare_contact();

@@ -59,13 +59,13 @@ TEST(DriverLibrary, NamesTheVendorFunctionThatIsMissing) {
 
 TEST(DriverLibrary, RefusesAnotherMajorVersion) {
   const std::string line = complaint("abi2");
-  EXPECT_TRUE(has(line, "palpate_driver_abi2.so speaks ABI 2.1, this palpate speaks 1.1")) << line;
+  EXPECT_TRUE(has(line, "palpate_driver_abi2.so speaks ABI 2.2, this palpate speaks 1.2")) << line;
 }
 
 TEST(DriverLibrary, RefusesATableThatIsTooShortOrHasHoles) {
   EXPECT_TRUE(has(complaint("short"), "hands out a table of 16 bytes"));
   EXPECT_TRUE(has(complaint("hole"), "leaves stop() null"));
-  EXPECT_TRUE(has(complaint("null"), "does not serve ABI 1.1"));
+  EXPECT_TRUE(has(complaint("null"), "does not serve ABI 1.2"));
 }
 
 TEST(DriverLibrary, TakesATableOfTheFirstVersionForOneWithoutTheRest) {
