@@ -222,7 +222,8 @@ TEST_F(ForceDimension, CrashInTheVendorsLibrary) {
   }
 }
 
-/// A second crash, in the handler of the first: the driver is left alone, and the guardian has its turn.
+/// A second crash, by the thread that switches off for the handler of the first signal: the driver is left alone, and the guardian
+/// has its turn. Whichever signal ends the process.
 TEST_F(OpenHaptics, ALibraryThatCrashesInTheHandlerDoesNotHoldUpTheEnd) {
   ASSERT_TRUE(presses()) << log();
   const Outcome outcome = strike(
@@ -232,7 +233,9 @@ TEST_F(OpenHaptics, ALibraryThatCrashesInTheHandlerDoesNotHoldUpTheEnd) {
         kill(haptic, SIGUSR1);
       },
       3);
-  EXPECT_TRUE(WIFSIGNALED(outcome.status) && WTERMSIG(outcome.status) == SIGSEGV) << outcome.status;
+  EXPECT_TRUE(WIFSIGNALED(outcome.status) &&
+              (WTERMSIG(outcome.status) == SIGSEGV || WTERMSIG(outcome.status) == SIGUSR1))
+      << outcome.status;
   EXPECT_GE(outcome.off_ms, 0) << "by the guardian\n" << log();
   EXPECT_TRUE(outcome.stayed_off);
 }

@@ -46,6 +46,7 @@ class PrivateFiles : public CommandRun {
   void SetUp() override {
     CommandRun::SetUp();
     before_ = umask(0022);
+    fs::permissions(folder, fs::perms(0755));  // a temporary folder is private, and all in it would be
     test::write_file(folder / "a.raw", std::string(6 * 6 * 6, 'd'));
     test::write_file(folder / "s.toml", scene);
   }

@@ -63,7 +63,8 @@ struct StrangerBus {
   std::atomic<std::uint32_t> trouble{none};
   std::atomic<double> depth_mm{0};  // how far the hand goes down once the motors are on
   // the hardware
-  std::atomic<int> owner{0};  // process that has it open
+  std::atomic<int> owner{0};       // process that has it open
+  std::atomic<int> last_owner{0};  // that opened it last
   std::atomic<bool> motors{false};
   std::atomic<double> force{0};  // told last [N]
   // what came over the cable, in order, the newest ones
@@ -89,13 +90,12 @@ struct StrangerBus {
     const std::uint32_t n = n_breaches.fetch_add(1);
     if (n < breaches.size()) std::snprintf(breaches[n].data(), breaches[n].size(), "%s", words);
   }
-  /// False while another process that lives has it. Who takes it from the dead is spared the trouble.
+  /// False while another process that lives has it. Who takes it from another one, dead or not, is spared its trouble.
   bool take_hold() {
     const int holder = owner.load();
-    if (holder != 0 && holder != getpid()) {
-      if (kill(holder, 0) == 0) return false;
+    if (holder != 0 && holder != getpid() && kill(holder, 0) == 0) return false;
+    if (const int before = last_owner.exchange(getpid()); before != 0 && before != getpid())
       trouble.store(none);
-    }
     owner.store(getpid());
     send(opened);
     return true;
