@@ -24,4 +24,4 @@ palpate_test(NAME physics_tunnelling_test KIND property SOURCES physics_tunnelli
 palpate_test(NAME physics_golden_test KIND golden SOURCES physics_golden_test.cpp LIBS palpate_physics_worlds)
 add_test(NAME physics_golden_sse2_test COMMAND physics_golden_test WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
 set_tests_properties(physics_golden_sse2_test PROPERTIES LABELS golden TIMEOUT 600
-  ENVIRONMENT "PALPATE_SOURCE=${PROJECT_SOURCE_DIR};PALPATE_ISA=sse2")
+  ENVIRONMENT "PALPATE_SOURCE=${PROJECT_SOURCE_DIR};PALPATE_ISA=sse2;GTEST_OUTPUT=xml:${PROJECT_BINARY_DIR}/test_results/physics_golden_sse2_test.xml")

@@ -37,7 +37,8 @@ TEST_F(OnePhysics, IsAllThatASessionTakes) {
 /// Whoever comes later goes, though the hand is still looking round for a session it does not fit in.
 TEST_F(OnePhysics, OfAnotherSceneGoesAndTheHandStays) {
   start_both();
-  ASSERT_TRUE(until([this] { return device->writes > 0; })) << log();
+  ASSERT_TRUE(until([this] { return device->writes > 0 && log().find("loaded in") != std::string::npos; }))
+      << log();
   std::ofstream(folder / "scene.toml", std::ios::app) << "\n# another one\n";
   for (const char* program : {PALPATE_PHYSICS, PALPATE_HAPTIC}) EXPECT_EQ(second(program), 2) << log();
   EXPECT_TRUE(presses()) << log();
