@@ -63,8 +63,7 @@ struct StrangerBus {
   std::atomic<std::uint32_t> trouble{none};
   std::atomic<double> depth_mm{0};  // how far the hand goes down once the motors are on
   // the hardware
-  std::atomic<int> owner{0};       // process that has it open
-  std::atomic<int> last_owner{0};  // that opened it last
+  std::atomic<int> owner{0};  // process that has it open
   std::atomic<bool> motors{false};
   std::atomic<double> force{0};  // told last [N]
   // what came over the cable, in order, the newest ones
@@ -73,6 +72,8 @@ struct StrangerBus {
   // breaches of the rules of use
   std::atomic<std::uint32_t> n_breaches{0};
   std::array<std::array<char, 96>, 16> breaches{};
+  std::atomic<int> last_owner{
+      0};  // that opened it last; at the end: a service in Python reads what is before
 
   /// Where the hand is, so long after the motors are on: down in 0.8 s, up after 4 s and down again after 5, in case that
   /// nobody was there to feel it the first time.
