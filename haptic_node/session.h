@@ -46,6 +46,9 @@ class HapticSession {
   /// in the driver looks the same once; and nobody at the device waits longer than a second for a word.
   static constexpr int late_calls_to_fault = 3;
   static constexpr std::int64_t blocked_call_ns = 1'000'000'000;
+  /// A device without a new sample for so long does not hear a ramp either. Why: drivers of the shelf wait as long for a
+  /// frame of the vendor's thread before they go past it [s].
+  static constexpr double silent_s = 0.008;
 
   /// Opens the device of scene.tools[tool_index] and leaves it ready, forces off.
   /// @param driver_override  driver instead of the scene's; empty: the scene's
@@ -91,8 +94,9 @@ class HapticSession {
     return lost_.load() || device_.emergency_stop(within_us);
   }
 
-  /// The force ramps to zero within 20 ms of further ticks; then stopped() is true.
-  void begin_stop() noexcept { controller_.begin_stop(); }
+  /// The force ramps to zero within 20 ms of further ticks; then stopped() is true. A device that has been silent for
+  /// silent_s would not hear of a ramp: at once.
+  void begin_stop() noexcept { controller_.begin_stop(sample_age() < silent_s); }
   bool stopped() const noexcept { return controller_.stopped() || state() == HapticState::fault; }
   bool is_lost() const noexcept { return lost_.load(); }
 

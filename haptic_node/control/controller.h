@@ -76,7 +76,11 @@ class Controller {
   }
 
   /// Forces ramp to zero within safe_ramp and stay there.
-  void begin_stop() noexcept { stopping_ = true; }
+  /// @param ramps  false: with the next tick
+  void begin_stop(bool ramps = true) noexcept {
+    stopping_ = true;
+    if (!ramps) stop_gain_ = 0;
+  }
   bool stopped() const noexcept { return stopping_ && stop_gain_ <= 0; }
 
   HapticState state() const noexcept { return state_; }

@@ -190,6 +190,16 @@ TEST(Controller, StopsWithinTwentyMillisecondsWithoutRising) {
   EXPECT_TRUE(bench.controller.stopped());
 }
 
+/// A ramp that nobody hears only holds up what follows it.
+TEST(Controller, StopsAtOnceWithoutARamp) {
+  Bench bench;
+  bench.move_to(-0.004);
+  ASSERT_GT(bench.tick().force.z(), 1);
+  bench.controller.begin_stop(false);
+  EXPECT_TRUE(bench.controller.stopped());
+  EXPECT_EQ(bench.tick().force.z(), 0.0);
+}
+
 TEST(PatchWatch, WaitsThreePeriodsWithin120And200Milliseconds) {
   const std::pair<double, double> cases[] = {{1000, 0.12}, {60, 0.12}, {20, 0.15}, {11, 0.2}};
   for (const auto& [rate, patience] : cases) {
