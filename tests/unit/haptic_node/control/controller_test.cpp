@@ -194,7 +194,8 @@ TEST(Controller, StopsWithinTwentyMillisecondsWithoutRising) {
 TEST(Controller, StopsAtOnceWithoutARamp) {
   Bench bench;
   bench.move_to(-0.004);
-  ASSERT_GT(bench.tick().force.z(), 1);
+  for (int i = 0; i < 100; ++i) bench.tick();
+  ASSERT_GT(bench.tick().force.z(), 0.3);
   bench.controller.begin_stop(false);
   EXPECT_TRUE(bench.controller.stopped());
   EXPECT_EQ(bench.tick().force.z(), 0.0);
