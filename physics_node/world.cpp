@@ -55,7 +55,7 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
     const double bucket = 4 * lattice.spacing();
     bodies_.push_back(make_body_model(std::move(body), scene.physics.precision, integrator));
     fragments_.push_back(any_yields(bodies_.back()->body()) ? std::make_unique<Fragments>(*bodies_.back()) : nullptr);
-    touchable_.push_back({bodies_.back().get(), std::make_unique<ContactSurface>(*bodies_.back(), bucket)});
+    touchable_.push_back({bodies_.back().get(), std::make_unique<Boundary>(*bodies_.back(), bucket)});
   }
   toolbox_ = make_tools(scene_, bodies_, touchable_);
   remarks_ = toolbox_.remarks;

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "physics_node/appearance/colours.h"
-#include "physics_node/surface/loose_parts.h"
+#include "physics_node/boundary/loose_parts.h"
 
 namespace palpate::physics {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/message/messages.h"
-#include "physics_node/surface/surface.h"
+#include "physics_node/boundary/surface.h"
 #include "physics_node/world.h"
 
 namespace palpate::physics {

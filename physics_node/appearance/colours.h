@@ -6,7 +6,7 @@
 
 #include "common/scene/scene.h"
 #include "physics_node/fragments/fragments.h"
-#include "physics_node/surface/surface.h"
+#include "physics_node/boundary/surface.h"
 
 namespace palpate::physics {
 

@@ -12,7 +12,7 @@ constexpr std::size_t room = 16384;   // facets that it may touch at the most
 
 }  // namespace
 
-StickSurface::StickSurface(const ContactSurface& surface, const NodeMotion& moving, double radius)
+StickSurface::StickSurface(const Boundary& surface, const NodeMotion& moving, double radius)
     : surface_(surface), moving_(moving) {
   const double spacing = moving.body().lattice.spacing();
   reach_ = std::max(2 * radius, 2 * spacing);

@@ -13,7 +13,7 @@
 
 #include <vector>
 
-#include "physics_node/contact/contact_surface.h"
+#include "physics_node/boundary/boundary.h"
 #include "physics_node/contact/stick_search.h"
 
 namespace palpate::physics {
@@ -32,7 +32,7 @@ struct StickPlane {
 class StickSurface {
  public:
   /// @param surface, moving  outlive it. @param radius  of the stick [m]
-  StickSurface(const ContactSurface& surface, const NodeMotion& moving, double radius);
+  StickSurface(const Boundary& surface, const NodeMotion& moving, double radius);
 
   /// Looks for facets around the stick; keeps what it found until stick or tissue may have left it.
   void look(const Stick& stick, double t) noexcept;
@@ -51,7 +51,7 @@ class StickSurface {
   bool gives(std::uint32_t facet) const noexcept;
   void collect(const Stick& stick, bool at_rest) noexcept;
 
-  const ContactSurface& surface_;
+  const Boundary& surface_;
   const NodeMotion& moving_;
   double reach_, depth_;             // R, D [m]
   std::vector<std::uint32_t> near_;  // facets around the stick

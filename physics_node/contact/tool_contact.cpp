@@ -33,7 +33,7 @@ void merge_equal_masses(std::vector<MassShare>& shares) noexcept {
 
 }  // namespace
 
-ToolContact::ToolContact(const ContactSurface& surface, const NodeMotion& moving, double radius)
+ToolContact::ToolContact(const Boundary& surface, const NodeMotion& moving, double radius)
     : surface_(surface), moving_(moving) {
   const Lattice& lattice = moving.body().lattice;
   const double coarse = lattice.spacing();

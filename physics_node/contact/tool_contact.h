@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "common/message/messages.h"
-#include "physics_node/contact/contact_surface.h"
+#include "physics_node/boundary/boundary.h"
 
 namespace palpate::physics {
 
@@ -27,7 +27,7 @@ struct MassShare {
 class ToolContact {
  public:
   /// @param radius  of the tip: its force fades out smoothly over twice that, and over two cells at least [m]
-  ToolContact(const ContactSurface& surface, const NodeMotion& moving, double radius);
+  ToolContact(const Boundary& surface, const NodeMotion& moving, double radius);
 
   /// Looks for facets around `p`; keeps what it found until the tool or the tissue may have left it.
   void look(const Vec3& p, double t) noexcept;
@@ -69,7 +69,7 @@ class ToolContact {
   LocalPlane plane_at(const Vec3& q, const Vec3& facing) const noexcept;
   const Facet* nearest(const Vec3& p) const noexcept;
 
-  const ContactSurface& surface_;
+  const Boundary& surface_;
   const NodeMotion& moving_;
   double radius_;  // R [m]
   double reach_;   // facets within this distance are kept [m]

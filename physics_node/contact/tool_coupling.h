@@ -25,7 +25,7 @@ namespace palpate::physics {
 
 struct TouchableBody {
   const NodeMotion* moving = nullptr;
-  std::unique_ptr<ContactSurface> surface;
+  std::unique_ptr<Boundary> surface;
 };
 
 class ToolCoupling final : public Tool {

@@ -10,7 +10,7 @@
 #include "common/record/hdf5_file.h"
 #include "physics_node/appearance/colours.h"
 #include "physics_node/record/vtp_file.h"
-#include "physics_node/surface/surface.h"
+#include "physics_node/boundary/surface.h"
 
 namespace palpate::physics {
 namespace {

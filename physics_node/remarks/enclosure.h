@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "physics_node/surface/surface.h"
+#include "physics_node/boundary/surface.h"
 
 namespace palpate::physics {
 

@@ -21,7 +21,7 @@ struct Touch {
         surface(*moving, 0.02),
         contact(surface, *moving, radius) {}
   std::unique_ptr<BodyModel> moving;
-  ContactSurface surface;
+  Boundary surface;
   ToolContact contact;
 };
 

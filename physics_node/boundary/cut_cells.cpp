@@ -1,4 +1,4 @@
-#include "physics_node/surface/cut_cells.h"
+#include "physics_node/boundary/cut_cells.h"
 
 #include "physics_node/body/build_lattice.h"
 

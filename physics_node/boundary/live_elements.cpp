@@ -1,4 +1,4 @@
-#include "physics_node/surface/live_elements.h"
+#include "physics_node/boundary/live_elements.h"
 
 namespace palpate::physics {
 LiveElements::LiveElements(const Topology& moving)

@@ -1,10 +1,10 @@
-#include "physics_node/contact/contact_surface.h"
+#include "physics_node/boundary/boundary.h"
 
 #include <algorithm>
 
 namespace palpate::physics {
 
-ContactSurface::ContactSurface(const BodyModel& moving, double bucket_size)
+Boundary::Boundary(const BodyModel& moving, double bucket_size)
     : surface_(make_surface(moving, std::nullopt, 0)), bucket_size_(bucket_size) {
   Vec3 high = Vec3::Zero();
   if (!surface_.rest.empty()) low_ = high = surface_.rest.front();
@@ -33,12 +33,12 @@ ContactSurface::ContactSurface(const BodyModel& moving, double bucket_size)
   for (std::size_t b = 1; b < bucket_start_.size(); ++b) bucket_start_[b] += bucket_start_[b - 1];
 }
 
-std::size_t ContactSurface::bucket_of(const Vec3& p) const {
+std::size_t Boundary::bucket_of(const Vec3& p) const {
   const Vec3i at = ((p - low_) / bucket_size_).array().floor().cast<int>().max(0).min(n_buckets_.array() - 1);
   return static_cast<std::size_t>(at.x() + n_buckets_.x() * (at.y() + n_buckets_.y() * at.z()));
 }
 
-void ContactSurface::facets_near(const Vec3& p, double radius, const NodeMotion& moving,
+void Boundary::facets_near(const Vec3& p, double radius, const NodeMotion& moving,
                                  std::vector<std::uint32_t>& out) const {
   const auto take = [&](std::uint32_t facet) {
     if ((centroid(facet, moving) - p).squaredNorm() <= radius * radius) out.push_back(facet);
@@ -57,25 +57,25 @@ void ContactSurface::facets_near(const Vec3& p, double radius, const NodeMotion&
       }
 }
 
-Vec3 ContactSurface::centroid(std::uint32_t facet, const NodeMotion& moving) const {
+Vec3 Boundary::centroid(std::uint32_t facet, const NodeMotion& moving) const {
   const auto& c = surface_.facets[facet];
   Vec3 sum = Vec3::Zero();
   for (std::size_t n = 0; n < 4; ++n) sum += surface_.position(c[n], moving);
   return sum / 4;
 }
 
-Vec3 ContactSurface::rest_centroid(std::uint32_t facet) const {
+Vec3 Boundary::rest_centroid(std::uint32_t facet) const {
   Vec3 sum = Vec3::Zero();
   for (const std::uint32_t corner : surface_.facets[facet]) sum += surface_.rest[corner];
   return sum / 4;
 }
 
-Vec3 ContactSurface::rest_area(std::uint32_t facet) const {
+Vec3 Boundary::rest_area(std::uint32_t facet) const {
   const auto& c = surface_.facets[facet];
   return 0.5 * (surface_.rest[c[2]] - surface_.rest[c[0]]).cross(surface_.rest[c[3]] - surface_.rest[c[1]]);
 }
 
-ContactSurface::CentroidAndArea ContactSurface::centroid_and_area(std::uint32_t facet,
+Boundary::CentroidAndArea Boundary::centroid_and_area(std::uint32_t facet,
                                                                   const NodeMotion& moving) const {
   const auto& c = surface_.facets[facet];
   const Vec3 p0 = surface_.position(c[0], moving);

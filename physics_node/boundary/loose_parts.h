@@ -2,7 +2,7 @@
 // What a body has lost that no facet shows: elements that bound no triangle of live elements, and masses without any.
 // They stay visible and keep their mass. Source: EQUATIONS C-8.
 
-#include "physics_node/surface/surface.h"
+#include "physics_node/boundary/surface.h"
 
 namespace palpate::physics {
 

@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "physics_node/surface/live_elements.h"
+#include "physics_node/boundary/live_elements.h"
 
 namespace palpate::physics {
 

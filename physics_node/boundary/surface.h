@@ -8,7 +8,7 @@
 
 #include "physics_node/body/body.h"
 #include "physics_node/step/body_model.h"
-#include "physics_node/surface/live_elements.h"
+#include "physics_node/boundary/live_elements.h"
 
 namespace palpate::physics {
 

@@ -1,8 +1,8 @@
 #include <unordered_map>
 
 #include "physics_node/body/build_lattice.h"
-#include "physics_node/surface/cut_cells.h"
-#include "physics_node/surface/surface.h"
+#include "physics_node/boundary/cut_cells.h"
+#include "physics_node/boundary/surface.h"
 
 namespace palpate::physics {
 namespace {

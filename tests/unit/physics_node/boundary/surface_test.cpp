@@ -1,4 +1,4 @@
-#include "physics_node/surface/surface.h"
+#include "physics_node/boundary/surface.h"
 #include "physics_node/step/body_model.h"
 
 #include <gtest/gtest.h>

@@ -4,15 +4,15 @@
 #include <vector>
 
 #include "physics_node/step/body_model.h"
-#include "physics_node/surface/surface.h"
+#include "physics_node/boundary/surface.h"
 
 namespace palpate::physics {
 
 /// The whole tissue surface of a body with what is needed to find facets near a point. Scenery is found through a
 /// grid of buckets; moving facets are looked through one by one, and the caller keeps what it found for a while.
-class ContactSurface {
+class Boundary {
  public:
-  ContactSurface(const BodyModel& moving, double bucket_size);
+  Boundary(const BodyModel& moving, double bucket_size);
 
   const Surface& surface() const { return surface_; }
   double bucket_size() const { return bucket_size_; }

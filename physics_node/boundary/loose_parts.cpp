@@ -1,4 +1,4 @@
-#include "physics_node/surface/loose_parts.h"
+#include "physics_node/boundary/loose_parts.h"
 
 #include <algorithm>
 #include <unordered_map>

@@ -1,6 +1,6 @@
 #include <unordered_map>
 
-#include "physics_node/surface/surface.h"
+#include "physics_node/boundary/surface.h"
 
 namespace palpate::physics {
 namespace {
