@@ -2,6 +2,7 @@
 // A room of its own for shared memory: /dev/shm, /tmp and the loopback interface of this process and its children are
 // nobody else's, so that a RouDi of the test is seen by the test alone, and what is left behind is seen by the test.
 
+#include <fcntl.h>
 #include <net/if.h>
 #include <sched.h>
 #include <sys/ioctl.h>
@@ -41,8 +42,20 @@ inline bool raise_loopback() {
   return up;
 }
 
-/// Moves this process, which must have one thread, into the room. @return why that is not possible; empty: it is there
+/// Shows a folder again that a file system of our own would hide.
+/// @param before  the folder, opened before it was hidden
+inline bool show_again(const std::filesystem::path& folder, int before) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  const std::string from = "/proc/self/fd/" + std::to_string(before);
+  return !error && mount(from.c_str(), folder.c_str(), nullptr, MS_BIND | MS_REC, nullptr) == 0 &&
+         chdir(folder.c_str()) == 0;
+}
+
+/// Moves this process, which must have one thread, into the room. The current folder, where the programs are and the results
+/// go, may itself lie below /tmp: it stays in sight. @return why that is not possible; empty: it is there
 inline std::string enter_memory_room() {
+  const auto here = std::filesystem::current_path();
   const auto user = std::to_string(geteuid()), group = std::to_string(getegid());
   if (geteuid() == 0) {
     if (unshare(CLONE_NEWNS | CLONE_NEWNET) != 0) return "no namespaces here";
@@ -52,9 +65,12 @@ inline std::string enter_memory_room() {
     write_file("/proc/self/uid_map", "0 " + user + " 1");
     write_file("/proc/self/gid_map", "0 " + group + " 1");
   }
-  if (mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
-      mount("room", "/dev/shm", "tmpfs", 0, nullptr) != 0 || mount("room", "/tmp", "tmpfs", 0, nullptr) != 0)
+  if (mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0) return "no mounts of our own here";
+  const int before = open(here.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);  // of this room, or it cannot be mounted
+  if (mount("room", "/dev/shm", "tmpfs", 0, nullptr) != 0 || mount("room", "/tmp", "tmpfs", 0, nullptr) != 0)
     return "no file systems of our own here";
+  if (here.string().starts_with("/tmp/") && !show_again(here, before)) return "no folder below /tmp here";
+  close(before);
   return raise_loopback() ? "" : "no loopback interface of our own here";
 }
 

@@ -27,7 +27,7 @@ class SharedMemory : public testing::Test {
     }
     hindrance = test::enter_memory_room();
     if (hindrance.empty() && !std::filesystem::exists(PROBE))
-      hindrance = "the build is below /tmp, which the room hides";
+      hindrance = "the build is not below the current folder, and /tmp is hidden";
   }
   void SetUp() override {
     if (!hindrance.empty()) GTEST_SKIP() << hindrance;

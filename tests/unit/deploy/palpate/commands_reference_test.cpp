@@ -38,7 +38,7 @@ struct Help {
 /// What stands at the beginning of the lines of a help text: "  -h,--help   ..." is --help, "  scene TEXT" is SCENE.
 Help help_of(const std::string& command) {
   Help help;
-  std::istringstream lines(output_of(program() + " " + command + " --help"));
+  std::istringstream lines(output_of("'" + program() + "' " + command + " --help"));
   std::string part;
   for (std::string line; std::getline(lines, line);) {
     if (line.ends_with(":") && !line.starts_with(" ")) part = line;
