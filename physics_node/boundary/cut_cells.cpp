@@ -13,39 +13,14 @@ unsigned bits_of(const Vec3i& corner) {
   return static_cast<unsigned>(corner.x() + 2 * corner.y() + 4 * corner.z());
 }
 
-constexpr unsigned whole_cell = 0xFFFF;  // every element lives
-
 }  // namespace
 
-CutCells::CutCells(const Body& body, const LiveElements& live)
-    : cells_(*body.cells), net_(body.lattice, live), shift_(lattice_corner(*body.cells, body.lattice)) {
-  const Lattice& lattice = body.lattice;
-  for (const Index mass : lattice.masses) {
-    if (live.mask(mass) == lattice.mask[static_cast<std::size_t>(mass)]) continue;
-    if (seen_.empty()) {
-      seen_.resize(cells_.filled.size());
-      is_cut_.resize(cells_.filled.size());
-    }
-    const Vec3i at = lattice.grid_of(mass) + shift_;
-    for (unsigned n = 0; n < 8; ++n) {
-      const Vec3i cell = at - corner_of(n);
-      if (!cells_.is_deformable(cell.x(), cell.y(), cell.z())) continue;
-      const std::size_t i = cells_.index(cell.x(), cell.y(), cell.z());
-      if (seen_[i]) continue;
-      seen_[i] = true;
-      const unsigned left = left_of(cell);
-      if (left == whole_cell) continue;
-      is_cut_[i] = true;
-      left_.emplace(i, left);
-      list_.push_back(cell);
-    }
-  }
-}
+CellsNow::CellsNow(const Body& body, std::span<const Mask> masks)
+    : cells_(*body.cells), net_(body.lattice, masks), shift_(lattice_corner(*body.cells, body.lattice)) {}
 
-/// Bits of the tetrahedra that are left, or whole_cell.
-unsigned CutCells::left_of(const Vec3i& cell) const {
+unsigned CellsNow::left_of(const Vec3i& cell) const noexcept {
   unsigned left = 0;
-  bool whole = true;
+  bool all = true;
   for (unsigned n = 0; n < 8; ++n) {
     const Vec3i corner = cell + corner_of(n);
     if (!is_odd(corner)) continue;
@@ -54,9 +29,9 @@ unsigned CutCells::left_of(const Vec3i& cell) const {
     bool filled = is_triangle(even[0], even[1], even[2]);
     for (const Vec3i& other : even) filled = net_.joined(corner - shift_, other - shift_) && filled;
     if (filled) left |= 1U << n;
-    whole = whole && filled;
+    all = all && filled;
   }
-  if (whole) return whole_cell;
+  if (all) return whole;
   // The middle tetrahedron: its four faces are those towards the corner tetrahedra.
   bool filled = true;
   for (unsigned n = 0; n < 8; ++n) {
@@ -65,6 +40,48 @@ unsigned CutCells::left_of(const Vec3i& cell) const {
         filled && is_triangle(cell + corner_of(n ^ 1U), cell + corner_of(n ^ 2U), cell + corner_of(n ^ 4U));
   }
   return filled ? left | 1U << middle : left;
+}
+
+bool CellsNow::is_cut(const Vec3i& cell) const noexcept {
+  if (!cells_.is_deformable(cell.x(), cell.y(), cell.z())) return false;
+  for (unsigned n = 0; n < 8; ++n)
+    if (const Index at = mass(cell + corner_of(n)); at >= 0 && net_.has_lost(at))
+      return left_of(cell) != whole;
+  return false;
+}
+
+bool CellsNow::corner_filled(const Vec3i& cell, const Vec3i& corner) const noexcept {
+  return (left_of(cell) >> bits_of(corner - cell) & 1) != 0;
+}
+
+bool CellsNow::is_triangle(const Vec3i& a, const Vec3i& b, const Vec3i& c) const noexcept {
+  return net_.joined(a - shift_, b - shift_) && net_.joined(b - shift_, c - shift_) &&
+         net_.joined(a - shift_, c - shift_);
+}
+
+CutCells::CutCells(const Body& body, const LiveElements& live)
+    : cells_(*body.cells), now_(body, live.masks()) {
+  const Lattice& lattice = body.lattice;
+  for (const Index mass : lattice.masses) {
+    if (live.mask(mass) == lattice.mask[static_cast<std::size_t>(mass)]) continue;
+    if (seen_.empty()) {
+      seen_.resize(cells_.filled.size());
+      is_cut_.resize(cells_.filled.size());
+    }
+    const Vec3i at = lattice.grid_of(mass) + now_.shift();
+    for (unsigned n = 0; n < 8; ++n) {
+      const Vec3i cell = at - corner_of(n);
+      if (!cells_.is_deformable(cell.x(), cell.y(), cell.z())) continue;
+      const std::size_t i = cells_.index(cell.x(), cell.y(), cell.z());
+      if (seen_[i]) continue;
+      seen_[i] = true;
+      const unsigned left = now_.left_of(cell);
+      if (left == CellsNow::whole) continue;
+      is_cut_[i] = true;
+      left_.emplace(i, left);
+      list_.push_back(cell);
+    }
+  }
 }
 
 bool CutCells::is_cut(const Vec3i& cell) const {
@@ -77,12 +94,7 @@ bool CutCells::corner_filled(const Vec3i& cell, const Vec3i& corner) const {
 }
 
 bool CutCells::middle_filled(const Vec3i& cell) const {
-  return (left_.at(cells_.index(cell.x(), cell.y(), cell.z())) >> middle & 1) != 0;
-}
-
-bool CutCells::is_triangle(const Vec3i& a, const Vec3i& b, const Vec3i& c) const {
-  return net_.joined(a - shift_, b - shift_) && net_.joined(b - shift_, c - shift_) &&
-         net_.joined(a - shift_, c - shift_);
+  return (left_.at(cells_.index(cell.x(), cell.y(), cell.z())) >> CellsNow::middle & 1) != 0;
 }
 
 }  // namespace palpate::physics

@@ -1,34 +1,48 @@
 #include <unordered_map>
+#include <utility>
 
+#include "physics_node/boundary/fcc_facets.h"
 #include "physics_node/boundary/surface.h"
 
 namespace palpate::physics {
 namespace {
 
-Vec3i axis(int a, int sign) {
-  Vec3i e = Vec3i::Zero();
-  e[a] = sign;
-  return e;
-}
-
 constexpr Mask every_element = 0xFFF;
 
-Vec3i corner_of(int n) { return axis(n / 2, n % 2 == 0 ? -1 : 1); }
+Vec3i corner_of(int n) { return along_axis(n / 2, n % 2 == 0 ? -1 : 1); }
 
-/// One octahedral site and the eight tetrahedra on its faces.
-struct Site {
-  Vec3i centre;
-  std::array<bool, 6> present{};  // masses at -x +x -y +y -z +z
-  std::array<Mask, 6> mask{};     // their live elements
-  int n_present = 0;
-  bool filled = false;  // at least five masses, every element between them alive
-  bool deep = false;    // all six masses with every element: nothing to see
+/// Gives every mass of a facet its number.
+class Builder {
+ public:
+  Builder(const Body& body, std::uint32_t rgba) : body_(body), rgba_(rgba) {}
 
-  Mask mask_at(int a, int sign) const { return mask[static_cast<std::size_t>(2 * a + (sign > 0 ? 1 : 0))]; }
+  void facet(const SiteCorners& corners, std::uint32_t site) {
+    auto& out = surface.facets.emplace_back();
+    for (std::size_t n = 0; n < 4; ++n) {
+      const Index cell = body_.lattice.mass_at(corners[n]);
+      const auto [at, added] = number_.try_emplace(cell, static_cast<std::uint32_t>(surface.cell.size()));
+      if (added) {
+        surface.cell.push_back(cell);
+        surface.rest.push_back(body_.lattice.rest_position(cell));
+      }
+      out[n] = at->second;
+    }
+    surface.rgba.push_back(rgba_);
+    surface.site.push_back(site);
+  }
+
+  Surface surface;
+
+ private:
+  const Body& body_;
+  std::uint32_t rgba_;
+  std::unordered_map<Index, std::uint32_t> number_;
 };
 
-Site look_at(const LiveNet& net, const Vec3i& centre) {
-  Site site{centre, {}, {}, 0, false, true};
+}  // namespace
+
+FccSite look_at_site(const LiveNet& net, const Vec3i& centre) noexcept {
+  FccSite site{centre, {}, {}, 0, false, true};
   for (int n = 0; n < 6; ++n) {
     const auto i = static_cast<std::size_t>(n);
     const Index cell = net.mass(centre + corner_of(n));
@@ -38,6 +52,18 @@ Site look_at(const LiveNet& net, const Vec3i& centre) {
     site.deep = site.deep && site.mask[i] == every_element;
   }
   if (site.n_present < 5 || site.deep) return site;
+  // One that is joined to none of the others any more is as good as missing: the other five may still hold together.
+  const std::array<bool, 6> there = site.present;
+  for (int n = 0; n < 6; ++n) {
+    bool joined = false;
+    for (int o = 0; o < 6; ++o)
+      joined = joined ||
+               (n / 2 != o / 2 && there[static_cast<std::size_t>(o)] && there[static_cast<std::size_t>(n)] &&
+                net.alive(site.mask[static_cast<std::size_t>(n)], corner_of(o) - corner_of(n)));
+    if (there[static_cast<std::size_t>(n)] && !joined)
+      site.present[static_cast<std::size_t>(n)] = false, --site.n_present;
+  }
+  if (site.n_present < 5) return site;
   site.filled = true;
   for (int n = 0; n < 6; ++n)
     for (int o = n + 1; o < 6; ++o) {
@@ -48,87 +74,21 @@ Site look_at(const LiveNet& net, const Vec3i& centre) {
   return site;
 }
 
-class Builder {
- public:
-  Builder(const Body& body, const LiveNet& net, std::uint32_t rgba) : body_(body), net_(net), rgba_(rgba) {}
-
-  /// The triangle in the octant `s` of a site, between its octahedron and the tetrahedron beyond.
-  void triangle(const Site& site, const Vec3i& s) {
-    const std::array<Vec3i, 3> e{axis(0, s.x()), axis(1, s.y()), axis(2, s.z())};
-    const std::array<Mask, 3> mask{site.mask_at(0, s.x()), site.mask_at(1, s.y()), site.mask_at(2, s.z())};
-    const std::array<Vec3i, 3> p{site.centre + e[0], site.centre + e[1], site.centre + e[2]};
-    if (!net_.alive(mask[0], e[1] - e[0]) || !net_.alive(mask[1], e[2] - e[1]) ||
-        !net_.alive(mask[0], e[2] - e[0]))
-      return;
-    bool tetrahedron = true;
-    for (std::size_t n = 0; n < 3; ++n) tetrahedron = tetrahedron && net_.alive(mask[n], s - e[n]);
-    if (tetrahedron && site.filled) {
-      ++surface.hidden;
-      return;
-    }
-    // x, y, z corners are anticlockwise seen from the octant's outside when the product of signs is positive.
-    const bool faces_out = (s.prod() > 0) == !tetrahedron;
-    facet(faces_out ? std::array<Vec3i, 4>{p[0], p[1], p[2], p[2]}
-                    : std::array<Vec3i, 4>{p[0], p[2], p[1], p[1]});
-  }
-
-  /// The square across an octahedron that lacks one mass.
-  void square(const Site& site) {
-    if (!site.filled || site.n_present != 5) return;
-    int missing = 0;
-    while (site.present[static_cast<std::size_t>(missing)]) ++missing;
-    const int a = missing / 2;
-    const int sign = missing % 2 == 0 ? -1 : 1;
-    const int b = (a + 1) % 3;
-    const int c = (a + 2) % 3;
-    std::array<Vec3i, 4> ring{site.centre + axis(b, 1), site.centre + axis(c, sign),
-                              site.centre + axis(b, -1), site.centre + axis(c, -sign)};
-    facet(ring);
-  }
-
-  Surface surface;
-
- private:
-  void facet(const std::array<Vec3i, 4>& corners) {
-    auto& out = surface.facets.emplace_back();
-    for (std::size_t n = 0; n < 4; ++n) {
-      const Index cell = net_.mass(corners[n]);
-      const auto [at, added] = number_.try_emplace(cell, static_cast<std::uint32_t>(surface.cell.size()));
-      if (added) {
-        surface.cell.push_back(cell);
-        surface.rest.push_back(body_.lattice.rest_position(cell));
-      }
-      out[n] = at->second;
-    }
-    surface.rgba.push_back(rgba_);
-  }
-
-  const Body& body_;
-  const LiveNet& net_;
-  std::uint32_t rgba_;
-  std::unordered_map<Index, std::uint32_t> number_;
-};
-
-}  // namespace
-
 Surface fcc_surface(const Body& body, const LiveElements& live, std::uint32_t rgba) {
-  const LiveNet net(body.lattice, live);
-  Builder builder(body, net, rgba);
-  const Vec3i extent(2 * body.lattice.size.x(), body.lattice.size.y(), body.lattice.size.z());
-  for (int z = -1; z <= extent.z(); ++z)
-    for (int y = -1; y <= extent.y(); ++y)
-      for (int x = -1; x <= extent.x(); ++x) {
+  const LiveNet net(body.lattice, live.masks());
+  const SiteNumbers numbers(body.lattice);
+  Builder builder(body, rgba);
+  int hidden = 0;
+  for (int z = -1; z <= numbers.last().z(); ++z) {
+    for (int y = -1; y <= numbers.last().y(); ++y)
+      for (int x = -1; x <= numbers.last().x(); ++x) {
         if (((x + y + z) & 1) == 0) continue;  // octahedral sites are the points between the masses
-        const Site site = look_at(net, {x, y, z});
-        if (site.n_present < 3) continue;
-        if (site.deep) {
-          builder.surface.hidden += 8;
-          continue;
-        }
-        for (int octant = 0; octant < 8; ++octant)
-          builder.triangle(site, {octant & 1 ? 1 : -1, octant & 2 ? 1 : -1, octant & 4 ? 1 : -1});
-        builder.square(site);
+        const std::uint32_t site = numbers.number({x, y, z});
+        hidden += facets_of_site(net, {x, y, z},
+                                 [&](const SiteCorners& corners, bool) { builder.facet(corners, site); });
       }
+    builder.surface.hidden += static_cast<std::uint64_t>(std::exchange(hidden, 0));
+  }
   return std::move(builder.surface);
 }
 

@@ -1,10 +1,10 @@
 #include "physics_node/boundary/live_elements.h"
 
 namespace palpate::physics {
-LiveElements::LiveElements(const Topology& moving)
-    : mask_(static_cast<std::size_t>(moving.body().lattice.n_cells())) {
-  copy(moving);
-}
+
+LiveElements::LiveElements(const Body& body) : mask_(static_cast<std::size_t>(body.lattice.n_cells())) {}
+
+LiveElements::LiveElements(const Topology& moving) : LiveElements(moving.body()) { copy(moving); }
 
 void LiveElements::copy(const Topology& moving) {
   for (const Index cell : moving.body().lattice.masses)
@@ -16,7 +16,7 @@ void LiveElements::copy(const Body& body, std::span<const Mask> masks) {
     mask_[static_cast<std::size_t>(body.lattice.masses[n])] = masks[n];
 }
 
-LiveNet::LiveNet(const Lattice& lattice, const LiveElements& live) : lattice_(lattice), live_(live) {
+LiveNet::LiveNet(const Lattice& lattice, std::span<const Mask> masks) : lattice_(lattice), masks_(masks) {
   direction_.fill(-1);
   const auto directions = all_directions(lattice.kind);
   for (std::size_t d = 0; d < directions.size(); ++d) direction_[key(directions[d])] = static_cast<int>(d);
@@ -24,7 +24,7 @@ LiveNet::LiveNet(const Lattice& lattice, const LiveElements& live) : lattice_(la
 
 bool LiveNet::joined(const Vec3i& a, const Vec3i& b) const {
   const Index cell = mass(a);
-  return cell >= 0 && alive(live_.mask(cell), b - a);
+  return cell >= 0 && alive(mask(cell), b - a);
 }
 
 std::vector<Vec3i> all_directions(LatticeKind kind) {

@@ -16,12 +16,15 @@ class LiveElements {
  public:
   /// Copies the masks of all masses. Cost: one virtual call per mass.
   explicit LiveElements(const Topology& moving);
+  /// None alive.
+  explicit LiveElements(const Body& body);
   void copy(const Topology& moving);
   /// From the masks of all masses, in storage order, as a record holds them.
   void copy(const Body& body, std::span<const Mask> masks);
 
   /// Bit d: the element in direction d lives.
   Mask mask(Index cell) const { return mask_[static_cast<std::size_t>(cell)]; }
+  std::span<const Mask> masks() const { return {mask_.data(), mask_.size()}; }  // (n_cells)
 
  private:
   ZeroedArray<Mask> mask_;  // (n_cells)
@@ -30,11 +33,14 @@ class LiveElements {
 /// Answers about masses and elements by grid coordinate.
 class LiveNet {
  public:
-  LiveNet(const Lattice& lattice, const LiveElements& live);
+  /// @param masks  of all storage cells; both outlive this  (n_cells)
+  LiveNet(const Lattice& lattice, std::span<const Mask> masks);
 
   /// Storage cell of the mass there, -1 where there is none.
   Index mass(const Vec3i& grid) const { return lattice_.mass_at(grid); }
-  Mask mask(Index cell) const { return live_.mask(cell); }
+  Mask mask(Index cell) const { return masks_[static_cast<std::size_t>(cell)]; }
+  /// Has this mass lost an element?
+  bool has_lost(Index cell) const { return mask(cell) != lattice_.mask[static_cast<std::size_t>(cell)]; }
   /// Is the element from a mass with this mask to the place that differs by `delta` alive?
   bool alive(Mask mask, const Vec3i& delta) const {
     const int d = direction_[key(delta)];
@@ -48,7 +54,7 @@ class LiveNet {
     return static_cast<std::size_t>((delta.x() + 1) + 3 * (delta.y() + 1) + 9 * (delta.z() + 1));
   }
   const Lattice& lattice_;
-  const LiveElements& live_;
+  std::span<const Mask> masks_;
   std::array<int, 27> direction_;  // by difference of the coordinates; -1: no direction of this lattice
 };
 

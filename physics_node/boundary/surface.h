@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "physics_node/body/body.h"
-#include "physics_node/step/body_model.h"
 #include "physics_node/boundary/live_elements.h"
+#include "physics_node/step/body_model.h"
 
 namespace palpate::physics {
 
@@ -18,6 +18,7 @@ struct Surface {
   std::vector<std::array<std::uint32_t, 4>>
       facets;                       // corners, anticlockwise from outside; a triangle repeats its last
   std::vector<std::uint32_t> rgba;  // 0xAABBGGRR                      (n_facets)
+  std::vector<std::uint32_t> site;  // which voxel cell or octahedral site it is of (n_facets)
   std::uint64_t hidden = 0;         // facets between two filled cells
 
   std::size_t n_vertices() const { return rest.size(); }

@@ -3,23 +3,10 @@
 #include "physics_node/body/build_lattice.h"
 #include "physics_node/boundary/cut_cells.h"
 #include "physics_node/boundary/surface.h"
+#include "physics_node/boundary/voxel_facets.h"
 
 namespace palpate::physics {
 namespace {
-
-struct Face {
-  Vec3i outward;
-  std::array<Vec3i, 4> corners;  // of the unit cell, anticlockwise from outside
-};
-
-const std::array<Face, 6> faces{{
-    {{-1, 0, 0}, {{{0, 0, 0}, {0, 0, 1}, {0, 1, 1}, {0, 1, 0}}}},
-    {{1, 0, 0}, {{{1, 0, 0}, {1, 1, 0}, {1, 1, 1}, {1, 0, 1}}}},
-    {{0, -1, 0}, {{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}}}},
-    {{0, 1, 0}, {{{0, 1, 0}, {0, 1, 1}, {1, 1, 1}, {1, 1, 0}}}},
-    {{0, 0, -1}, {{{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}}}},
-    {{0, 0, 1}, {{{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}}},
-}};
 
 /// Gives every corner that a facet uses a number: masses of the lattice and points of the scenery apart.
 class Numbering {
@@ -66,14 +53,20 @@ class Builder {
         rgba_(rgba) {}
 
   Surface build() {
+    const auto is_shown = [this](const Vec3i& cell) { return shown(cell); };
+    const VoxelFacets facets(cut_, is_shown);
     for (int k = 0; k < cells_.size.z(); ++k)
       for (int j = 0; j < cells_.size.y(); ++j)
         for (int i = 0; i < cells_.size.x(); ++i) {
-          if (!shown({i, j, k})) continue;
-          for (const Face& face : faces) add_face({i, j, k}, face);
+          const Vec3i cell(i, j, k);
+          if (!shown(cell)) continue;
+          const auto take = [&](const FacetCorners& corners, bool) { add_facet(cell, corners); };
+          for (const VoxelFace& face : voxel_faces) count_hidden(facets.on_face(cell, face, take));
         }
     for (const Vec3i& cell : cut_.cells())
-      if (shown(cell)) add_inside(cell);
+      if (shown(cell))
+        count_hidden(
+            facets.inside(cell, [&](const FacetCorners& corners, bool) { add_facet(cell, corners); }));
     return finish();
   }
 
@@ -85,65 +78,13 @@ class Builder {
   double intensity(const Vec3i& cell) const {
     return static_cast<double>(cells_.intensity[cells_.index(cell.x(), cell.y(), cell.z())]);
   }
-
-  void add_face(const Vec3i& cell, const Face& face) {
-    const Vec3i beyond = cell + face.outward;
-    const bool covered = shown(beyond);
-    if (cut_.is_cut(cell) || cut_.is_cut(beyond)) return add_cut_face(cell, face, covered);
-    if (covered) {
-      ++surface_.hidden;
-      return;
-    }
-    add_facet(cell, {cell + face.corners[0], cell + face.corners[1], cell + face.corners[2],
-                     cell + face.corners[3]});
-  }
-
-  /// The two triangles of a face between tetrahedra at its odd corners.
-  void add_cut_face(const Vec3i& cell, const Face& face, bool covered) {
-    const Vec3i beyond = cell + face.outward;
-    for (std::size_t n = 0; n < 4; ++n) {
-      const Vec3i odd = cell + face.corners[n];
-      if (!cut_.is_odd(odd)) continue;
-      const Vec3i before = cell + face.corners[(n + 3) % 4];
-      const Vec3i after = cell + face.corners[(n + 1) % 4];
-      const bool mine = !cut_.is_cut(cell) || cut_.corner_filled(cell, odd);
-      const bool theirs = covered && (!cut_.is_cut(beyond) || cut_.corner_filled(beyond, odd));
-      if (mine && theirs) {
-        ++surface_.hidden;
-      } else if (mine) {
-        add_facet(cell, {before, odd, after, after});
-      } else if (!theirs && cut_.is_triangle(before, odd, after) && (!covered || face.outward.sum() > 0)) {
-        add_facet(cell, {before, odd, after, after});  // a sheet, shown by one of the two cells
-      }
-    }
-  }
-
-  /// The triangles between the middle tetrahedron and those at the corners.
-  void add_inside(const Vec3i& cell) {
-    const bool middle = cut_.middle_filled(cell);
-    for (int n = 0; n < 8; ++n) {
-      const Vec3i offset(n & 1, n >> 1 & 1, n >> 2 & 1);
-      const Vec3i odd = cell + offset;
-      if (!cut_.is_odd(odd)) continue;
-      const Vec3i inwards = Vec3i::Ones() - 2 * offset;
-      std::array<Vec3i, 3> p{odd, odd, odd};
-      for (int a = 0; a < 3; ++a) p[static_cast<std::size_t>(a)][a] += inwards[a];
-      const bool corner = cut_.corner_filled(cell, odd);
-      if (corner && middle) {
-        surface_.hidden += 2;
-        continue;
-      }
-      if (!cut_.is_triangle(p[0], p[1], p[2])) continue;
-      // x, y, z are anticlockwise seen from the inside of the cell when the product of signs is positive.
-      if ((inwards.prod() > 0) == middle) std::swap(p[0], p[1]);
-      add_facet(cell, {p[0], p[1], p[2], p[2]});
-    }
-  }
+  void count_hidden(int facets) { surface_.hidden += static_cast<std::uint64_t>(facets); }
 
   void add_facet(const Vec3i& cell, const std::array<Vec3i, 4>& corners) {
     auto& facet = facets_.emplace_back();
     for (std::size_t c = 0; c < 4; ++c) facet[c] = numbering_.number(corners[c], surface_);
     surface_.rgba.push_back(cells_.transfer.empty() ? rgba_ : rgba_of(cells_.transfer, intensity(cell)));
+    surface_.site.push_back(static_cast<std::uint32_t>(cells_.index(cell.x(), cell.y(), cell.z())));
   }
 
   /// Puts the scenery behind the moving vertices.
