@@ -39,6 +39,8 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
   Index n_masses = 0;
   std::size_t n_chunks = 0;
   stable_dt_ = std::numeric_limits<double>::infinity();
+  const bool feels = std::any_of(scene.tools.begin(), scene.tools.end(),
+                                 [](const ToolSpec& tool) { return tool.shape != ToolShape::body; });
   for (const BodySpec& spec : scene.bodies) {
     Body body = build_body(spec, scene.materials);
     stable_dt_ = std::min(stable_dt_, stable_step(stiffest_mode(body), integrator));
@@ -55,7 +57,7 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
     const double bucket = 4 * lattice.spacing();
     bodies_.push_back(make_body_model(std::move(body), scene.physics.precision, integrator));
     fragments_.push_back(any_yields(bodies_.back()->body()) ? std::make_unique<Fragments>(*bodies_.back()) : nullptr);
-    touchable_.push_back({bodies_.back().get(), std::make_unique<Boundary>(*bodies_.back(), bucket)});
+    touchable_.push_back({bodies_.back().get(), std::make_unique<Boundary>(*bodies_.back(), bucket, feels)});
   }
   toolbox_ = make_tools(scene_, bodies_, touchable_);
   remarks_ = toolbox_.remarks;
@@ -126,6 +128,7 @@ void World::follow_breaks() noexcept {
   const StageTimer timer(report_, Stage::yield_and_break);  // of the fragments; the rest is part of the pass
   for (std::size_t b = 0; b < bodies_.size(); ++b)
     if (fragments_[b]) fragments_[b]->update(*bodies_[b]);
+  for (auto& body : touchable_) body.surface->follow();
   if (collisions_) collisions_->follow_breaks();
 }
 
@@ -232,6 +235,7 @@ void World::recover() noexcept {
     bodies_[b]->restore();
     bodies_[b]->restart_momentum();
     if (fragments_[b]) fragments_[b]->update(*bodies_[b]);
+    touchable_[b].surface->follow();
   }
   if (collisions_) collisions_->restart();
   ++report_.restored;
@@ -275,6 +279,7 @@ void World::find_contacts() noexcept {
     return;
   }
   const StageTimer timer(report_, Stage::find_contacts);
+  for (auto& body : touchable_) body.surface->update();
   for (auto& tool : toolbox_.tools) tool->find_contact(t_);
   for (const LedTool* tool : toolbox_.led) stick_near_ = stick_near_ || tool->is_near();
   pressed_ = is_pressed();
@@ -308,6 +313,7 @@ void World::reset() noexcept {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     bodies_[b]->reset();
     if (fragments_[b]) fragments_[b]->update(*bodies_[b]);
+    touchable_[b].surface->follow();
   }
   for (auto& tool : toolbox_.tools) tool->reset();
   if (collisions_) collisions_->restart();
@@ -317,6 +323,12 @@ void World::reset() noexcept {
   guard_.reset();
   pressed_ = pressed_before_ = false;
   restart_ledger();
+}
+
+std::uint64_t World::facets_left_out() const noexcept {
+  std::uint64_t n = 0;
+  for (const auto& body : touchable_) n += body.surface->left_out();
+  return n;
 }
 
 std::uint64_t World::state_hash() const noexcept {

@@ -55,6 +55,8 @@ class World {
   const Collisions* collisions() const { return collisions_.get(); }
   /// Which bodies have gone into each other, as far as the frames have looked; null where a single body cannot break.
   const InsideOthers* inside_others() const { return inside_.get(); }
+  /// Facets that opened and that tools do not feel, because there was no room for them.
+  std::uint64_t facets_left_out() const noexcept;
   StepReport& report() { return report_; }
   const StepReport& report() const { return report_; }
   std::uint64_t state_hash() const noexcept;

@@ -2,10 +2,25 @@
 
 #include <algorithm>
 
-namespace palpate::physics {
+#include "common/error/error.h"
 
-Boundary::Boundary(const BodyModel& moving, double bucket_size)
-    : surface_(make_surface(moving, std::nullopt, 0)), bucket_size_(bucket_size) {
+namespace palpate::physics {
+namespace {
+
+/// With every element, whatever is broken by now.
+Surface surface_as_loaded(const Body& body) {
+  std::vector<Mask> masks;
+  for (const Index mass : body.lattice.masses)
+    masks.push_back(body.lattice.mask[static_cast<std::size_t>(mass)]);
+  LiveElements all(body);
+  all.copy(body, masks);
+  return make_surface(body, all, std::nullopt, 0);
+}
+
+}  // namespace
+
+Boundary::Boundary(const BodyModel& moving, double bucket_size, bool follows)
+    : body_(moving), surface_(surface_as_loaded(moving.body())), bucket_size_(bucket_size) {
   Vec3 high = Vec3::Zero();
   if (!surface_.rest.empty()) low_ = high = surface_.rest.front();
   for (const Vec3& p : surface_.rest) low_ = low_.cwiseMin(p), high = high.cwiseMax(p);
@@ -31,6 +46,21 @@ Boundary::Boundary(const BodyModel& moving, double bucket_size)
     bucket_facets_.push_back(facet);
   }
   for (std::size_t b = 1; b < bucket_start_.size(); ++b) bucket_start_[b] += bucket_start_[b - 1];
+  if (follows && any_yields(moving.body())) prepare_to_follow();
+}
+
+void Boundary::prepare_to_follow() {
+  PALPATE_CHECK(std::is_sorted(surface_.site.begin(), surface_.site.end()),
+                "facets in the order of their sites");
+  sites_ = make_site_facets(body_);
+  const std::size_t n = sites_->n_sites();
+  gone_.resize(surface_.facets.size());
+  first_.resize(n);
+  waits_.resize(n);
+  queue_.resize(n);
+  // Why: a body that is half crumbs has about as many open facets as masses.
+  open_.resize(body_.body().lattice.masses.size() + 4096);
+  restart();
 }
 
 std::size_t Boundary::bucket_of(const Vec3& p) const {
@@ -39,11 +69,13 @@ std::size_t Boundary::bucket_of(const Vec3& p) const {
 }
 
 void Boundary::facets_near(const Vec3& p, double radius, const NodeMotion& moving,
-                                 std::vector<std::uint32_t>& out) const {
+                           std::vector<std::uint32_t>& out) const {
   const auto take = [&](std::uint32_t facet) {
-    if ((centroid(facet, moving) - p).squaredNorm() <= radius * radius) out.push_back(facet);
+    if (exists(facet) && (centroid(facet, moving) - p).squaredNorm() <= radius * radius) out.push_back(facet);
   };
   for (const std::uint32_t facet : moving_facets_) take(facet);
+  const auto n_loaded = static_cast<std::uint32_t>(surface_.facets.size());
+  for (std::uint32_t n = 0; n < n_used_; ++n) take(n_loaded + n);
   if (bucket_facets_.empty()) return;
   const Vec3 reach = Vec3::Constant(radius);
   const Eigen::Array3i lo = ((p - reach - low_) / bucket_size_).array().floor().cast<int>().max(0);
@@ -57,31 +89,53 @@ void Boundary::facets_near(const Vec3& p, double radius, const NodeMotion& movin
       }
 }
 
-Vec3 Boundary::centroid(std::uint32_t facet, const NodeMotion& moving) const {
-  const auto& c = surface_.facets[facet];
+bool Boundary::exists(std::uint32_t facet) const noexcept {
+  return is_loaded(facet) ? gone_.empty() || gone_[facet] == 0 : open_at(facet).open;
+}
+
+bool Boundary::is_triangle(std::uint32_t facet) const noexcept {
+  if (!is_loaded(facet)) return open_at(facet).masses[2] == open_at(facet).masses[3];
+  return surface_.facets[facet][2] == surface_.facets[facet][3];
+}
+
+Index Boundary::mass(std::uint32_t facet, std::size_t corner) const noexcept {
+  if (!is_loaded(facet)) return open_at(facet).masses[corner];
+  const std::uint32_t vertex = surface_.facets[facet][corner];
+  return vertex < surface_.n_moving() ? surface_.cell[vertex] : -1;
+}
+
+Vec3 Boundary::position(std::uint32_t facet, std::size_t corner, const NodeMotion& moving) const noexcept {
+  if (is_loaded(facet)) return surface_.position(surface_.facets[facet][corner], moving);
+  return moving.position(open_at(facet).masses[corner]);
+}
+
+Vec3 Boundary::rest(std::uint32_t facet, std::size_t corner) const noexcept {
+  if (is_loaded(facet)) return surface_.rest[surface_.facets[facet][corner]];
+  return body_.body().lattice.rest_position(open_at(facet).masses[corner]);
+}
+
+Vec3 Boundary::centroid(std::uint32_t facet, const NodeMotion& moving) const noexcept {
   Vec3 sum = Vec3::Zero();
-  for (std::size_t n = 0; n < 4; ++n) sum += surface_.position(c[n], moving);
+  for (std::size_t n = 0; n < 4; ++n) sum += position(facet, n, moving);
   return sum / 4;
 }
 
-Vec3 Boundary::rest_centroid(std::uint32_t facet) const {
+Vec3 Boundary::rest_centroid(std::uint32_t facet) const noexcept {
   Vec3 sum = Vec3::Zero();
-  for (const std::uint32_t corner : surface_.facets[facet]) sum += surface_.rest[corner];
+  for (std::size_t n = 0; n < 4; ++n) sum += rest(facet, n);
   return sum / 4;
 }
 
-Vec3 Boundary::rest_area(std::uint32_t facet) const {
-  const auto& c = surface_.facets[facet];
-  return 0.5 * (surface_.rest[c[2]] - surface_.rest[c[0]]).cross(surface_.rest[c[3]] - surface_.rest[c[1]]);
+Vec3 Boundary::rest_area(std::uint32_t facet) const noexcept {
+  return 0.5 * (rest(facet, 2) - rest(facet, 0)).cross(rest(facet, 3) - rest(facet, 1));
 }
 
 Boundary::CentroidAndArea Boundary::centroid_and_area(std::uint32_t facet,
-                                                                  const NodeMotion& moving) const {
-  const auto& c = surface_.facets[facet];
-  const Vec3 p0 = surface_.position(c[0], moving);
-  const Vec3 p1 = surface_.position(c[1], moving);
-  const Vec3 p2 = surface_.position(c[2], moving);
-  const Vec3 p3 = surface_.position(c[3], moving);
+                                                      const NodeMotion& moving) const noexcept {
+  const Vec3 p0 = position(facet, 0, moving);
+  const Vec3 p1 = position(facet, 1, moving);
+  const Vec3 p2 = position(facet, 2, moving);
+  const Vec3 p3 = position(facet, 3, moving);
   return {0.25 * (p0 + p1 + p2 + p3), 0.5 * (p2 - p0).cross(p3 - p1)};
 }
 

@@ -17,21 +17,21 @@ StickSurface::StickSurface(const Boundary& surface, const NodeMotion& moving, do
   const double spacing = moving.body().lattice.spacing();
   reach_ = std::max(2 * radius, 2 * spacing);
   depth_ = 0.25 * spacing;
-  near_.reserve(surface.surface().facets.size());
-  facets_.reserve(std::min(room, surface.surface().facets.size()));
+  near_.reserve(surface.most_facets());
+  facets_.reserve(std::min(room, surface.most_facets()));
 }
 
 void StickSurface::look(const Stick& stick, double t) noexcept {
-  if (!search_.due(stick, t)) return;
-  near_.clear();
   const double around = reach_ + stick.radius + 2 * StickSearch::margin;
+  const bool opened =
+      surface_.changed_near(stick.axis_point(0.5), 0.5 * stick.D.norm() + around, searched_revision_, moving_);
+  searched_revision_ = surface_.revision();
+  if (!search_.due(stick, t) && !opened) return;
+  near_.clear();
   surface_.facets_near(stick.axis_point(0.5), 0.5 * stick.D.norm() + around, moving_, near_);
-  const Surface& surface = surface_.surface();
   std::erase_if(near_, [&](std::uint32_t id) {
-    const auto& corners = surface.facets[id];
     // A stick meets masses, not scenery.
-    if (std::all_of(corners.begin(), corners.end(),
-                    [&](auto corner) { return corner >= surface.n_moving(); }))
+    if (surface_.mass(id, 0) < 0 && surface_.mass(id, 1) < 0 && surface_.mass(id, 2) < 0 && surface_.mass(id, 3) < 0)
       return true;
     const Vec3 c = surface_.centroid(id, moving_);
     return (c - stick.axis_point(stick.nearest(c))).squaredNorm() > around * around;
@@ -40,12 +40,11 @@ void StickSurface::look(const Stick& stick, double t) noexcept {
 
 /// Does a mass at its corners move?
 bool StickSurface::gives(std::uint32_t facet) const noexcept {
-  const Surface& surface = surface_.surface();
-  const auto& corners = surface.facets[facet];
-  return std::any_of(corners.begin(), corners.end(), [&](auto corner) {
-    return corner < surface.n_moving() &&
-           moving_.body().inverse_mass[static_cast<std::size_t>(surface.cell[corner])] > 0;
-  });
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    const Index mass = surface_.mass(facet, corner);
+    if (mass >= 0 && moving_.body().inverse_mass[static_cast<std::size_t>(mass)] > 0) return true;
+  }
+  return false;
 }
 
 /// Facets beside which the stick is less than R, on the side of the one that it is nearest to. Whether it is on a facet's outer
@@ -56,6 +55,7 @@ void StickSurface::collect(const Stick& stick, bool at_rest) noexcept {
   Vec3 side = Vec3::Zero();
   for (const std::uint32_t id : near_) {
     if (facets_.size() == facets_.capacity()) break;
+    if (!surface_.exists(id)) continue;
     const auto now = surface_.centroid_and_area(id, moving_);
     Facet facet;
     facet.rest = surface_.rest_centroid(id);

@@ -57,6 +57,7 @@ class StickSurface {
   std::vector<std::uint32_t> near_;  // facets around the stick
   std::vector<Facet> facets_;        // those that it may touch
   StickSearch search_;
+  std::uint64_t searched_revision_ = 0;  // of the boundary
 };
 
 }  // namespace palpate::physics

@@ -46,7 +46,9 @@ ToolContact::ToolContact(const Boundary& surface, const NodeMotion& moving, doub
 
 void ToolContact::look(const Vec3& p, double t) noexcept {
   const bool moved = (p - searched_at_).norm() > 0.5 * search_margin;
-  if (moved || t - searched_when_ >= search_period || t < searched_when_) {
+  const bool opened = surface_.changed_near(p, reach_ + 2 * search_margin, searched_revision_, moving_);
+  searched_revision_ = surface_.revision();
+  if (moved || opened || t - searched_when_ >= search_period || t < searched_when_) {
     near_.clear();
     surface_.facets_near(p, reach_ + search_margin, moving_, near_);
     keep_nearest(p);
@@ -55,6 +57,7 @@ void ToolContact::look(const Vec3& p, double t) noexcept {
   }
   facets_.clear();
   for (const std::uint32_t id : near_) {
+    if (!surface_.exists(id)) continue;
     const auto [centroid, area] = surface_.centroid_and_area(id, moving_);
     if ((centroid - p).squaredNorm() > reach_ * reach_) continue;
     const double size = area.norm();
@@ -147,13 +150,13 @@ void ToolContact::find_shares(const Vec3& q) noexcept {
   double sum = 0;
   for (const Facet& facet : facets_) sum += weight(facet, foot, plane.normal);
   if (sum <= 0) return;
-  const Surface& surface = surface_.surface();
   for (const Facet& facet : facets_) {
     const double w = weight(facet, foot, plane.normal);
     if (w <= 0) continue;
-    for (const std::uint32_t corner : surface.facets[facet.id]) {
-      if (corner >= surface.n_moving() || shares_.size() == shares_.capacity()) continue;
-      shares_.push_back({surface.cell[corner], w / (4 * sum)});
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+      const Index mass = surface_.mass(facet.id, corner);
+      if (mass < 0 || shares_.size() == shares_.capacity()) continue;
+      shares_.push_back({mass, w / (4 * sum)});
     }
   }
   merge_equal_masses(shares_);
@@ -176,15 +179,14 @@ std::uint32_t ToolContact::write_facets(const Vec3& p, std::uint32_t body, Patch
     const LocalPlane plane = plane_at(facet.centroid, under.normal);
     if (!plane.found || facet.normal.dot(under.normal) < facing_limit) continue;
     if (at_rest && plane.rest_normal.isZero()) continue;
-    const auto& corners = surface_.surface().facets[facet.id];
     for (std::size_t half = 0; half < 2; ++half) {
-      if (half == 1 && corners[2] == corners[3]) continue;  // a triangle
+      if (half == 1 && surface_.is_triangle(facet.id)) continue;
       PatchFacet& patch = out[written++];
       patch = {};
       const std::array<std::size_t, 3> of =
           half == 0 ? std::array<std::size_t, 3>{0, 1, 2} : std::array<std::size_t, 3>{0, 2, 3};
       for (std::size_t c = 0; c < 3; ++c)
-        patch.corners[c] = array(surface_.surface().position(corners[of[c]], moving_));
+        patch.corners[c] = array(surface_.position(facet.id, of[c], moving_));
       patch.point = array(at_rest ? plane.rest : plane.point);
       patch.normal = array(at_rest ? plane.rest_normal : plane.normal);
       patch.body = body;

@@ -29,7 +29,7 @@ class ToolContact {
   /// @param radius  of the tip: its force fades out smoothly over twice that, and over two cells at least [m]
   ToolContact(const Boundary& surface, const NodeMotion& moving, double radius);
 
-  /// Looks for facets around `p`; keeps what it found until the tool or the tissue may have left it.
+  /// Looks for facets around `p`; keeps what it found until the tool or the tissue may have left it, or one has opened nearby.
   void look(const Vec3& p, double t) noexcept;
 
   /// The plane under p:
@@ -75,6 +75,7 @@ class ToolContact {
   double reach_;   // facets within this distance are kept [m]
   Vec3 searched_at_ = Vec3::Constant(1e9);
   double searched_when_ = -1e9;
+  std::uint64_t searched_revision_ = 0;  // of the boundary
   std::vector<std::uint32_t> near_;
   std::vector<Facet> facets_;  // of near_, as they are now
   std::vector<MassShare> shares_;

@@ -24,6 +24,8 @@ namespace {
 // memory less that of a small scene.
 constexpr double elastic_bytes = 200, elastic_double_bytes = 310;  // of a mass
 constexpr double plastic_bytes = 680, plastic_double_bytes = 1030;
+// A point or a stick feels what breaks open: two sites of 9 bytes a mass, and room for a facet.
+constexpr double felt_bytes = 42;
 constexpr double storage_bytes = 14;  // of a storage cell: mask, share, inverse mass
 constexpr double image_bytes =
     10;  // of a cell of an image: intensity, twice while it is read, filled, deformable
@@ -121,7 +123,9 @@ double bytes_of_masses(double masses, const BodySpec& body, const Scene& scene) 
   for (const RegionSpec& region : body.regions)
     plastic = plastic || (!region.material.empty() && yields(region.material, scene));
   const bool doubled = scene.physics.precision == Precision::double_;
-  return masses * (plastic ? (doubled ? plastic_double_bytes : plastic_bytes)
+  const bool felt = std::any_of(scene.tools.begin(), scene.tools.end(),
+                                [](const ToolSpec& tool) { return tool.shape != ToolShape::body; });
+  return masses * (plastic ? (doubled ? plastic_double_bytes : plastic_bytes) + (felt ? felt_bytes : 0.0)
                            : (doubled ? elastic_double_bytes : elastic_bytes));
 }
 

@@ -71,6 +71,12 @@ const Kind kinds[] = {
        return fmt::format("{} pairs of masses found no room in the contact list and were not held apart",
                           w.collisions()->tally().overflows);
      }},
+    {[](const World& w) noexcept { return w.facets_left_out() > 0; },
+     [](const World& w) {
+       return fmt::format("{} facets that opened found no room, so that tools do not feel them; larger cells or tissue "
+                          "that breaks later would do",
+                          w.facets_left_out());
+     }},
 };
 static_assert(std::size(kinds) <= most_warning_kinds);
 

@@ -77,6 +77,14 @@ TEST(World, TakesNoMemoryWhileItYieldsAndBreaks) {
   EXPECT_GT(world.report().broken, 0);
 }
 
+TEST(World, TakesNoMemoryWhileATipBreaksTissue) {
+  Recipe recipe = pressed_slab_recipe();
+  recipe.material += "\nyield_ratio = 1.02\nbreak_ratio = 1.05";
+  World world(scene_of(recipe));
+  EXPECT_EQ(allocations_in(world, steady_hand({0, 0, 5}), 300), 0u);
+  EXPECT_GT(world.report().broken, 50);
+}
+
 TEST(Recorder, TakesNoMemoryOfTheFramesThread) {
   const palpate::test::ScratchFolder folder;
   Recipe recipe = pressed_slab_recipe();

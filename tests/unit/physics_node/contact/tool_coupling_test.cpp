@@ -114,5 +114,43 @@ TEST(ToolCoupling, IsFreeBeforeTheHandIsSeen) {
   EXPECT_EQ(patch.answers, 0u);
 }
 
+/// The upper two layers are torn away at once: the patch of the next frame but one offers what lies beneath, and the force of the
+/// hand is borne there.
+TEST(ToolCoupling, OffersWhatHasOpened) {
+  Recipe recipe = pressed_slab_recipe();
+  recipe.material += "\nyield_ratio = 1.3\nbreak_ratio = 1.5";
+  World world(scene_of(recipe));
+  run(world, steady_hand({0, 0, 0.01}), 20);
+  ContactPatch patch;
+  world.tool(0).write_patch(patch, 1, 1);
+  ASSERT_GT(patch.n_facets, 4u);
+  EXPECT_NEAR(patch.facets[0].corners[0][2], slab_top, 0.0005);
+  ASSERT_EQ(world.report().broken, 0);
+
+  const Lattice& lattice = world.body(0).body().lattice;
+  std::vector<Index> torn;
+  for (const Index mass : lattice.masses)
+    if (lattice.rest_position(mass).z() > slab_top - 0.006) torn.push_back(mass);
+  double far = 0;
+  for (const Index mass : torn) world.body(0).place(mass, Vec3(1 + far++, 0, 1), Vec3::Zero());
+  run(world, steady_hand({0, 0, 0.01}), 2);
+  ASSERT_GT(world.report().broken, 100);
+  world.tool(0).write_patch(patch, 2, 1);
+  ASSERT_GT(patch.n_facets, 4u);
+  for (std::uint32_t f = 0; f < patch.n_facets; ++f)
+    for (const Array3& corner : patch.facets[f].corners) EXPECT_LT(corner[2], slab_top - 0.006) << f;
+  EXPECT_GT(patch.facets[0].normal[2], 0.9);
+  ASSERT_FALSE(world.tool(0).forces().empty());
+  for (const NodalForce& nodal : world.tool(0).forces())
+    EXPECT_EQ(std::count(torn.begin(), torn.end(), nodal.cell), 0) << "crumbs bear nothing";
+  EXPECT_NEAR(total(world.tool(0).forces()).z(), -world.tool(0).force().z(), 1e-9);
+
+  world.reset();
+  run(world, steady_hand({0, 0, 0.01}), 2);
+  world.tool(0).write_patch(patch, 3, 1);
+  ASSERT_GT(patch.n_facets, 4u);
+  EXPECT_NEAR(patch.facets[0].corners[0][2], slab_top, 0.0005);
+}
+
 }  // namespace
 }  // namespace palpate::physics

@@ -1,0 +1,116 @@
+#include "physics_node/boundary/site_facets.h"
+
+#include <algorithm>
+
+#include "physics_node/boundary/cut_cells.h"
+#include "physics_node/boundary/fcc_facets.h"
+#include "physics_node/boundary/voxel_facets.h"
+
+namespace palpate::physics {
+namespace {
+
+class VoxelSites final : public SiteFacets {
+ public:
+  explicit VoxelSites(const Topology& moving)
+      : lattice_(moving.body().lattice), cells_(*moving.body().cells), now_(moving.body(), moving.masks()) {}
+
+  std::size_t n_sites() const noexcept override { return cells_.filled.size(); }
+
+  /// The eight cells at the mass, and those that share a face with one of them.
+  std::size_t around(Index mass, std::span<std::uint32_t, most_around> sites) const noexcept override {
+    const Vec3i at = lattice_.grid_of(mass) + now_.shift();
+    std::size_t n = 0;
+    for (int z = -2; z <= 1; ++z)
+      for (int y = -2; y <= 1; ++y)
+        for (int x = -2; x <= 1; ++x) {
+          const int beyond =
+              (x == -2 || x == 1 ? 1 : 0) + (y == -2 || y == 1 ? 1 : 0) + (z == -2 || z == 1 ? 1 : 0);
+          const Vec3i cell = at + Vec3i(x, y, z);
+          if (beyond <= 1 && cells_.is_filled(cell.x(), cell.y(), cell.z())) sites[n++] = number(cell);
+        }
+    return n;
+  }
+
+  std::size_t facets_of(std::uint32_t site, std::span<Corners, most_facets> out) const noexcept override {
+    const Vec3i cell = cell_of(site);
+    const bool rigid = !is_deformable(cell);
+    std::size_t n = 0;
+    const auto take = [&](const FacetCorners& corners, bool bounds) {
+      if (!bounds || n == out.size()) return;
+      Corners masses;
+      for (std::size_t c = 0; c < 4; ++c) masses[c] = now_.mass(corners[c]);
+      if (std::all_of(masses.begin(), masses.end(), [](Index mass) { return mass >= 0; })) out[n++] = masses;
+    };
+    const auto shown = [this](const Vec3i& c) { return cells_.is_filled(c.x(), c.y(), c.z()); };
+    const VoxelFacets facets(now_, shown);
+    for (const VoxelFace& face : voxel_faces)
+      if (!rigid || is_deformable(cell + face.outward)) facets.on_face(cell, face, take);
+    if (now_.is_cut(cell)) facets.inside(cell, take);
+    return n;
+  }
+
+  bool is_rigid(std::uint32_t site) const noexcept override { return !is_deformable(cell_of(site)); }
+
+ private:
+  bool is_deformable(const Vec3i& c) const noexcept { return cells_.is_deformable(c.x(), c.y(), c.z()); }
+  std::uint32_t number(const Vec3i& c) const noexcept {
+    return static_cast<std::uint32_t>(cells_.index(c.x(), c.y(), c.z()));
+  }
+  Vec3i cell_of(std::uint32_t site) const noexcept {
+    const auto n = static_cast<std::int64_t>(site), nx = std::int64_t{cells_.size.x()},
+               ny = std::int64_t{cells_.size.y()};
+    return {static_cast<int>(n % nx), static_cast<int>(n / nx % ny), static_cast<int>(n / nx / ny)};
+  }
+
+  const Lattice& lattice_;
+  const Cells& cells_;
+  CellsNow now_;
+};
+
+class FccSites final : public SiteFacets {
+ public:
+  explicit FccSites(const Topology& moving)
+      : lattice_(moving.body().lattice), net_(lattice_, moving.masks()), numbers_(lattice_) {}
+
+  std::size_t n_sites() const noexcept override { return numbers_.size(); }
+
+  /// The six octahedra at the mass, and the eight on whose faces it is the tip of a tetrahedron.
+  std::size_t around(Index mass, std::span<std::uint32_t, most_around> sites) const noexcept override {
+    const Vec3i at = lattice_.grid_of(mass);
+    std::size_t n = 0;
+    const auto add = [&](const Vec3i& site) {
+      if (numbers_.inside(site)) sites[n++] = numbers_.number(site);
+    };
+    for (int a = 0; a < 3; ++a)
+      for (const int sign : {-1, 1}) add(at + along_axis(a, sign));
+    for (int octant = 0; octant < 8; ++octant)
+      add(at + Vec3i(octant & 1 ? 1 : -1, octant & 2 ? 1 : -1, octant & 4 ? 1 : -1));
+    return n;
+  }
+
+  std::size_t facets_of(std::uint32_t site, std::span<Corners, most_facets> out) const noexcept override {
+    std::size_t n = 0;
+    facets_of_site(net_, numbers_.site(site), [&](const SiteCorners& corners, bool bounds) {
+      if (!bounds || n == out.size()) return;
+      for (std::size_t c = 0; c < 4; ++c) out[n][c] = net_.mass(corners[c]);
+      ++n;
+    });
+    return n;
+  }
+
+  bool is_rigid(std::uint32_t) const noexcept override { return false; }
+
+ private:
+  const Lattice& lattice_;
+  LiveNet net_;
+  SiteNumbers numbers_;
+};
+
+}  // namespace
+
+std::unique_ptr<SiteFacets> make_site_facets(const Topology& moving) {
+  if (moving.body().cells) return std::make_unique<VoxelSites>(moving);
+  return std::make_unique<FccSites>(moving);
+}
+
+}  // namespace palpate::physics
