@@ -150,7 +150,7 @@ class HapticSession {
   Vec3 torque_w_ = Vec3::Zero();  // now at the device [N m], turned to the world
   Eigen::Quaterniond last_q_ = Eigen::Quaterniond::Identity();  // in the world
   std::atomic<bool> want_power_{false};
-  std::atomic<bool> lost_{false};  // unplugged: only close() may be called
+  std::atomic<bool> lost_{false};          // unplugged: only close() may be called
   std::atomic<bool> stopped_by_us_{true};  // whoever asked last for the motors wanted them off
   bool was_powered_ = false;               // since they were last asked for
   std::int64_t write_ns_ = 0;              // that the last write took

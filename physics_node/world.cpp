@@ -17,7 +17,7 @@ namespace palpate::physics {
 namespace {
 
 constexpr Index masses_worth_a_team = 15000;  // below, a second thread brings little (palpate bench team)
-constexpr int most_substeps = 256;  // of a frame in which something fast is near
+constexpr int most_substeps = 256;            // of a frame in which something fast is near
 
 /// @param n_chunks  of the body that has most: more threads than that would have nothing to do
 TeamChoice choose_threads(const Scene& scene, int spare_cores, Index n_masses, std::size_t n_chunks) {
@@ -56,11 +56,11 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
     const Lattice& lattice = body.lattice;
     const double bucket = 4 * lattice.spacing();
     bodies_.push_back(make_body_model(std::move(body), scene.physics.precision, integrator));
-    fragments_.push_back(any_yields(bodies_.back()->body()) ? std::make_unique<Fragments>(*bodies_.back()) : nullptr);
+    fragments_.push_back(any_yields(bodies_.back()->body()) ? std::make_unique<Fragments>(*bodies_.back())
+                                                            : nullptr);
     touchable_.push_back({bodies_.back().get(), std::make_unique<Boundary>(*bodies_.back(), bucket, feels)});
   }
   toolbox_ = make_tools(scene_, bodies_, touchable_);
-  remarks_ = toolbox_.remarks;
   if (scene.contact.enabled && (bodies_.size() > 1 || any_yields_))
     collisions_ = std::make_unique<Collisions>(bodies_, fragments_, scene.contact);
   if (collisions_)
@@ -78,11 +78,11 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
   n_substeps_ = static_cast<int>(steps_a_frame(scene, stable_dt_));
   dt_ = frame_dt_ / n_substeps_;
   if (dt_ > stable_dt_) {
-    remarks_.push_back(
-        fmt::format("{}: a step of {:.4g} ms is above the stable {:.4g} ms; expect the guard to act",
-                    scene.physics.place.line == 0 && scene.physics.place.file.empty() ? scene.path + ": [physics]"
-                                                                                      : scene.physics.place.text(),
-                    1e3 * dt_, 1e3 * stable_dt_));
+    remarks_.push_back(fmt::format(
+        "{}: a step of {:.4g} ms is above the stable {:.4g} ms; expect the guard to act",
+        scene.physics.place.line == 0 && scene.physics.place.file.empty() ? scene.path + ": [physics]"
+                                                                          : scene.physics.place.text(),
+        1e3 * dt_, 1e3 * stable_dt_));
   }
   restart_ledger();
 }
@@ -183,7 +183,8 @@ void World::touch(double dt, double done) noexcept {
     report_.contact_lost += collisions_->tally().lost - before.lost;
   }
   for (const Plane& plane : planes_)
-    for (auto& body : bodies_) report_.contact_lost += body->bounce_off(plane, scene_.contact.restitution, dt).lost;
+    for (auto& body : bodies_)
+      report_.contact_lost += body->bounce_off(plane, scene_.contact.restitution, dt).lost;
 }
 
 /// Of the forces of tools that give any, where no step has solved for them. [W]
@@ -268,7 +269,8 @@ void World::take_tools(std::span<const std::optional<ToolState>> tools) noexcept
 }
 
 bool World::is_pressed() const noexcept {
-  return std::any_of(toolbox_.tools.begin(), toolbox_.tools.end(), [](const auto& tool) { return !tool->forces().empty(); });
+  return std::any_of(toolbox_.tools.begin(), toolbox_.tools.end(),
+                     [](const auto& tool) { return !tool->forces().empty(); });
 }
 
 void World::find_contacts() noexcept {

@@ -43,9 +43,7 @@ class World {
   double stable_step_seconds() const { return stable_dt_; }
   std::size_t n_bodies() const { return bodies_.size(); }
   const BodyModel& body(std::size_t b) const { return *bodies_[b]; }
-  BodyModel& body(std::size_t b) {
-    return *bodies_[b];
-  }  // to start a test or a benchmark from a given state
+  BodyModel& body(std::size_t b) { return *bodies_[b]; }  // to start a test or a benchmark from a given state
   /// What has come off; null for a body that cannot break.
   const Fragments* fragments(std::size_t b) const { return fragments_[b].get(); }
   Tool& tool(std::size_t n) { return *toolbox_.tools[n]; }
@@ -74,7 +72,9 @@ class World {
   bool has_stopped() const noexcept { return guard_.given_up().has_value(); }
   /// What a person should know about this scene: one line each.
   const std::vector<std::string>& remarks() const { return remarks_; }
-  void add_remarks(std::vector<std::string> more) { remarks_.insert(remarks_.end(), more.begin(), more.end()); }
+  void add_remarks(std::vector<std::string> more) {
+    remarks_.insert(remarks_.end(), more.begin(), more.end());
+  }
 
  private:
   void step(double dt, double done, bool watch) noexcept;
@@ -87,7 +87,7 @@ class World {
   bool is_implicit() const noexcept { return scene_.physics.integrator == Integrator::backward_euler; }
   /// May a velocity jump in this frame? Then contact wants to know what it was.
   bool may_be_struck() const noexcept { return near_ || stick_near_ || !planes_.empty(); }
-  bool is_pressed() const noexcept;  // by a tool that gives forces
+  bool is_pressed() const noexcept;                                 // by a tool that gives forces
   std::span<const NodalForce> gathered(std::size_t body) noexcept;  // forces of all tools on a body
   void guard() noexcept;
   void save_all(bool good) noexcept;
@@ -119,7 +119,7 @@ class World {
   std::unique_ptr<Team> team_;  // null: one thread
   TeamChoice choice_ = TeamChoice::always(1);
   bool any_yields_ = false;
-  bool near_ = false;  // bodies or fragments may touch in this frame
+  bool near_ = false;                              // bodies or fragments may touch in this frame
   bool pressed_ = false, pressed_before_ = false;  // by a tool, in this frame and in the one before
   Guard guard_;
 };

@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "common/scene/scene.h"
-#include "physics_node/fragments/fragments.h"
 #include "physics_node/boundary/surface.h"
+#include "physics_node/fragments/fragments.h"
 
 namespace palpate::physics {
 

@@ -1,7 +1,5 @@
 #include "physics_node/contact/make_tools.h"
 
-#include <fmt/format.h>
-
 #include "common/error/error.h"
 #include "physics_node/contact/body_tool.h"
 #include "physics_node/contact/stick_tool.h"
@@ -23,14 +21,6 @@ void add_stick(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
                      ": a stick moves masses step by step, which \"backward_euler\" does not; write "
                      "integrator = \"symplectic_euler\" or \"velocity_verlet\"");
   auto stick = std::make_unique<StickTool>(spec, n, bodies, touchable);
-  for (const auto& body : bodies)
-    if (body->body().n_held < body->body().lattice.n_masses() &&
-        spec.radius < 0.75 * body->body().lattice.spacing())
-      box.remarks.push_back(
-          fmt::format("{}: stick \"{}\" of radius {:.3g} mm meets masses {:.3g} mm apart, not the faces "
-                      "between them, and may "
-                      "slip between them; give it three quarters of that at least, and move it slowly",
-                      spec.place.text(), spec.name, 1e3 * spec.radius, 1e3 * body->body().lattice.spacing()));
   box.led.push_back(stick.get());
   box.tools.push_back(std::move(stick));
   for (const auto& body : bodies) body->prepare_contact();

@@ -14,7 +14,6 @@ struct Toolbox {
   std::vector<std::unique_ptr<Tool>> tools;  // one for each of the scene
   std::vector<LedTool*> led;                 // those of them that move tissue themselves: bodies and sticks
   std::vector<std::size_t> felt;             // bodies whose impulses somebody feels
-  std::vector<std::string> remarks;          // what a person should know: one line each
 };
 
 /// Makes them, and has the bodies make room for what these tools want to know.

@@ -8,16 +8,12 @@ namespace {
 
 constexpr int most_corrections = 4;
 
-struct Parameters {
-  double s = 0, t = 0;
-};
+}  // namespace
 
-/// Nearest points p + s d of one segment and a + t e of another.
-/// Source: Ericson 2005, Real-Time Collision Detection, 5.1.9.
-Parameters nearest_of_segments(const Vec3& p, const Vec3& d, const Vec3& a, const Vec3& e) noexcept {
+SegmentPoints nearest_of_segments(const Vec3& p, const Vec3& d, const Vec3& a, const Vec3& e) noexcept {
   const Vec3 r = p - a;
   const double dd = d.squaredNorm(), ee = e.squaredNorm(), er = e.dot(r);
-  Parameters at;
+  SegmentPoints at;
   if (dd <= 1e-30) {
     at.t = ee > 0 ? std::clamp(er / ee, 0.0, 1.0) : 0.0;
     return at;
@@ -40,8 +36,6 @@ Parameters nearest_of_segments(const Vec3& p, const Vec3& d, const Vec3& a, cons
   return at;
 }
 
-}  // namespace
-
 double Stick::nearest(const Vec3& p) const noexcept {
   const double squared = D.squaredNorm();
   return squared > 0 ? std::clamp((p - A).dot(D) / squared, 0.0, 1.0) : 0.0;
@@ -53,7 +47,7 @@ StickHit sweep(const Stick& before, const Stick& now, const Vec3& p_0, const Vec
   const double t_0 = before.nearest(p_0);
   const Vec3 moved = now.axis_point(t_0) - before.axis_point(t_0);
   const Vec3 way = p_1 - p_0 - moved;
-  const Parameters at = nearest_of_segments(p_0, way, before.A, before.D);
+  const SegmentPoints at = nearest_of_segments(p_0, way, before.A, before.D);
   const Vec3 apart = p_0 + at.s * way - before.axis_point(at.t);
   if (apart.squaredNorm() >= now.radius * now.radius) return hit;
 

@@ -17,6 +17,13 @@ struct Stick {
   Vec3 axis_point(double t) const noexcept { return A + t * D; }
 };
 
+struct SegmentPoints {
+  double s = 0, t = 0;  // in [0, 1]
+};
+/// Nearest points p + s d of one segment and a + t e of another.
+/// Source: Ericson 2005, Real-Time Collision Detection, 5.1.9.
+SegmentPoints nearest_of_segments(const Vec3& p, const Vec3& d, const Vec3& a, const Vec3& e) noexcept;
+
 /// Where a moving point meets a moving stick, if it does.
 struct StickHit {
   bool hit = false;

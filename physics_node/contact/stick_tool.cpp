@@ -38,6 +38,7 @@ StickTool::StickTool(const ToolSpec& tool, std::uint32_t index, const BodyModels
     near.mass.resize(most);
     for (auto* array : {&near.rest, &near.x, &near.v, &near.v_move}) array->assign(most, Vec3::Zero());
     near_.push_back(std::move(near));
+    faces_.emplace_back(*surfaces[near_.size() - 1].surface, *body, radius_);
   }
 }
 
@@ -96,6 +97,10 @@ void StickTool::find_contact(double t) noexcept {
     list(near);
     n_near_ += near.n;
   }
+  for (StickFaces& faces : faces_) {
+    faces.list(now, radius_ + 2 * StickSearch::margin);
+    n_near_ += faces.size();
+  }
 }
 
 LeadWork StickTool::lead_body(Near& near, const Stick& before, const Stick& now, double dt) noexcept {
@@ -133,6 +138,11 @@ LeadWork StickTool::lead(double done, double dt) noexcept {
   for (Near& near : near_) {
     if (near.n == 0) continue;
     const LeadWork one = lead_body(near, before, now, dt);
+    sum.work += one.work;
+    sum.lost += one.lost;
+  }
+  for (StickFaces& faces : faces_) {
+    const LeadWork one = faces.lead(before, now, to_.p, dt, sum_, contacts_);
     sum.work += one.work;
     sum.lost += one.lost;
   }

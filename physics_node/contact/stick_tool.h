@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "physics_node/contact/led_tool.h"
+#include "physics_node/contact/stick_faces.h"
 #include "physics_node/contact/stick_spring.h"
 
 namespace palpate::physics {
@@ -74,6 +75,7 @@ class StickTool final : public LedTool {
   Pose from_, to_;   // of the frame
   double done_ = 0;  // of the frame, so far
   std::vector<Near> near_;
+  std::vector<StickFaces> faces_;  // of each body
   std::size_t n_near_ = 0;
   StickSearch search_;
   StickSpring surface_;

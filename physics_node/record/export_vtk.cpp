@@ -9,8 +9,8 @@
 #include "common/error/error.h"
 #include "common/record/hdf5_file.h"
 #include "physics_node/appearance/colours.h"
-#include "physics_node/record/vtp_file.h"
 #include "physics_node/boundary/surface.h"
+#include "physics_node/record/vtp_file.h"
 
 namespace palpate::physics {
 namespace {
@@ -84,7 +84,9 @@ class ExportedBody {
   }
 
   bool moves(std::uint32_t vertex) const { return vertex < surface_.n_moving(); }
-  std::size_t number_of(std::uint32_t vertex) const { return number_[static_cast<std::size_t>(surface_.cell[vertex])]; }
+  std::size_t number_of(std::uint32_t vertex) const {
+    return number_[static_cast<std::size_t>(surface_.cell[vertex])];
+  }
 
   VtpArray yielded_share(std::uint64_t row, const std::vector<std::uint32_t>& vertices) const {
     const auto shares =
@@ -101,7 +103,9 @@ class ExportedBody {
     std::vector<std::int32_t> point(surface_.n_vertices(), -1);
     for (std::size_t f = 0; f < surface_.facets.size(); ++f) {
       const auto& facet = surface_.facets[f];
-      if (std::any_of(facet.begin(), facet.end(), [&](std::uint32_t corner) { return moves(corner); }) != moving) continue;
+      if (std::any_of(facet.begin(), facet.end(), [&](std::uint32_t corner) { return moves(corner); }) !=
+          moving)
+        continue;
       const std::size_t corners = facet[3] == facet[2] ? 3 : 4;
       for (std::size_t c = 0; c < corners; ++c) {
         if (point[facet[c]] < 0) {
@@ -111,7 +115,8 @@ class ExportedBody {
         mesh.corners.push_back(point[facet[c]]);
       }
       mesh.ends.push_back(static_cast<std::int32_t>(mesh.corners.size()));
-      for (int byte = 0; byte < 3; ++byte)  // not how opaque: the facets are, and a viewer would show what is behind them
+      for (int byte = 0; byte < 3;
+           ++byte)  // not how opaque: the facets are, and a viewer would show what is behind them
         mesh.rgb.push_back(static_cast<std::uint8_t>(surface_.rgba[f] >> (8 * byte) & 0xff));
     }
     return mesh;
@@ -133,7 +138,9 @@ class ExportedBody {
 class ExportedTool {
  public:
   ExportedTool(const Hdf5File& file, const std::string& name)
-      : file_(file), path_("/tools/" + name + "/t_p_force_moment"), n_(file.has(path_) ? file.shape(path_).at(0) : 0) {}
+      : file_(file),
+        path_("/tools/" + name + "/t_p_force_moment"),
+        n_(file.has(path_) ? file.shape(path_).at(0) : 0) {}
 
   /// The last row not after t; nothing where there is none.
   std::optional<std::vector<double>> at(double t) const {
@@ -208,7 +215,9 @@ class Series {
     parts_.push_back({t, part, name});
   }
   /// The same file again.
-  void repeat(const std::string& file, int part, double t) { parts_.push_back({t, part, "vtk/" + file + ".vtp"}); }
+  void repeat(const std::string& file, int part, double t) {
+    parts_.push_back({t, part, "vtk/" + file + ".vtp"});
+  }
 
   fs::path close() {
     const fs::path path = folder_ / "record.pvd";
@@ -247,7 +256,8 @@ VtkExport export_vtk(const std::string& record, const Scene& scene, const VtkWis
   for (const ToolSpec& tool : scene.tools) tools.emplace_back(file, tool.name);
 
   std::vector<double> times = bodies.front().times();
-  for (const auto& body : bodies) times.resize(std::min(times.size(), body.times().size()));  // a record cut short
+  for (const auto& body : bodies)
+    times.resize(std::min(times.size(), body.times().size()));  // a record cut short
   std::vector<std::uint64_t> rows = rows_due(times, wish.rate_Hz);
   if (rows.empty()) return done;
   Series series(wish.folder, fs::status(record).permissions());
@@ -257,7 +267,8 @@ VtkExport export_vtk(const std::string& record, const Scene& scene, const VtkWis
     VtpMesh scenery = body.scenery();
     has_scenery.push_back(!scenery.ends.empty());
     const auto part = static_cast<int>(bodies.size() + has_scenery.size());
-    if (has_scenery.back()) series.add(scenery_file(has_scenery.size() - 1), part, times[rows.front()], std::move(scenery));
+    if (has_scenery.back())
+      series.add(scenery_file(has_scenery.size() - 1), part, times[rows.front()], std::move(scenery));
   }
   const std::uint64_t fixed_bytes = series.bytes();
   std::size_t stride = 1;

@@ -14,7 +14,8 @@ struct Kind {
 };
 
 constexpr double most_balance_error = 0.01;
-constexpr double most_generated = 0.01;  // of what was exchanged. Why: the scenes that ship stay below half of it
+constexpr double most_generated =
+    0.01;  // of what was exchanged. Why: the scenes that ship stay below half of it
 
 /// Energy that steps and contact have put in: booked, so that the balance does not tell. [J]
 double generated(const EnergyLedger& ledger) {
@@ -26,56 +27,74 @@ std::string remedy(const World& world) {
   if (!contact.enabled) return "contact is switched off: set contact.enabled = true";
   if (contact.distance == ContactDistance::paper)
     return "contact of masses with masses lets them through: set contact.distance = \"swept\"";
-  return "are they inside each other at the start? if not, set a smaller physics.step_ms or stiffer materials";
+  return "are they inside each other at the start? if not, set a smaller physics.step_ms or stiffer "
+         "materials";
 }
 
 const Kind kinds[] = {
     {[](const World& w) noexcept { return w.inside_others() != nullptr && w.inside_others()->any(); },
      [](const World& w) { return inside_text(w, *w.inside_others()); }},
-    {[](const World& w) noexcept { return w.collisions() != nullptr && w.collisions()->tally().passages > 0; },
+    {[](const World& w) noexcept {
+       return w.collisions() != nullptr && w.collisions()->tally().passages > 0;
+     },
      [](const World& w) {
-       return fmt::format("{} times a mass went through a facet; {}", w.collisions()->tally().passages, remedy(w));
+       return fmt::format("{} times a mass went through a facet; {}", w.collisions()->tally().passages,
+                          remedy(w));
      }},
     {[](const World& w) noexcept { return w.report().restored > 0; },
      [](const World& w) {
-       return fmt::format("the guard brought the last good state back {} time(s) and halved the step {} time(s), to {:.3g} ms; "
-                          "look at materials, first positions and what the tools do, or set a smaller physics.step_ms",
-                          w.report().restored, w.report().halved, 1e3 * w.step_seconds());
+       return fmt::format(
+           "the guard brought the last good state back {} time(s) and halved the step {} time(s), to {:.3g} "
+           "ms; "
+           "look at materials, first positions and what the tools do, or set a smaller physics.step_ms",
+           w.report().restored, w.report().halved, 1e3 * w.step_seconds());
      }},
     {[](const World& w) noexcept { return w.report().unsolved > 0; },
      [](const World& w) {
-       return fmt::format("{} of {} steps of backward_euler were not solved to their tolerance; set a smaller physics.step_ms",
-                          w.report().unsolved, w.report().steps);
+       return fmt::format(
+           "{} of {} steps of backward_euler were not solved to their tolerance; set a smaller "
+           "physics.step_ms",
+           w.report().unsolved, w.report().steps);
      }},
-    {[](const World& w) noexcept { return w.is_watched() && w.watched_ledger().balance_error() > most_balance_error; },
+    {[](const World& w) noexcept {
+       return w.is_watched() && w.watched_ledger().balance_error() > most_balance_error;
+     },
      [](const World& w) {
        const EnergyLedger ledger = w.watched_ledger();
-       return fmt::format("the energy does not balance: {:.2g} J of {:.2g} J exchanged, {:.2g} %, came from nowhere or got lost; what "
-                          "summary.json says under energy is off by that; set a smaller physics.step_ms",
-                          std::abs(ledger.missing()), ledger.exchanged, 100 * ledger.balance_error());
+       return fmt::format(
+           "the energy does not balance: {:.2g} J of {:.2g} J exchanged, {:.2g} %, came from nowhere or got "
+           "lost; what "
+           "summary.json says under energy is off by that; set a smaller physics.step_ms",
+           std::abs(ledger.missing()), ledger.exchanged, 100 * ledger.balance_error());
      }},
     {[](const World& w) noexcept {
        if (!w.is_watched()) return false;
        const EnergyLedger ledger = w.watched_ledger();
-       return ledger.exchanged > EnergyLedger::negligible && generated(ledger) > most_generated * ledger.exchanged;
+       return ledger.exchanged > EnergyLedger::negligible &&
+              generated(ledger) > most_generated * ledger.exchanged;
      },
      [](const World& w) {
        const EnergyLedger ledger = w.watched_ledger();
-       return fmt::format("the steps have generated {:.2g} J and contact {:.2g} J, {:.2g} % of the {:.2g} J exchanged; set a smaller "
-                          "physics.step_ms",
-                          std::max(0.0, -ledger.numerical), std::max(0.0, -ledger.contact),
-                          100 * generated(ledger) / ledger.exchanged, ledger.exchanged);
+       return fmt::format(
+           "the steps have generated {:.2g} J and contact {:.2g} J, {:.2g} % of the {:.2g} J exchanged; set "
+           "a smaller "
+           "physics.step_ms",
+           std::max(0.0, -ledger.numerical), std::max(0.0, -ledger.contact),
+           100 * generated(ledger) / ledger.exchanged, ledger.exchanged);
      }},
-    {[](const World& w) noexcept { return w.collisions() != nullptr && w.collisions()->tally().overflows > 0; },
+    {[](const World& w) noexcept {
+       return w.collisions() != nullptr && w.collisions()->tally().overflows > 0;
+     },
      [](const World& w) {
        return fmt::format("{} pairs of masses found no room in the contact list and were not held apart",
                           w.collisions()->tally().overflows);
      }},
     {[](const World& w) noexcept { return w.facets_left_out() > 0; },
      [](const World& w) {
-       return fmt::format("{} facets that opened found no room, so that tools do not feel them; larger cells or tissue "
-                          "that breaks later would do",
-                          w.facets_left_out());
+       return fmt::format(
+           "{} facets that opened found no room, so that tools do not feel them; larger cells or tissue "
+           "that breaks later would do",
+           w.facets_left_out());
      }},
 };
 static_assert(std::size(kinds) <= most_warning_kinds);

@@ -18,6 +18,7 @@ target_compile_definitions(physics_falls_test PRIVATE SCENES="${PROJECT_SOURCE_D
 palpate_test(NAME physics_collide_test KIND property SOURCES physics_collide_test.cpp LIBS palpate_physics_worlds)
 target_compile_definitions(physics_collide_test PRIVATE SCENES="${PROJECT_SOURCE_DIR}/scenes")
 # Nothing tunnels.
+palpate_test(NAME physics_stick_faces_test KIND property SOURCES physics_stick_faces_test.cpp LIBS palpate_physics_worlds)
 palpate_test(NAME physics_tunnelling_test KIND property SOURCES physics_tunnelling_test.cpp
   LIBS palpate_bench_shots)
 # The same bits as ever, by the widest instruction set that this machine has and by that of every x86-64 machine.

@@ -66,7 +66,8 @@ inline std::string enter_memory_room() {
     write_file("/proc/self/gid_map", "0 " + group + " 1");
   }
   if (mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0) return "no mounts of our own here";
-  const int before = open(here.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);  // of this room, or it cannot be mounted
+  const int before =
+      open(here.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);  // of this room, or it cannot be mounted
   if (mount("room", "/dev/shm", "tmpfs", 0, nullptr) != 0 || mount("room", "/tmp", "tmpfs", 0, nullptr) != 0)
     return "no file systems of our own here";
   if (here.string().starts_with("/tmp/") && !show_again(here, before)) return "no folder below /tmp here";
@@ -97,8 +98,7 @@ inline std::set<std::string> shared_files() {
 /// A child process with its output in a file.
 class Process {
  public:
-  explicit Process(std::vector<std::string> words, std::string output)
-      : output_(std::move(output)) {
+  explicit Process(std::vector<std::string> words, std::string output) : output_(std::move(output)) {
     std::vector<char*> argv;
     for (auto& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);

@@ -258,6 +258,7 @@ TEST_F(OpenHaptics, ALibraryThatHangsDoesNotHoldUpTheEnd) {
 
 class Inverse3 : public MotorsOff {
   std::string device() const override { return "driver = \"inverse3\"\nservice_port = \"" + port + "\"\n"; }
+  pid_t service_pid() const override { return service.pid(); }
   HelperProcess service{{"/usr/bin/python3", STRANGER_HAPLY, std::getenv(StrangerBus::variable)}};
   std::string port = service.line();
 };

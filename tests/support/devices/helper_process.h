@@ -40,6 +40,7 @@ class HelperProcess {
   HelperProcess(const HelperProcess&) = delete;
   HelperProcess& operator=(const HelperProcess&) = delete;
 
+  pid_t pid() const { return pid_; }
   /// The next line that it says, or what has come of it when it has ended.
   std::string line() {
     std::string text;

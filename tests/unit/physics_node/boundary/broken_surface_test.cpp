@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "physics_node/step/body_model.h"
 #include "physics_node/boundary/cut_cells.h"
 #include "physics_node/boundary/loose_parts.h"
+#include "physics_node/step/body_model.h"
 #include "tests/support/physics/small_worlds.h"
 
 namespace palpate::physics {

@@ -51,7 +51,8 @@ TEST(ToolContact, SeesAFlatFaceAsItsPlane) {
 }
 
 TEST(ToolContact, KeepsTheNearestOfManyFacets) {
-  Recipe recipe = slab();  // one layer of fine cells: more facets round the tip than are kept, its own face the last
+  Recipe recipe =
+      slab();  // one layer of fine cells: more facets round the tip than are kept, its own face the last
   recipe.shape = Recipe::box(40, 40, 0.25);
   recipe.spacing_mm = 0.25;
   Touch touch(recipe);
