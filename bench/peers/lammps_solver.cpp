@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "bench/peers/lammps_files.h"
-#include "bench/peers/scratch_folder.h"
 #include "bench/peers/solver.h"
+#include "common/file/scratch_folder.h"
 #include "deploy/palpate/child.h"
 #include "deploy/palpate/install_paths.h"
 

@@ -7,9 +7,9 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "bench/peers/scratch_folder.h"
 #include "bench/peers/solver.h"
 #include "bench/problems/stopwatch.h"
+#include "common/file/scratch_folder.h"
 
 namespace palpate::bench {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "common/error/error.h"
 #include "common/file/privacy.h"
+#include "common/file/scratch_folder.h"
 #include "common/process/checked_option.h"
-#include "deploy/palpate/scratch_folder.h"
 #include "deploy/palpate/subcommands.h"
 #include "deploy/palpate/viewers.h"
 #include "physics_node/record/export_vtk.h"
@@ -35,7 +35,7 @@ int run_export(const ExportOptions& options) {
   keep_as_private_as({path.string()});
   const physics::SessionRecord record(path.string());
   const ScratchFolder files;
-  const auto laid_out = record.lay_out(files.path());
+  const auto laid_out = record.lay_out(files.path().string());
   physics::VtkWish wish;
   wish.folder = options.out.empty() ? path.parent_path() : fs::path(options.out);
   wish.rate_Hz = options.rate_Hz;

@@ -12,6 +12,7 @@
 
 #include "common/error/error.h"
 #include "common/file/privacy.h"
+#include "common/file/scratch_folder.h"
 #include "common/math/hash.h"
 #include "common/process/checked_option.h"
 #include "common/process/stop_flag.h"
@@ -21,7 +22,6 @@
 #include "deploy/palpate/out_folder.h"
 #include "deploy/palpate/plotter.h"
 #include "deploy/palpate/progress.h"
-#include "deploy/palpate/scratch_folder.h"
 #include "deploy/palpate/subcommands.h"
 #include "deploy/palpate/viewers.h"
 #include "deploy/palpate/virtual_eye.h"
@@ -59,7 +59,7 @@ class Rerun {
  public:
   explicit Rerun(const ReplayOptions& options) : options_(options), record_(options.record) {
     const ScratchFolder files;
-    auto [scene, source] = record_.lay_out(files.path());
+    auto [scene, source] = record_.lay_out(files.path().string());
     if (options.threads >= 0) scene.physics.threads = options.threads;
     world_ = std::make_unique<physics::World>(scene);
     replay_ = std::make_unique<physics::Replay>(record_, *world_);
