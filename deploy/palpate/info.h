@@ -4,14 +4,11 @@
 
 #include <string>
 
-#include "common/scene/scene.h"
-
 namespace palpate::deploy {
 
-std::string info_scene(const std::string& path);   // a scene (.toml)
-/// What a person should know before the scene runs, one line each; empty: nothing. Builds the bodies, and says what hinders that,
-/// such as an image that has not been imported yet.
-std::string remarks_text(const Scene& scene);
+/// A scene (.toml), with what a person should know before it runs. Builds its bodies as physics would, and throws what
+/// hinders that, such as an image that has not been imported yet.
+std::string info_scene(const std::string& path);
 std::string info_volume(const std::string& path);  // an imported volume (.h5)
 std::string info_record(const std::string& path);  // any other HDF5 file: its datasets
 

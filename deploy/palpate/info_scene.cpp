@@ -1,9 +1,6 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
-#include <vector>
 
 #include "common/math/hash.h"
 #include "common/math/units.h"
@@ -11,7 +8,8 @@
 #include "deploy/palpate/info.h"
 #include "physics_node/forecast/memory_need.h"
 #include "physics_node/forecast/speed_forecast.h"
-#include "physics_node/step/stable_step.h"
+#include "physics_node/remarks/remarks.h"
+#include "physics_node/world.h"
 
 namespace palpate::deploy {
 namespace {
@@ -79,52 +77,21 @@ std::string tool_text(const ToolSpec& tool, const Scene& scene) {
                      mm_from_m(tool.radius), tool.stiffness, tool.device, scene.device(tool.device).driver);
 }
 
-/// A small block of a body's material, which has its step.
-BodySpec patch_of(const BodySpec& body) {
-  BodySpec patch;
-  patch.name = body.name;
-  patch.place = body.place;
-  patch.lattice = body.lattice;
-  patch.spacing = body.spacing;
-  patch.material = body.material;
-  patch.shape = BoxShape{Vec3::Constant(6 * *body.spacing)};
-  return patch;
-}
-
-/// How many masses move, what they take and how fast they go. Built where that is quick, else reckoned from
-/// the scene's numbers.
-std::string forecast_text(const Scene& scene) {
-  constexpr double quickly_built = 1e7;  // storage cells
+/// How many masses move, what they take and how fast they go.
+std::string forecast_text(const Scene& scene, const physics::World& world) {
   using namespace physics;
-  std::vector<MemoryNeed> needs;
-  for (const BodySpec& body : scene.bodies) needs.push_back(memory_need(body, scene));
-  refuse_too_large(scene, needs, usable_memory());
-  double masses = 0, bytes = bytes_of_program, cells = 0, stable_dt = std::numeric_limits<double>::infinity();
-  for (const MemoryNeed& need : needs) cells += need.cells;
-  const bool exact = cells <= quickly_built;
-  for (std::size_t b = 0; b < needs.size(); ++b) {
-    MemoryNeed& need = needs[b];
+  double masses = 0, bytes = bytes_of_program;
+  for (std::size_t b = 0; b < world.n_bodies(); ++b) {
     const BodySpec& spec = scene.bodies[b];
-    if (!exact && spec.spacing)
-      stable_dt = std::min(stable_dt, stable_step(stiffest_mode(build_body(patch_of(spec), scene.materials)),
-                                                  scene.physics.integrator));
-    if (exact) {
-      const Body body = build_body(spec, scene.materials);
-      need.bytes -= bytes_of_masses(need.masses, spec, scene);
-      need.masses = static_cast<double>(body.lattice.n_masses());
-      need.bytes += bytes_of_masses(need.masses, spec, scene);
-      stable_dt = std::min(stable_dt, stable_step(stiffest_mode(body), scene.physics.integrator));
-    }
-    masses += need.masses;
-    bytes += need.bytes;
+    const MemoryNeed need = memory_need(spec, scene);
+    const auto built = static_cast<double>(world.body(b).body().lattice.n_masses());
+    masses += built;
+    bytes += need.bytes - bytes_of_masses(need.masses, spec, scene) + bytes_of_masses(built, spec, scene);
   }
-  refuse_too_large(scene, needs, usable_memory());
-  const bool known =
-      std::all_of(needs.begin(), needs.end(), [](const MemoryNeed& need) { return need.masses > 0; });
-  std::string text = known ? fmt::format("masses       {}{:.0f}\n", exact ? "" : "about ", masses)
-                           : "masses       as many as its images have tissue\n";
+  std::string text = fmt::format("masses       {:.0f}\n", masses);
   text += fmt::format("memory       about {:.2g} GB of {:.2g} GB that may be taken here\n", 1e-9 * bytes,
                       1e-9 * usable_memory());
+  const double stable_dt = world.stable_step_seconds();
   if (!std::isfinite(stable_dt)) return text;
   const SpeedForecast speed = forecast_speed(scene, masses, stable_dt);
   text += fmt::format("step         {:.0f} a frame of {:.3g} ms\n", speed.steps_a_frame,
@@ -139,14 +106,17 @@ std::string forecast_text(const Scene& scene) {
 
 std::string info_scene(const std::string& path) {
   const Scene scene = load_scene(path);
+  const physics::World world(scene);
   std::string text = fmt::format("scene        {}\n", scene.title);
   text += fmt::format("checksum     {}\n", hex_of(scene.checksum));
   text += fmt::format("lasts        {:.6g} s\n", scene.natural_seconds());
-  text += forecast_text(scene);
+  text += forecast_text(scene, world);
   for (const auto& body : scene.bodies) text += body_text(body);
   for (const auto& material : scene.materials) text += material_text(material);
   for (const auto& tool : scene.tools) text += tool_text(tool, scene);
-  return text + remarks_text(scene);
+  for (const auto& line : world.remarks()) text += fmt::format("remark       {}\n", line);
+  for (const auto& line : physics::remarks_about(world)) text += fmt::format("remark       {}\n", line);
+  return text;
 }
 
 }  // namespace palpate::deploy

@@ -88,5 +88,37 @@ waypoints = [[0, 0, 0, 30], [3, 0, 0, 8]]
   }
 }
 
+/// What physics would refuse is refused, and not a remark below figures of a scene that cannot run.
+TEST(Info, RefusesASceneThatPhysicsCouldNotLoad) {
+  const test::TemporaryFolder folder;
+  folder.write("stick.toml", R"([physics]
+integrator = "backward_euler"
+[material.gel]
+density_kg_per_m3 = 1000.0
+modulus_kPa = 10
+[[body]]
+name = "cube"
+shape = "box"
+size_mm = [20, 20, 20]
+lattice = "voxel"
+spacing_mm = 5
+material = "gel"
+[[tool]]
+name = "rod"
+shape = "stick"
+radius_mm = 4
+length_mm = 40
+device = "hand"
+[device.hand]
+driver = "simulated"
+waypoints = [[0, 0, 0, 30], [3, 0, 0, 8]]
+)");
+  try {
+    ADD_FAILURE() << info_scene((folder / "stick.toml").string());
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("backward_euler"));
+  }
+}
+
 }  // namespace
 }  // namespace palpate::deploy
