@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <string_view>
 #include <utility>
 
 namespace palpate::deploy {
 
-std::vector<std::string> hand_warnings(const nlohmann::json& summary) {
+std::vector<std::string> hand_warnings(const nlohmann::json& summary, Faults faults) {
   constexpr std::array<std::pair<const char*, const char*>, 4> meanings = {{
       {"stale_events", "physics was silent for the hand {} time(s), and its force faded until answers came again; look at the real-time "
                        "factor, and between two PCs at the network"},
@@ -19,6 +20,7 @@ std::vector<std::string> hand_warnings(const nlohmann::json& summary) {
   const auto haptic = summary.find("haptic");
   if (haptic == summary.end() || !haptic->is_object()) return lines;
   for (const auto& [key, text] : meanings) {
+    if (faults == Faults::named && std::string_view(key) == "faults") continue;
     const auto count = haptic->find(key);
     if (count == haptic->end() || !count->is_number_unsigned()) continue;
     if (const auto n = count->get<std::uint64_t>(); n > 0) lines.push_back(fmt::format(fmt::runtime(text), n));

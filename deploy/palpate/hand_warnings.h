@@ -7,7 +7,9 @@
 
 namespace palpate::deploy {
 
-/// One line for each count of `haptic` in the summary that a person should look at; none where all went well.
-std::vector<std::string> hand_warnings(const nlohmann::json& summary);
+/// One line for each count of `haptic` in the summary that a person should look at; none where all went well. Faults only
+/// where nobody has said yet which tool had one and why.
+enum class Faults { counted, named };
+std::vector<std::string> hand_warnings(const nlohmann::json& summary, Faults faults);
 
 }  // namespace palpate::deploy

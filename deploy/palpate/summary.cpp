@@ -50,7 +50,7 @@ json merged_summary(const fs::path& out, const Scene& scene, const SessionResult
   }
   summary["warnings"] = json::array();
   add_warnings(summary, warnings);
-  add_warnings(summary, hand_warnings(summary));
+  add_warnings(summary, hand_warnings(summary, Faults::counted));
   count_warnings(summary);
   const json ours = {
       {"scene", scene.path}, {"commit", commit()}, {"seed", scene.seed}, {"wall_s", result.wall_s}};

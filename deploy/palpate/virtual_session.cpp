@@ -94,7 +94,7 @@ nlohmann::json VirtualSession::finish() {
   }
   add_warnings(summary, faults);
   if (eye_) summary["render"] = eye_->summary(wall_s_);
-  add_warnings(summary, hand_warnings(summary));
+  add_warnings(summary, hand_warnings(summary, Faults::named));
   count_warnings(summary);
   return summary;
 }

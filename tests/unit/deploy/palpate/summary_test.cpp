@@ -1,3 +1,4 @@
+#include "deploy/palpate/hand_warnings.h"
 #include "deploy/palpate/summary.h"
 
 #include <gtest/gtest.h>
@@ -68,6 +69,15 @@ TEST_F(Summary, SaysInWordsWhatTheCountsOfTheHandMean) {
   ASSERT_EQ(warnings.size(), 2u) << warnings;
   EXPECT_EQ(warnings[0].get<std::string>().find("physics was silent for the hand 3 time(s)"), 0u);
   EXPECT_EQ(warnings[1].get<std::string>().find("a device had 1 fault(s)"), 0u);
+}
+
+/// A line that names tool and cause needs no second one that counts it.
+TEST_F(Summary, SaysNothingMoreOfFaultsThatAreNamed) {
+  const nlohmann::json summary = {{"haptic", {{"stale_events", 3u}, {"faults", 1u}}}};
+  EXPECT_EQ(hand_warnings(summary, Faults::counted).size(), 2u);
+  const auto others = hand_warnings(summary, Faults::named);
+  ASSERT_EQ(others.size(), 1u);
+  EXPECT_EQ(others[0].find("physics was silent"), 0u);
 }
 
 TEST_F(Summary, HasWarningsWhereNobodyWarns) {
