@@ -15,7 +15,7 @@ constexpr double lightest = 50, heaviest = 25000;     // [kg/m^3]: lung; tungste
 constexpr double smallest_m = 1e-3, largest_m = 5;    // of a body
 constexpr double most_gravity = 50;                   // [m/s^2]
 constexpr double slowest_frame_Hz = 50;  // Why: below, three patch periods are so long that the hand is often without an answer
-constexpr int most_steps_a_frame = 300;  // Why: even a thousand masses then take longer than the frame on one core
+constexpr int busy_steps_a_frame = 300;  // Why: even a thousand masses then take longer than the frame on one core
 
 /// A scene need not have the table.
 std::string place_of_physics(const Scene& scene) {
@@ -62,7 +62,7 @@ Remarks number_remarks(const Scene& scene, const Bodies& bodies, int steps_a_fra
   if (!scene.tools.empty() && scene.physics.frame_Hz < slowest_frame_Hz)
     remarks.push_back(fmt::format("{}: at {:.4g} frames a second the hand is often without an answer; frame_Hz = 1000 is usual",
                                   place_of_physics(scene), scene.physics.frame_Hz));
-  if (steps_a_frame > most_steps_a_frame)
+  if (steps_a_frame > busy_steps_a_frame)
     remarks.push_back(fmt::format("{}: {} steps a frame are too many for real time; larger cells, softer or heavier material, or "
                                   "integrator = \"backward_euler\" take fewer",
                                   place_of_physics(scene), steps_a_frame));
