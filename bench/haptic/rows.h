@@ -40,7 +40,7 @@ Row clocks_may_differ(const Runs& runs);            // N1
 Row force_is_true(Runs& runs);                // S4
 Row pulse_is_felt(Runs& runs);                // S5
 Row force_steps_are_small(const Runs& runs);  // S6
-Row free_space_is_free();                     // S10
+Row free_space_is_free(double loss = 0.01);   // S10; loss: of patches, 1 for a hand that is never armed
 Row saturation_is_quiet();                    // S11
 Row world_pulse_is_felt(Runs& runs);          // S5
 Row world_free_space_is_free();               // S10

@@ -65,6 +65,14 @@ TEST(HapticLoop, HasAnExactProxy) { expect(proxy_is_exact(quick())); }
 TEST(HapticLoop, CalibratesExactly) { expect(calibration_is_exact(quick())); }
 TEST(HapticLoop, BearsRubbish) { expect(rubbish_is_harmless(quick())); }
 
+/// No force and no energy are no merit of a hand that was never armed.
+TEST(HapticLoop, IsNotCalledFreeWhereItNeverArms) {
+  const Row row = free_space_is_free(1);
+  EXPECT_FALSE(row.pass);
+  EXPECT_EQ(row.figure.find("0 N, 0 J, "), 0u) << row.figure;
+  EXPECT_EQ(row.figure.find(" 0 of "), row.figure.npos) << row.figure;
+}
+
 /// The harness must be able to see what is wrong: energy from a spring that comes two ticks late.
 TEST(HapticLoop, IsSeenToGainEnergyWithRawPlanes) {
   Case c;
