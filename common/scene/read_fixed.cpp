@@ -9,7 +9,7 @@ namespace palpate {
 namespace {
 
 constexpr std::array<std::string_view, 6> faces = {"-x", "+x", "-y", "+y", "-z", "+z"};
-constexpr std::string_view form =
+constexpr std::string_view fixed_form =
     R"("-x", "+x", "-y", "+y", "-z", "+z" or a box { min_mm = [x, y, z], max_mm = [x, y, z] })";
 
 void read_fixed_box(const toml::table& table, TableReader& body, ReadContext& context, BodySpec& spec) {
@@ -29,7 +29,7 @@ void read_fixed_box(const toml::table& table, TableReader& body, ReadContext& co
 }  // namespace
 
 void read_fixed(TableReader& body, ReadContext& context, BodySpec& spec) {
-  const auto* list = body.read_array("fixed", fmt::format("a list of {}", form));
+  const auto* list = body.read_array("fixed", fmt::format("a list of {}", fixed_form));
   if (list == nullptr) return;
   for (const auto& item : *list) {
     const auto word = item.value_or(std::string());
@@ -39,7 +39,7 @@ void read_fixed(TableReader& body, ReadContext& context, BodySpec& spec) {
     else if (face != faces.end())
       spec.fixed_faces[static_cast<std::size_t>(face - faces.begin())] = true;
     else
-      body.complain_value("fixed", item, form);
+      body.complain_value("fixed", item, fixed_form);
   }
 }
 

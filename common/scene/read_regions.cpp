@@ -10,7 +10,7 @@ namespace palpate {
 namespace {
 
 constexpr std::size_t most_regions = 64;
-constexpr std::string_view form =
+constexpr std::string_view region_form =
     "{ material = \"NAME\" } with box_min_mm and box_max_mm, center_mm and radius_mm, or intensity";
 
 void read_intensity(TableReader& reader, bool is_volume, RegionSpec& region) {
@@ -92,7 +92,7 @@ void read_region(const toml::table& table, TableReader& body, ReadContext& conte
 }  // namespace
 
 void read_regions(TableReader& body, ReadContext& context, BodySpec& spec) {
-  const auto* list = body.read_array("regions", fmt::format("a list of {}", form));
+  const auto* list = body.read_array("regions", fmt::format("a list of {}", region_form));
   if (list == nullptr) return;
   if (list->size() > most_regions) {
     body.complain("regions",
@@ -103,7 +103,7 @@ void read_regions(TableReader& body, ReadContext& context, BodySpec& spec) {
     if (item.is_table())
       read_region(*item.as_table(), body, context, spec);
     else
-      body.complain_value("regions", item, form);
+      body.complain_value("regions", item, region_form);
   }
 }
 

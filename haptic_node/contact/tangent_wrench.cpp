@@ -13,9 +13,9 @@ constexpr double lever =
     0.05;  // [m]: a turn counts as the way of a point this far off, a moment as its force there
 constexpr double least_share =
     1e-3;  // of the largest eigenvalue: below it the spring does not hold that direction
-constexpr double soft_share = 0.15;  // nor is any that it holds softer: a small force would store much there
-constexpr double force_rate = 80.0;  // most that an answer changes the force [N/s]
-constexpr double outran_way = 0.05;  // from the answer's pose, beyond which it says nothing [m]
+constexpr double soft_share = 0.15;   // nor is any that it holds softer: a small force would store much there
+constexpr double answer_rate = 80.0;  // most that an answer changes the force [N/s]
+constexpr double outran_way = 0.05;   // from the answer's pose, beyond which it says nothing [m]
 constexpr int most_halvings = 12;
 constexpr double negligible = 1e-9;  // [N]
 constexpr double cone =
@@ -192,14 +192,14 @@ void TangentWrench::follow(const Vec6& d_goal, double dt, double share) noexcept
     const Vec6 W_next = K * pushing(d, K, axis);
     const double change = std::max((W_next - W).norm(), (within_limits(W_next) * W_next - felt).norm());
     const double work = share * (energy(d, K, axis) - before);
-    if (change <= force_rate * dt && work <= tank_.level()) {
+    if (change <= answer_rate * dt && work <= tank_.level()) {
       d_ = d;
       K_ = K;
       axis_ = axis;
       tank_.book(work);
       return;
     }
-    part *= change > force_rate * dt ? std::min(0.5, force_rate * dt / change) : 0.5;
+    part *= change > answer_rate * dt ? std::min(0.5, answer_rate * dt / change) : 0.5;
   }
 }
 

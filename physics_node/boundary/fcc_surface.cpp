@@ -12,9 +12,9 @@ constexpr Mask every_element = 0xFFF;
 Vec3i corner_of(int n) { return along_axis(n / 2, n % 2 == 0 ? -1 : 1); }
 
 /// Gives every mass of a facet its number.
-class Builder {
+class FccBuilder {
  public:
-  Builder(const Body& body, std::uint32_t rgba) : body_(body), rgba_(rgba) {}
+  FccBuilder(const Body& body, std::uint32_t rgba) : body_(body), rgba_(rgba) {}
 
   void facet(const SiteCorners& corners, std::uint32_t site) {
     auto& out = surface.facets.emplace_back();
@@ -77,7 +77,7 @@ FccSite look_at_site(const LiveNet& net, const Vec3i& centre) noexcept {
 Surface fcc_surface(const Body& body, const LiveElements& live, std::uint32_t rgba) {
   const LiveNet net(body.lattice, live.masks());
   const SiteNumbers numbers(body.lattice);
-  Builder builder(body, rgba);
+  FccBuilder builder(body, rgba);
   int hidden = 0;
   for (int z = -1; z <= numbers.last().z(); ++z) {
     for (int y = -1; y <= numbers.last().y(); ++y)

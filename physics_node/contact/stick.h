@@ -7,6 +7,11 @@
 
 namespace palpate::physics {
 
+// One of each for masses and faces, so that a face and its corners come out together.
+inline constexpr double carried_within = 1e-6;  // of the stick in the step before: it was carried [m]
+inline constexpr double exit_speed =
+    1.0;  // most at which what is inside is brought out, beyond the stick's motion [m/s]
+
 struct Stick {
   Vec3 A = Vec3::Zero();  // tip [m]
   Vec3 D = Vec3::Zero();  // B - A [m]

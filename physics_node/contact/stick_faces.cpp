@@ -8,8 +8,6 @@
 namespace palpate::physics {
 namespace {
 
-constexpr double on_surface = 1e-6;  // of the stick, so that a face was carried in the step before [m]
-constexpr double exit_speed = 1.0;   // Why: as of masses, so that a face and its corners come out alike [m/s]
 constexpr double inner = 1e-6;  // of the weights, for a point that lies in the triangle and not on its edge
 constexpr double touching = 1e-9;  // Why: nearer, the direction from the face to the axis is rounding [m]
 
@@ -133,7 +131,7 @@ LeadWork StickFaces::give_way(std::uint32_t facet, const Corners& corner, const 
   std::array<NodalPush, 3> pushes;
   for (std::size_t i = 0; i < n; ++i) pushes[i] = {cells[i], J * weight[i] * inverse_mass[i] * hit.push};
   model_->push({pushes.data(), n}, dt);
-  const bool carried = (x_0 - before.axis_point(before.nearest(x_0))).norm() < now.radius + on_surface;
+  const bool carried = (x_0 - before.axis_point(before.nearest(x_0))).norm() < now.radius + carried_within;
   const double given = J * (hit.push.dot(v_p) + 0.5 * J * W), by_hand = J * hit.push.dot(axis_motion) / dt;
   // A face that is carried takes all that the hand gives; one that is struck leaves a part.
   led.work = carried ? given : by_hand;

@@ -10,9 +10,6 @@
 namespace palpate::physics {
 namespace {
 
-constexpr double on_surface = 1e-6;  // of the stick, so that a mass was carried in the step before [m]
-constexpr double exit_speed =
-    1.0;  // most at which a mass inside is brought out, beyond the stick's own motion [m/s]
 constexpr double patch_half = 0.020;  // side of the plane's square about the tip [m]
 
 }  // namespace
@@ -115,7 +112,7 @@ LeadWork StickTool::lead_body(Near& near, const Stick& before, const Stick& now,
         std::min(hit.depth, dt * (exit_speed + hit.axis_motion.norm() / dt + near.v_move[i].norm()));
     const double dv = depth / dt, m = near.mass[i];
     const bool carried =
-        (near.x[i] - before.axis_point(before.nearest(near.x[i]))).norm() < radius_ + on_surface;
+        (near.x[i] - before.axis_point(before.nearest(near.x[i]))).norm() < radius_ + carried_within;
     near.pushes.add(*near.moving, {near.cell[i], dv * n}, dt);
     const double J = m * dv, given = J * (n.dot(near.v[i]) + 0.5 * dv);
     // A mass that is carried takes all that the hand gives; one that is struck leaves a part.
