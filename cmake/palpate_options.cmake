@@ -12,6 +12,7 @@ if(PALPATE_WERROR)
   target_compile_options(palpate_options INTERFACE -Werror)
 endif()
 if(PALPATE_SANITIZE)
-  target_compile_options(palpate_options INTERFACE -fsanitize=${PALPATE_SANITIZE} -fno-omit-frame-pointer)
+  # A finding ends the program, whatever the environment says.
+  target_compile_options(palpate_options INTERFACE -fsanitize=${PALPATE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(palpate_options INTERFACE -fsanitize=${PALPATE_SANITIZE})
 endif()

@@ -76,6 +76,8 @@ def main(junit, results):
     count = Count()
     try:
         entries = list(xml.parse(junit).getroot().iter("testcase"))
+        if not entries:
+            count.fail("ctest", "no test was selected")
     except (OSError, xml.ParseError) as error:
         entries = []
         count.fail("ctest", f"no results: {error}")

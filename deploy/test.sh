@@ -1,8 +1,9 @@
 #!/bin/bash
-# Installs what is missing, builds, and runs the whole test suite. The last line is "N passed, N failed, N skipped",
-# counted by test case; those that failed or were skipped are named.
-#   deploy/test.sh [--sanitizers]    after that, the unit and property tests once more with the address and
-#                                    undefined-behaviour sanitizers: a second build, as long as the first
+# Installs what is missing, builds, and runs the whole test suite; then some of its tests once more with sanitizers. The
+# last line is "N passed, N failed, N skipped", counted by test case; those that failed or were skipped are named.
+#   deploy/test.sh                   with sanitizers, the tests labelled `address` (and undefined behaviour) and `thread`
+#   deploy/test.sh --sanitizers      all unit and property tests in place of those labelled `address`: a second build, as
+#                                    long as the first
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit
 started=$SECONDS
@@ -16,7 +17,7 @@ for word in "$@"; do
 done
 trap 'rm -f "$step_log"' EXIT
 jobs=$(nproc)
-export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
+export UBSAN_OPTIONS=print_stacktrace=1
 passed=0 failed=0 skipped=0
 
 finish() {
@@ -51,8 +52,12 @@ must step "head CT" deploy/fetch_head.sh
 must step "configure" cmake --preset ready
 must step "build" cmake --build --preset ready --parallel "$jobs"
 count_tests "tests" ready -j2
-[ "$sanitizers" = yes ] || finish
-must step "configure with sanitizers" cmake --preset asan
-must step "build with sanitizers" cmake --build --preset asan --parallel "$jobs"
-count_tests "tests with sanitizers" asan -j2 -L '^(unit|property)$'
+target=address_tests label='^address$'
+[ "$sanitizers" = no ] || target=all label='^(unit|property|sanitizers)$'
+must step "configure with the address sanitizer" cmake --preset asan
+must step "build with the address sanitizer" cmake --build --preset asan --parallel "$jobs" --target "$target"
+count_tests "tests with the address sanitizer" asan -j2 -L "$label"
+must step "configure with the thread sanitizer" cmake --preset tsan
+must step "build with the thread sanitizer" cmake --build --preset tsan --parallel "$jobs" --target thread_tests
+count_tests "tests with the thread sanitizer" tsan -j2 -L '^thread$'
 finish

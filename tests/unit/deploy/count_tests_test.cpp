@@ -101,6 +101,12 @@ TEST(CountTests, FailsWithoutResultsOfCTest) {
               EndsWith("\n0 passed, 1 failed, 0 skipped\n"));
 }
 
+/// A label that no test bears must not pass for tests that passed.
+TEST(CountTests, FailsWhereNoTestWasSelected) {
+  const Results results;
+  EXPECT_EQ(results.counted(), "failed: ctest: no test was selected\n0 passed, 1 failed, 0 skipped\n");
+}
+
 /// A case that skips when the test below asks it to; CTest sees it pass.
 TEST(SampleOfASkippedCase, SkipsWhenAsked) {
   if (std::getenv("PALPATE_SKIP_A_SAMPLE") != nullptr) GTEST_SKIP() << "no device here";

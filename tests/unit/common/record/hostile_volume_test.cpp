@@ -148,7 +148,7 @@ TEST(HostileVolume, AbsurdSizesAreRefusedBeforeMemoryIsTaken) {
                                     std::pair{Shape{~0ull, ~0ull, ~0ull}, "no sound dataset"},
                                     std::pair{Shape{990, 1000, 1000}, "less than its shape"}}) {
     Parts parts;
-    const auto claim = [&](std::size_t axis) {
+    const auto claim = [&shape = shape](std::size_t axis) {
       return static_cast<double>(std::min<std::uint64_t>(shape[axis], 1000));
     };
     parts.numbers["partition"] = {claim(2), claim(1), claim(0)};
