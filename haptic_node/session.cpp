@@ -8,6 +8,9 @@
 
 #include "common/error/error.h"
 #include "common/message/vec3.h"
+#include "common/scene/device_spec.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "common/time/clock.h"
 #include "haptic_node/device/driver_library.h"
 #include "haptic_node/device/driver_options.h"

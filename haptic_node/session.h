@@ -6,8 +6,9 @@
 #include <cstdint>
 #include <string>
 
+#include "common/math/vec3.h"
 #include "common/message/messages.h"
-#include "common/scene/scene.h"
+#include "common/scene/scene_fwd.h"
 #include "haptic_node/control/controller.h"
 #include "haptic_node/device/calibration.h"
 #include "haptic_node/device/device.h"

@@ -9,6 +9,10 @@
 
 #include "common/error/error.h"
 #include "common/math/hash.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/material_spec.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "physics_node/forecast/memory_need.h"
 #include "physics_node/forecast/speed_forecast.h"
 #include "physics_node/step/stable_step.h"

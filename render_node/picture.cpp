@@ -1,6 +1,7 @@
 #include "render_node/picture.h"
 
 #include "common/error/error.h"
+#include "common/scene/scene.h"
 #include "render_node/gl/egl_context.h"
 #include "render_node/gl/framebuffer.h"
 #include "render_node/model/view_model.h"

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "common/message/messages.h"
-#include "common/scene/scene.h"
+#include "common/scene/scene_fwd.h"
 #include "render_node/image/image.h"
 
 namespace palpate::render {

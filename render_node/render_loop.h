@@ -3,7 +3,7 @@
 // leaves OUT/parts/render.json.
 
 #include "common/process/node_main.h"
-#include "common/scene/scene.h"
+#include "common/scene/scene_fwd.h"
 
 namespace palpate::render {
 

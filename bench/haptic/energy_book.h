@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-#include "common/scene/scene.h"
+#include "common/math/vec3.h"
 
 namespace palpate::bench {
 

@@ -6,7 +6,7 @@
 // Coulomb friction acts on the velocity as a vector: what does not reach it sticks.
 
 #include "bench/haptic/models.h"
-#include "common/scene/scene.h"
+#include "common/math/vec3.h"
 
 namespace palpate::bench {
 

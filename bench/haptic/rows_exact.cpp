@@ -8,6 +8,7 @@
 #include "bench/haptic/proxy_oracle.h"
 #include "bench/haptic/rows.h"
 #include "bench/haptic/rubbish.h"
+#include "common/scene/device_spec.h"
 #include "haptic_node/device/calibration.h"
 
 namespace palpate::bench {

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "common/message/messages.h"
-#include "common/scene/scene.h"
+#include "common/scene/kinds.h"
 
 namespace palpate::bench {
 

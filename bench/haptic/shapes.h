@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
+#include "common/math/vec3.h"
 #include "common/message/messages.h"
-#include "common/scene/scene.h"
 
 namespace palpate::bench {
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "common/scene/load_scene.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 
 namespace palpate::bench {
 

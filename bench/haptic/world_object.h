@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "bench/haptic/models.h"
+#include "common/scene/kinds.h"
+#include "common/scene/scene_fwd.h"
 #include "physics_node/world.h"
 
 namespace palpate::bench {

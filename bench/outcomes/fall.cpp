@@ -1,5 +1,8 @@
 #include "bench/outcomes/fall.h"
 
+#include "common/scene/body_spec.h"
+#include "common/scene/material_spec.h"
+#include "common/scene/scene.h"
 #include "physics_node/world.h"
 
 namespace palpate::bench {

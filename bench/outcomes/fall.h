@@ -1,7 +1,7 @@
 #pragma once
 // A sphere that falls on the floor: what becomes of it.
 
-#include "common/scene/scene.h"
+#include "common/scene/scene_fwd.h"
 #include "physics_node/fragments/outcome.h"
 
 namespace palpate::bench {

@@ -5,6 +5,8 @@
 #include <stdexcept>
 
 #include "bench/problems/stopwatch.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/material_spec.h"
 #include "physics_node/fragments/fragments.h"
 #include "physics_node/step/body_model.h"
 

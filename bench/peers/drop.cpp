@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "common/scene/body_spec.h"
+#include "common/scene/material_spec.h"
+#include "common/scene/scene.h"
 #include "physics_node/world.h"
 
 namespace palpate::bench {

@@ -5,6 +5,7 @@
 #include "bench/peers/solver.h"
 #include "bench/problems/stopwatch.h"
 #include "common/report/commit.h"
+#include "common/scene/scene.h"
 #include "physics_node/world.h"
 
 namespace palpate::bench {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/scene/scene.h"
+#include "common/math/vec3.h"
 #include "physics_node/body/body.h"
 
 namespace palpate::bench {

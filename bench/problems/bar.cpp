@@ -10,6 +10,9 @@
 
 #include "bench/problems/lattice_statics.h"
 #include "bench/problems/problems.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/material_spec.h"
+#include "common/scene/scene.h"
 #include "physics_node/step/body_model.h"
 
 namespace palpate::bench {

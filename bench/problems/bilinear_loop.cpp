@@ -12,6 +12,8 @@
 #include <cmath>
 
 #include "bench/problems/problems.h"
+#include "common/scene/material_spec.h"
+#include "common/scene/scene.h"
 #include "physics_node/step/body_model.h"
 
 namespace palpate::bench {

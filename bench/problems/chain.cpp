@@ -13,6 +13,9 @@
 #include <vector>
 
 #include "bench/problems/problems.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/material_spec.h"
+#include "common/scene/scene.h"
 #include "physics_node/step/body_model.h"
 
 namespace palpate::bench {

@@ -8,6 +8,8 @@
 #include <cmath>
 
 #include "bench/problems/problems.h"
+#include "common/scene/material_spec.h"
+#include "common/scene/scene.h"
 
 namespace palpate::bench {
 

@@ -1,4 +1,6 @@
 #include "bench/problems/cube.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/material_spec.h"
 #include "physics_node/step/body_model.h"
 
 #include <cmath>

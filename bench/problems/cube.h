@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "common/scene/scene.h"
+#include "common/scene/kinds.h"
 #include "physics_node/step/body_model.h"
 
 namespace palpate::bench {

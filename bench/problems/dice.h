@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <random>
 
-#include "common/scene/scene.h"
+#include "common/math/vec3.h"
 
 namespace palpate::bench {
 

@@ -12,6 +12,9 @@
 #include <tuple>
 
 #include "bench/problems/problems.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/material_spec.h"
+#include "common/scene/scene.h"
 
 namespace palpate::bench {
 namespace {

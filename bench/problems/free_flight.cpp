@@ -7,6 +7,9 @@
 #include <random>
 
 #include "bench/problems/problems.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/material_spec.h"
+#include "common/scene/scene.h"
 #include "physics_node/step/body_model.h"
 
 namespace palpate::bench {

@@ -15,6 +15,9 @@
 
 #include "bench/problems/lattice_statics.h"
 #include "bench/problems/problems.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/material_spec.h"
+#include "common/scene/scene.h"
 
 namespace palpate::bench {
 namespace {

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "bench/problems/problems.h"
+#include "common/scene/scene.h"
 
 namespace palpate::bench {
 

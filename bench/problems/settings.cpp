@@ -5,6 +5,9 @@
 
 #include "bench/problems/stopwatch.h"
 #include "common/error/error.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/material_spec.h"
+#include "common/scene/scene.h"
 
 namespace palpate::bench {
 

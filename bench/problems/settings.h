@@ -5,7 +5,9 @@
 #include <functional>
 #include <string>
 
-#include "common/scene/scene.h"
+#include "common/math/vec3.h"
+#include "common/scene/kinds.h"
+#include "common/scene/scene_fwd.h"
 #include "physics_node/world.h"
 
 namespace palpate::bench {

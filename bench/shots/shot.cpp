@@ -5,6 +5,9 @@
 
 #include "bench/problems/dice.h"
 #include "bench/shots/inside.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/material_spec.h"
+#include "common/scene/scene.h"
 #include "physics_node/world.h"
 
 namespace palpate::bench {

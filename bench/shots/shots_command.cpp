@@ -16,6 +16,7 @@
 #include "bench/subcommands.h"
 #include "common/error/error.h"
 #include "common/process/checked_option.h"
+#include "common/scene/surroundings_spec.h"
 
 namespace palpate::bench {
 namespace {

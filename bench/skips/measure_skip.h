@@ -1,7 +1,7 @@
 #pragma once
 // A scene in a process of its own: CPU time of its frames, and memory.
 
-#include "common/scene/scene.h"
+#include "common/scene/scene_fwd.h"
 
 namespace palpate::bench {
 

@@ -5,6 +5,9 @@
 
 #include "bench/problems/settings.h"
 #include "common/record/volume.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/material_spec.h"
+#include "common/scene/scene.h"
 
 namespace palpate::bench {
 namespace {

@@ -8,6 +8,11 @@
 #include "bench/problems/dice.h"
 #include "bench/problems/settings.h"
 #include "common/message/vec3.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/device_spec.h"
+#include "common/scene/material_spec.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "physics_node/step/body_model.h"
 
 namespace palpate::bench {

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <string>
 
+#include "common/scene/scene.h"
 #include "physics_node/world.h"
 
 namespace palpate::bench {

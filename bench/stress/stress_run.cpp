@@ -9,6 +9,8 @@
 #include "bench/machine/result_folder.h"
 #include "bench/problems/settings.h"
 #include "bench/problems/stopwatch.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/scene.h"
 #include "physics_node/step/body_model.h"
 
 namespace palpate::bench {

@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 
+#include "common/math/vec3.h"
 #include "common/message/messages.h"
-#include "common/scene/scene.h"
 
 namespace palpate {
 

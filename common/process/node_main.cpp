@@ -17,6 +17,7 @@
 #include "common/process/stop_flag.h"
 #include "common/report/log.h"
 #include "common/scene/load_scene.h"
+#include "common/scene/scene.h"
 #include "common/scene/scene_source.h"
 #include "common/time/clock.h"
 

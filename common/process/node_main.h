@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "common/scene/scene.h"
+#include "common/scene/scene_fwd.h"
 #include "common/wire/companions.h"
 
 namespace palpate {

@@ -11,6 +11,7 @@
 #include "common/math/hash.h"
 #include "common/scene/apply_settings.h"
 #include "common/scene/read_parts.h"
+#include "common/scene/scene.h"
 #include "common/scene/table_reader.h"
 #include "common/scene/toml_text.h"
 

@@ -1,6 +1,7 @@
 // A box or a ball in the world, and the cavities of a body.
 #include <fmt/format.h>
 
+#include "common/scene/body_spec.h"
 #include "common/scene/read_parts.h"
 
 namespace palpate {

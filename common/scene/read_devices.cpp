@@ -11,7 +11,9 @@
 
 #include "common/math/angles.h"
 #include "common/math/units.h"
+#include "common/scene/device_spec.h"
 #include "common/scene/read_parts.h"
+#include "common/scene/scene.h"
 
 namespace palpate {
 namespace {

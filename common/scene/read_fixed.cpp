@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "common/scene/body_spec.h"
 #include "common/scene/read_parts.h"
 
 namespace palpate {

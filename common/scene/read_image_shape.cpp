@@ -7,6 +7,8 @@
 #include "common/math/units.h"
 #include "common/scene/file_list.h"
 #include "common/scene/read_parts.h"
+#include "common/scene/scene.h"
+#include "common/scene/shape_spec.h"
 
 namespace palpate {
 namespace {

@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 
 #include "common/math/units.h"
+#include "common/scene/material_spec.h"
 #include "common/scene/near_miss.h"
 #include "common/scene/read_parts.h"
+#include "common/scene/scene.h"
 
 namespace palpate {
 namespace {

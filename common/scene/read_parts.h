@@ -2,6 +2,7 @@
 // The parts of a scene file, one function each; each has its own .cpp. They add what they read to the scene and
 // what is wrong to the complaints. Materials and devices come before the bodies and tools that name them.
 
+#include "common/scene/body_spec.h"
 #include "common/scene/complaints.h"
 #include "common/scene/scene.h"
 #include "common/scene/table_reader.h"

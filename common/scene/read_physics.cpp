@@ -3,6 +3,7 @@
 
 #include "common/math/units.h"
 #include "common/scene/read_parts.h"
+#include "common/scene/scene.h"
 
 namespace palpate {
 namespace {

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 
+#include "common/scene/body_spec.h"
+#include "common/scene/material_spec.h"
 #include "common/scene/near_miss.h"
 #include "common/scene/read_parts.h"
+#include "common/scene/scene.h"
 
 namespace palpate {
 namespace {

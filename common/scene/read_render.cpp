@@ -1,6 +1,7 @@
 // [render] and [record]: what is seen and what is kept.
 #include "common/math/units.h"
 #include "common/scene/read_parts.h"
+#include "common/scene/scene.h"
 
 namespace palpate {
 namespace {

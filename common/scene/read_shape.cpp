@@ -6,6 +6,7 @@
 
 #include "common/math/angles.h"
 #include "common/math/units.h"
+#include "common/scene/body_spec.h"
 #include "common/scene/near_miss.h"
 #include "common/scene/read_parts.h"
 

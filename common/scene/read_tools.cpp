@@ -6,8 +6,12 @@
 #include "common/math/angles.h"
 #include "common/math/units.h"
 #include "common/message/messages.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/device_spec.h"
 #include "common/scene/near_miss.h"
 #include "common/scene/read_parts.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 
 namespace palpate {
 namespace {

@@ -1,5 +1,6 @@
 // [[wall]]
 #include "common/scene/read_parts.h"
+#include "common/scene/scene.h"
 
 namespace palpate {
 namespace {

@@ -5,6 +5,10 @@
 #include <algorithm>
 
 #include "common/error/error.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/device_spec.h"
+#include "common/scene/material_spec.h"
+#include "common/scene/tool_spec.h"
 
 namespace palpate {
 namespace {
@@ -20,6 +24,13 @@ const Spec& named(const std::vector<Spec>& specs, const std::string& name) {
 }  // namespace
 
 std::string Place::text() const { return line == 0 ? file : fmt::format("{}:{}:{}", file, line, column); }
+
+Scene::Scene() = default;
+Scene::Scene(const Scene&) = default;
+Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(const Scene&) = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
+Scene::~Scene() = default;
 
 const MaterialSpec& Scene::material(const std::string& name) const { return named(materials, name); }
 const DeviceSpec& Scene::device(const std::string& name) const { return named(devices, name); }

@@ -5,7 +5,9 @@
 
 #include "common/error/error.h"
 #include "common/math/hash.h"
+#include "common/scene/body_spec.h"
 #include "common/scene/load_scene.h"
+#include "common/scene/scene.h"
 
 namespace palpate {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "common/scene/scene.h"
+#include "common/scene/scene_fwd.h"
 
 namespace palpate {
 

@@ -10,9 +10,10 @@
 
 #include "common/scene/toml.h"
 
+#include "common/math/vec3.h"
 #include "common/scene/complaints.h"
+#include "common/scene/place.h"
 #include "common/scene/range.h"
-#include "common/scene/scene.h"
 
 namespace palpate {
 

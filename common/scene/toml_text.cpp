@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "common/error/error.h"
+#include "common/math/vec3.h"
 #include "common/scene/complaints.h"
-#include "common/scene/scene.h"
 
 namespace palpate {
 namespace {

@@ -9,6 +9,7 @@
 #include "common/file/privacy.h"
 #include "common/file/scratch_folder.h"
 #include "common/process/checked_option.h"
+#include "common/scene/scene.h"
 #include "deploy/palpate/subcommands.h"
 #include "deploy/palpate/viewers.h"
 #include "physics_node/record/export_vtk.h"

@@ -4,7 +4,12 @@
 
 #include "common/math/hash.h"
 #include "common/math/units.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/device_spec.h"
 #include "common/scene/load_scene.h"
+#include "common/scene/material_spec.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "deploy/palpate/info.h"
 #include "physics_node/forecast/memory_need.h"
 #include "physics_node/forecast/speed_forecast.h"

@@ -19,6 +19,7 @@
 #include "common/report/commit.h"
 #include "common/report/json_file.h"
 #include "common/report/warnings.h"
+#include "common/scene/scene.h"
 #include "deploy/palpate/out_folder.h"
 #include "deploy/palpate/plotter.h"
 #include "deploy/palpate/progress.h"

@@ -12,6 +12,7 @@
 #include "common/report/json_file.h"
 #include "common/report/warnings.h"
 #include "common/scene/load_scene.h"
+#include "common/scene/scene.h"
 #include "deploy/palpate/out_folder.h"
 #include "deploy/palpate/plotter.h"
 #include "deploy/palpate/progress.h"

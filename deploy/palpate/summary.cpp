@@ -8,6 +8,7 @@
 #include "common/report/commit.h"
 #include "common/report/json_file.h"
 #include "common/report/warnings.h"
+#include "common/scene/scene.h"
 #include "deploy/palpate/hand_warnings.h"
 #include "deploy/palpate/nodes.h"
 

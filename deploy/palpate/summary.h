@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "common/scene/scene.h"
+#include "common/scene/scene_fwd.h"
 #include "deploy/palpate/session.h"
 
 namespace palpate::deploy {

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "common/scene/scene.h"
+#include "common/scene/scene_fwd.h"
 
 namespace palpate::deploy {
 

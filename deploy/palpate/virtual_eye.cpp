@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
+
 namespace palpate::deploy {
 
 VirtualEye::VirtualEye(const Scene& scene, const physics::World& world)

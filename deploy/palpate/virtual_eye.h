@@ -6,7 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "common/scene/scene.h"
+#include "common/scene/render_spec.h"
+#include "common/scene/scene_fwd.h"
 #include "physics_node/appearance/appearance.h"
 #include "physics_node/world.h"
 #include "render_node/image/frame_folder.h"

@@ -6,6 +6,8 @@
 
 #include "common/process/stop_flag.h"
 #include "common/report/warnings.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "deploy/palpate/hand_warnings.h"
 #include "physics_node/remarks/remarks.h"
 #include "physics_node/report/physics_summary.h"

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "common/scene/scene.h"
 #include "common/scene/scene_source.h"
 #include "deploy/palpate/virtual_eye.h"
 #include "haptic_node/session.h"

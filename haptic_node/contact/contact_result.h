@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "common/scene/scene.h"
+#include "common/math/vec3.h"
 
 namespace palpate::haptic {
 

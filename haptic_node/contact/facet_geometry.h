@@ -1,8 +1,8 @@
 #pragma once
 // Where a point stands with respect to one facet of a patch.
 
+#include "common/math/vec3.h"
 #include "common/message/messages.h"
-#include "common/scene/scene.h"
 
 namespace palpate::haptic {
 

@@ -13,7 +13,7 @@
 
 #include <Eigen/Core>
 
-#include "common/scene/scene.h"
+#include "common/math/vec3.h"
 
 namespace palpate::haptic {
 

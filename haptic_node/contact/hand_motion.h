@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "common/math/six.h"
-#include "common/scene/scene.h"
+#include "common/math/vec3.h"
 
 namespace palpate::haptic {
 

@@ -17,8 +17,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "common/math/vec3.h"
 #include "common/message/messages.h"
-#include "common/scene/scene.h"
 #include "haptic_node/contact/contact_result.h"
 #include "haptic_node/contact/facet_choice.h"
 #include "haptic_node/contact/friction.h"

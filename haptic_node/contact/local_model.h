@@ -2,8 +2,9 @@
 // What a tool feels between two answers of physics, by the model that the scene names. One of them works, the others cost
 // nothing.
 
+#include "common/math/vec3.h"
 #include "common/message/messages.h"
-#include "common/scene/scene.h"
+#include "common/scene/kinds.h"
 #include "haptic_node/contact/local_contact.h"
 #include "haptic_node/contact/tangent_wrench.h"
 

@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <span>
 
-#include "common/scene/scene.h"
+#include "common/math/vec3.h"
 
 namespace palpate::haptic {
 

@@ -2,7 +2,7 @@
 // The plane that the hand feels, on its way to the newest plane that physics sent. Patches come slowly and jump;
 // the felt plane moves smoothly, never faster than the hand may be pushed and the work tank can pay.
 
-#include "common/scene/scene.h"
+#include "common/math/vec3.h"
 #include "haptic_node/contact/plane_projection.h"
 #include "haptic_node/contact/work_tank.h"
 

@@ -9,8 +9,9 @@
 
 #include <cstdint>
 
+#include "common/math/vec3.h"
 #include "common/message/messages.h"
-#include "common/scene/scene.h"
+#include "common/scene/kinds.h"
 #include "haptic_node/contact/local_model.h"
 #include "haptic_node/control/answer_watch.h"
 #include "haptic_node/control/force_report.h"

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/scene/scene.h"
+#include "common/math/vec3.h"
 
 namespace palpate::haptic {
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "common/scene/scene.h"
+#include "common/math/vec3.h"
 #include "haptic_node/contact/hand_motion.h"
 #include "haptic_node/control/fault_cause.h"
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/error/error.h"
+#include "common/scene/device_spec.h"
 
 namespace palpate::haptic {
 

@@ -8,7 +8,8 @@
 
 #include <Eigen/Core>
 
-#include "common/scene/scene.h"
+#include "common/math/vec3.h"
+#include "common/scene/scene_fwd.h"
 
 namespace palpate::haptic {
 

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "common/error/error.h"
+#include "common/scene/device_spec.h"
 
 namespace palpate::haptic {
 namespace {

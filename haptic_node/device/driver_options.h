@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "common/scene/scene.h"
+#include "common/scene/scene_fwd.h"
 #include "haptic_node/device/calibration.h"
 #include "haptic_node/device/device.h"
 

@@ -8,7 +8,7 @@
 #include <future>
 #include <memory>
 
-#include "common/scene/scene.h"
+#include "common/math/vec3.h"
 #include "haptic_node/loop/tool_channel.h"
 
 namespace palpate::haptic {

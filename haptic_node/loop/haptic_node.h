@@ -7,6 +7,7 @@
 
 #include "common/message/messages.h"
 #include "common/process/node_main.h"
+#include "common/scene/scene.h"
 #include "haptic_node/guardian/guardian.h"
 #include "haptic_node/loop/call_watch.h"
 #include "haptic_node/loop/crash_stop.h"

@@ -10,7 +10,7 @@
 #include "common/exchange/spsc_ring.h"
 #include "common/exchange/triple_buffer.h"
 #include "common/message/messages.h"
-#include "common/time/clock.h"
+#include "common/scene/scene_fwd.h"
 #include "haptic_node/loop/flight_recorder.h"
 #include "haptic_node/session.h"
 
@@ -28,19 +28,14 @@ struct SessionReport {
 };
 
 /// A session in real time whose motors are switched on by a slow thread. @throws InputError as HapticSession does
-inline std::unique_ptr<HapticSession> open_session(const Scene& scene, std::uint32_t tool,
-                                                   const std::string& driver, int domain = -1) {
-  return std::make_unique<HapticSession>(
-      scene, tool, driver, [](void*) { return now_ns(); }, nullptr, HapticSession::Power::by_service, domain);
-}
+std::unique_ptr<HapticSession> open_session(const Scene& scene, std::uint32_t tool, const std::string& driver,
+                                            int domain = -1);
 
 struct ToolChannel {
   enum User : std::size_t { loop, watchdog, n_users };
 
-  ToolChannel(const Scene& scene, std::uint32_t tool, const std::string& driver, int domain = -1)
-      : name(scene.tools[tool].name),
-        session(open_session(scene, tool, driver, domain)),
-        flight(session.get()->rate_Hz()) {}
+  /// @throws InputError as open_session() does
+  ToolChannel(const Scene& scene, std::uint32_t tool, const std::string& driver, int domain = -1);
 
   std::string name;
   Handover<HapticSession, n_users> session;  // the node's slow thread owns it, the real-time thread ticks it
@@ -53,7 +48,7 @@ struct ToolChannel {
   std::atomic<std::uint64_t> trace_lost{0};
   // Which physics speaks; receive thread -> real-time thread, set before the first that it says.
   std::atomic<std::uint64_t> physics{0};
-  std::uint64_t physics_heard = 0;  // the real-time thread's
+  std::uint64_t physics_heard = 0;       // the real-time thread's
   std::atomic<bool> reset_asked{false};  // by a person, to end a fault
   std::uint64_t attached = 0;            // generation of the session that the real-time thread has attached
 };

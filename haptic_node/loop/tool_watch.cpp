@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/report/log.h"
+#include "common/time/clock.h"
 
 namespace palpate::haptic {
 namespace {

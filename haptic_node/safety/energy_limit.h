@@ -17,7 +17,7 @@
 #include <algorithm>
 #include <array>
 
-#include "common/scene/scene.h"
+#include "common/math/vec3.h"
 #include "haptic_node/contact/hand_motion.h"
 #include "haptic_node/safety/step_pace.h"
 

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "common/scene/scene.h"
+#include "common/math/vec3.h"
 
 namespace palpate::haptic {
 

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "common/scene/scene.h"
 #include "physics_node/appearance/colours.h"
 #include "physics_node/boundary/loose_parts.h"
 

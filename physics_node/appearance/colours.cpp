@@ -4,6 +4,10 @@
 #include <array>
 #include <cmath>
 
+#include "common/scene/body_spec.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
+
 namespace palpate::physics {
 namespace {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "common/scene/scene.h"
+#include "common/scene/scene_fwd.h"
 #include "physics_node/boundary/surface.h"
 #include "physics_node/fragments/fragments.h"
 

@@ -6,6 +6,8 @@
 #include <optional>
 
 #include "common/error/error.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/material_spec.h"
 #include "physics_node/body/build_lattice.h"
 #include "physics_node/body/materials.h"
 

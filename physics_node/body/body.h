@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "common/math/vec3.h"
+#include "common/scene/scene_fwd.h"
 #include "physics_node/body/cells.h"
 #include "physics_node/body/element_law.h"
 #include "physics_node/lattice/lattice.h"

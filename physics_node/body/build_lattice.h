@@ -1,6 +1,7 @@
 #pragma once
 // From a shape to masses and elements.
 
+#include "common/scene/scene_fwd.h"
 #include "physics_node/body/cells.h"
 #include "physics_node/lattice/lattice.h"
 

@@ -9,6 +9,7 @@
 #include "common/error/error.h"
 #include "common/math/units.h"
 #include "common/record/slice_stack.h"
+#include "common/scene/body_spec.h"
 #include "physics_node/body/deformable.h"
 #include "physics_node/body/solid_shape.h"
 

@@ -5,8 +5,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/math/vec3.h"
 #include "common/record/volume.h"
-#include "common/scene/scene.h"
+#include "common/scene/scene_fwd.h"
 #include "physics_node/lattice/lattice.h"
 
 namespace palpate::physics {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "common/scene/shape_spec.h"
+
 namespace palpate::physics {
 namespace {
 

@@ -1,6 +1,7 @@
 #pragma once
 // Which of the kept cells of an image deform; the rest is rigid scenery.
 
+#include "common/scene/shape_spec.h"
 #include "physics_node/body/cells.h"
 
 namespace palpate::physics {

@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <numbers>
 
+#include "common/scene/material_spec.h"
+
 namespace palpate::physics {
 namespace {
 

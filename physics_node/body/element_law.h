@@ -16,7 +16,9 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "common/scene/scene.h"
+#include "common/math/vec3.h"
+#include "common/scene/kinds.h"
+#include "common/scene/scene_fwd.h"
 #include "physics_node/lattice/lattice.h"
 
 namespace palpate::physics {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "common/error/error.h"
+#include "common/scene/body_spec.h"
 #include "physics_node/body/build_lattice.h"
 #include "physics_node/body/solid_shape.h"
 #include "physics_node/body/trim.h"

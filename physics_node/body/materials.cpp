@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "common/error/error.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/material_spec.h"
 #include "physics_node/body/build_lattice.h"
 #include "physics_node/body/solid_shape.h"
 

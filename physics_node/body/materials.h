@@ -10,6 +10,7 @@
 // Masses of one material weigh the same, as in the papers; with a density they weigh together what the cells weigh
 // that they share (voxel: an eighth of each cell at each of its corners).
 
+#include "common/scene/scene_fwd.h"
 #include "physics_node/body/body.h"
 
 namespace palpate::physics {

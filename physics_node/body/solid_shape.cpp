@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "common/error/error.h"
+#include "common/scene/body_spec.h"
 
 namespace palpate::physics {
 namespace {

@@ -2,7 +2,8 @@
 // The shapes that are built from numbers, each in its own frame: a sphere, box or tube round its centre, a knife or needle
 // with its tip in the origin (common/scene/scene.h says which way they point).
 
-#include "common/scene/scene.h"
+#include "common/math/vec3.h"
+#include "common/scene/body_spec.h"
 
 namespace palpate::physics {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/scene/surroundings_spec.h"
 #include "physics_node/collision/passages.h"
 
 namespace palpate::physics {

@@ -6,7 +6,8 @@
 
 #include <memory>
 
-#include "common/scene/scene.h"
+#include "common/math/vec3.h"
+#include "common/scene/surroundings_spec.h"
 #include "physics_node/collision/exchange.h"
 #include "physics_node/collision/swept_contact.h"
 

@@ -2,7 +2,7 @@
 // Impulses on something in a frame: their sum, their moment, and which springs in their place would look like.
 
 #include "common/math/six.h"
-#include "common/scene/scene.h"
+#include "common/math/vec3.h"
 
 namespace palpate::physics {
 

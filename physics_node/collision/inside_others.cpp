@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/scene/scene.h"
 #include "physics_node/body/build_lattice.h"
 
 namespace palpate::physics {

@@ -1,6 +1,7 @@
 #include "physics_node/contact/body_tool.h"
 
 #include "common/message/vec3.h"
+#include "common/scene/tool_spec.h"
 
 namespace palpate::physics {
 namespace {

@@ -1,7 +1,8 @@
 #pragma once
 // A tool made of elements: the hand leads its handle, it bends and may break, and what it feels are its collisions.
 
-#include "common/scene/scene.h"
+#include "common/math/vec3.h"
+#include "common/scene/scene_fwd.h"
 #include "physics_node/contact/led_tool.h"
 
 namespace palpate::physics {

@@ -1,6 +1,8 @@
 #include "physics_node/contact/make_tools.h"
 
 #include "common/error/error.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "physics_node/contact/body_tool.h"
 #include "physics_node/contact/stick_tool.h"
 

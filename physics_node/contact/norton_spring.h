@@ -9,7 +9,7 @@
 // Source: Astley & Hayward 1998 (Norton equivalents); the bed for rotations is ours.
 
 #include "common/math/six.h"
-#include "common/scene/scene.h"
+#include "common/math/vec3.h"
 
 namespace palpate::physics {
 

@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-#include "common/scene/scene.h"
+#include "common/math/vec3.h"
 
 namespace palpate::physics {
 

@@ -15,6 +15,8 @@
 
 #include <vector>
 
+#include "common/math/vec3.h"
+#include "common/scene/scene_fwd.h"
 #include "physics_node/contact/led_tool.h"
 #include "physics_node/contact/stick_faces.h"
 #include "physics_node/contact/stick_spring.h"

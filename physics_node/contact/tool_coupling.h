@@ -16,7 +16,10 @@
 #include <span>
 #include <vector>
 
+#include "common/math/vec3.h"
 #include "common/message/messages.h"
+#include "common/scene/kinds.h"
+#include "common/scene/scene_fwd.h"
 #include "physics_node/contact/secant_stiffness.h"
 #include "physics_node/contact/tool.h"
 #include "physics_node/contact/tool_contact.h"

@@ -14,6 +14,10 @@
 #include "common/process/machine_memory.h"
 #include "common/record/png_file.h"
 #include "common/record/volume_facts.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/material_spec.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "physics_node/body/solid_shape.h"
 #include "physics_node/lattice/lattice_types.h"
 

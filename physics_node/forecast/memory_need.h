@@ -4,8 +4,9 @@
 // the keyboard, not to fill a machine to its brim.
 
 #include <cstdint>
+#include <vector>
 
-#include "common/scene/scene.h"
+#include "common/scene/scene_fwd.h"
 
 namespace palpate::physics {
 

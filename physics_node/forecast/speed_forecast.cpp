@@ -8,6 +8,9 @@
 #include <string>
 
 #include "common/error/error.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/material_spec.h"
+#include "common/scene/scene.h"
 
 namespace palpate::physics {
 namespace {

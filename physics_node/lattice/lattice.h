@@ -23,7 +23,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/scene/scene.h"
+#include "common/math/vec3.h"
+#include "common/scene/kinds.h"
 #include "physics_node/lattice/lattice_types.h"
 
 namespace palpate::physics {

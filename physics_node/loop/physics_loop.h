@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/process/node_main.h"
+#include "common/scene/scene.h"
 #include "physics_node/appearance/appearance.h"
 #include "physics_node/loop/wire.h"
 #include "physics_node/record/recorder.h"

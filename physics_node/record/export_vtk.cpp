@@ -8,6 +8,10 @@
 
 #include "common/error/error.h"
 #include "common/record/hdf5_file.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/material_spec.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "physics_node/appearance/colours.h"
 #include "physics_node/boundary/surface.h"
 #include "physics_node/record/vtp_file.h"

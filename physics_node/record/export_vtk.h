@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "common/scene/scene.h"
+#include "common/scene/scene_fwd.h"
 
 namespace palpate::physics {
 

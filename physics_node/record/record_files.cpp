@@ -9,6 +9,7 @@
 #include "common/file/new_file.h"
 #include "common/math/hash.h"
 #include "common/report/commit.h"
+#include "common/scene/scene.h"
 #include "physics_node/record/recorder.h"
 
 namespace palpate::physics {

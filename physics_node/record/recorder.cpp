@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "common/message/vec3.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 
 namespace palpate::physics {
 Recorder::Recorder(const World& world, const SceneSource& source, const std::string& folder,

@@ -12,6 +12,8 @@
 
 #include "common/exchange/spsc_ring.h"
 #include "common/record/hdf5_file.h"
+#include "common/scene/record_spec.h"
+#include "common/scene/scene_fwd.h"
 #include "physics_node/boundary/surface.h"
 #include "physics_node/record/session_log.h"
 #include "physics_node/world.h"

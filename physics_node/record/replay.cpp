@@ -1,5 +1,8 @@
 #include "physics_node/record/replay.h"
 
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
+
 namespace palpate::physics {
 
 Replay::Replay(SessionRecord& record, World& world)

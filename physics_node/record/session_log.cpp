@@ -8,6 +8,8 @@
 
 #include "common/error/error.h"
 #include "common/report/commit.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 
 namespace palpate::physics {
 namespace {

@@ -13,6 +13,8 @@
 #include "common/record/check_file.h"
 #include "common/record/dataset_list.h"
 #include "common/scene/load_scene.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "physics_node/record/session_log.h"
 
 namespace palpate::physics {

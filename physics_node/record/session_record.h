@@ -10,6 +10,7 @@
 
 #include "common/message/messages.h"
 #include "common/record/hdf5_file.h"
+#include "common/scene/scene.h"
 #include "common/scene/scene_source.h"
 
 namespace palpate::physics {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "common/scene/body_spec.h"
+#include "common/scene/scene.h"
 #include "physics_node/remarks/enclosure.h"
 #include "physics_node/remarks/remarks.h"
 

@@ -5,6 +5,10 @@
 
 #include <algorithm>
 
+#include "common/scene/body_spec.h"
+#include "common/scene/material_spec.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "physics_node/remarks/remarks.h"
 
 namespace palpate::physics {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/scene/scene.h"
 #include "physics_node/remarks/remarks.h"
 
 namespace palpate::physics {

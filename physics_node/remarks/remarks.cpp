@@ -5,6 +5,9 @@
 #include <cmath>
 #include <iterator>
 
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
+
 namespace palpate::physics {
 
 Remarks remarks_about(const World& world) {

@@ -6,6 +6,10 @@
 #include <cmath>
 #include <limits>
 
+#include "common/scene/body_spec.h"
+#include "common/scene/device_spec.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "physics_node/remarks/enclosure.h"
 #include "physics_node/remarks/remarks.h"
 

@@ -7,6 +7,8 @@
 #include "common/math/hash.h"
 #include "common/report/commit.h"
 #include "common/report/warnings.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "physics_node/fragments/outcome.h"
 #include "physics_node/report/run_warnings.h"
 

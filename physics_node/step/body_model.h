@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "common/scene/kinds.h"
 #include "physics_node/step/books.h"
 #include "physics_node/step/node_motion.h"
 #include "physics_node/step/stepper.h"

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "common/scene/scene.h"
+#include "common/math/vec3.h"
 #include "physics_node/lattice/lattice_types.h"
 
 namespace palpate::physics {

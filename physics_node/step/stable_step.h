@@ -1,7 +1,7 @@
 #pragma once
 // How large an explicit step may be.
 
-#include "common/scene/scene.h"
+#include "common/scene/kinds.h"
 #include "physics_node/body/body.h"
 
 namespace palpate::physics {

@@ -4,6 +4,10 @@
 
 #include <algorithm>
 
+#include "common/scene/body_spec.h"
+#include "common/scene/device_spec.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "render_node/view/arrow_scale.h"
 #include "render_node/view/line_of_action.h"
 

@@ -6,7 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "common/scene/scene.h"
+#include "common/math/vec3.h"
+#include "common/scene/scene_fwd.h"
 #include "render_node/gl/backdrop_drawing.h"
 #include "render_node/gl/lit_program.h"
 #include "render_node/gl/solid_drawing.h"

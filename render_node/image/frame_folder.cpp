@@ -5,6 +5,7 @@
 
 #include "common/error/error.h"
 #include "common/report/log.h"
+#include "common/scene/render_spec.h"
 
 namespace palpate::render {
 namespace fs = std::filesystem;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "common/scene/scene.h"
+#include "common/scene/scene_fwd.h"
 #include "render_node/image/image.h"
 #include "render_node/image/own_picture.h"
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <variant>
 
+#include "common/scene/body_spec.h"
+#include "common/scene/scene.h"
+
 namespace palpate::render {
 
 ThresholdControl::ThresholdControl(const Scene& scene) {

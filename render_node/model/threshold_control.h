@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "common/scene/scene.h"
+#include "common/scene/scene_fwd.h"
 
 namespace palpate::render {
 

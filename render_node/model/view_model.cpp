@@ -3,6 +3,10 @@
 #include <algorithm>
 
 #include "common/message/vec3.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/device_spec.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "render_node/model/hand_state.h"
 
 namespace palpate::render {

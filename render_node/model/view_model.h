@@ -9,8 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "common/math/vec3.h"
 #include "common/message/messages.h"
-#include "common/scene/scene.h"
+#include "common/scene/scene_fwd.h"
 #include "render_node/model/body_picture.h"
 #include "render_node/model/hand_clock.h"
 #include "render_node/model/history.h"

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "render_node/model/hand_state.h"
 
 namespace palpate::render {

@@ -10,6 +10,8 @@
 #include <string>
 
 #include "common/math/units.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "render_node/ui/history_plot.h"
 
 namespace palpate::render {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "common/scene/scene.h"
+#include "common/scene/scene_fwd.h"
 #include "render_node/model/threshold_control.h"
 #include "render_node/model/view_model.h"
 #include "render_node/view/tool_pointer.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/scene/scene.h"
 #include "render_node/ui/notices.h"
 
 namespace palpate::render {

@@ -1,7 +1,7 @@
 #pragma once
 // Camera, picture and panels together, for a window or a headless frame: whoever owns the OpenGL context makes one.
 
-#include "common/scene/scene.h"
+#include "common/scene/scene_fwd.h"
 #include "render_node/gl/painter.h"
 #include "render_node/ui/imgui_context.h"
 #include "render_node/ui/imgui_drawing.h"

@@ -11,6 +11,9 @@
 #include <string>
 
 #include "common/error/error.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "render_node/gl/egl_context.h"
 #include "render_node/gl/framebuffer.h"
 #include "render_node/ui/stage.h"

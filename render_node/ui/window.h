@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/scene/scene.h"
+#include "common/scene/scene_fwd.h"
 #include "render_node/image/image.h"
 #include "render_node/model/view_model.h"
 #include "render_node/ui/hand_events.h"

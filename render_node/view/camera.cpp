@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/scene/render_spec.h"
+
 namespace palpate::render {
 namespace {
 

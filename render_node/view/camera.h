@@ -6,7 +6,8 @@
 #include <Eigen/Geometry>
 #include <optional>
 
-#include "common/scene/scene.h"
+#include "common/math/vec3.h"
+#include "common/scene/render_spec.h"
 
 namespace palpate::render {
 

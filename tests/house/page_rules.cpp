@@ -5,6 +5,7 @@
 #include <regex>
 #include <set>
 
+#include "common/scene/scene.h"
 #include "tests/house/house_rules.h"
 
 namespace palpate::house {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/scene/scene.h"
 #include "tests/house/planted_house.h"
 
 namespace palpate::house {

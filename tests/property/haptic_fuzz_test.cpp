@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 
+#include "common/scene/device_spec.h"
 #include "tests/unit/haptic_node/virtual_world.h"
 
 namespace palpate::haptic::test {

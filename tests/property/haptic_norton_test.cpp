@@ -9,6 +9,7 @@
 #include <numbers>
 #include <vector>
 
+#include "common/scene/device_spec.h"
 #include "tests/unit/haptic_node/virtual_world.h"
 
 namespace palpate::haptic::test {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/scene/load_scene.h"
+#include "common/scene/scene.h"
 #include "physics_node/world.h"
 #include "tests/support/physics/pressed_world.h"
 #include "tests/support/physics/small_worlds.h"

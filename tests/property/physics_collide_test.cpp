@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "common/scene/load_scene.h"
+#include "common/scene/scene.h"
 #include "physics_node/report/physics_summary.h"
 #include "physics_node/world.h"
 

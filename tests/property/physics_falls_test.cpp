@@ -9,7 +9,10 @@
 #include <thread>
 
 #include "bench/outcomes/sweep_falls.h"
+#include "common/scene/body_spec.h"
 #include "common/scene/load_scene.h"
+#include "common/scene/material_spec.h"
+#include "common/scene/scene.h"
 #include "physics_node/report/physics_summary.h"
 #include "physics_node/world.h"
 #include "tests/support/physics/small_worlds.h"

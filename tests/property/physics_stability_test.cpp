@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/scene/material_spec.h"
 #include "physics_node/step/element_step.h"
 #include "physics_node/step/measure.h"
 #include "physics_node/step/stable_step.h"

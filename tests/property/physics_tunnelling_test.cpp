@@ -4,6 +4,8 @@
 #include <random>
 
 #include "bench/shots/shot.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/scene.h"
 
 namespace palpate::bench::test {
 namespace {

@@ -9,6 +9,10 @@
 #include <limits>
 #include <memory>
 
+#include "common/scene/body_spec.h"
+#include "common/scene/device_spec.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "common/wire/convert.h"
 #include "common/wire/topic.h"
 #include "render_node/frame_schedule.h"

@@ -11,6 +11,8 @@
 #include "common/message/vec3.h"
 #include "common/report/json_file.h"
 #include "common/scene/load_scene.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "physics_node/world.h"
 #include "tests/system/command_run.h"
 #include "tests/system/shell.h"

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 
+#include "common/scene/scene.h"
 #include "common/wire/loopback_config.h"
 #include "common/wire/participant.h"
 #include "tests/system/supervised_run.h"

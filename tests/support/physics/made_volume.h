@@ -5,7 +5,8 @@
 #include <string>
 
 #include "common/record/volume.h"
-#include "common/scene/scene.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/material_spec.h"
 
 namespace palpate::physics::test {
 

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "common/scene/body_spec.h"
 #include "common/scene/load_scene.h"
+#include "common/scene/material_spec.h"
+#include "common/scene/scene.h"
 
 namespace palpate::physics::test {
 

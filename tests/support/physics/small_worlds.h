@@ -5,7 +5,8 @@
 #include <random>
 #include <string>
 
-#include "common/scene/scene.h"
+#include "common/math/vec3.h"
+#include "common/scene/scene_fwd.h"
 #include "physics_node/body/body.h"
 #include "physics_node/step/state.h"
 

@@ -13,11 +13,19 @@
 #include <variant>
 #include <vector>
 
+#include "common/scene/body_spec.h"
+#include "common/scene/device_spec.h"
+#include "common/scene/material_spec.h"
 #include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 
 namespace palpate::test {
 
 using Lines = std::map<std::string, std::string>;  // value by path
+
+/// Whose members are listed one by one.
+template <class T>
+concept Listed = std::is_aggregate_v<T> || std::is_same_v<T, Scene>;
 
 /// As many as can be given, each as {}: a struct takes no more than it has.
 template <class T>
@@ -58,6 +66,12 @@ constexpr std::size_t n_members() {
     return 1;
   else
     return 0;
+}
+
+/// A scene has constructors, so that nobody can count its members; a number that is wrong does not compile.
+template <>
+constexpr std::size_t n_members<Scene>() {
+  return 16;
 }
 
 /// use(member...) for each of up to 16 members.
@@ -165,8 +179,7 @@ void add_lines(Lines& lines, const std::string& at, const std::array<T, N>& x);
 template <class... T>
 void add_lines(Lines& lines, const std::string& at, const std::variant<T...>& x);
 
-template <class T>
-requires std::is_aggregate_v<T>
+template <Listed T>
 void add_lines(Lines& lines, const std::string& at, const T& x) {
   with_members(x, [&](const auto&... member) {
     int n = 0;

@@ -3,6 +3,8 @@
 
 #include "bench/skips/measure_skip.h"
 #include "bench/skips/skip_cases.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/shape_spec.h"
 #include "tests/support/image/scratch_folder.h"
 
 namespace palpate::bench {

@@ -7,6 +7,9 @@
 
 #include "bench/problems/settings.h"
 #include "bench/stress/stress_run.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/material_spec.h"
+#include "common/scene/scene.h"
 
 namespace palpate::bench {
 namespace {

@@ -11,6 +11,7 @@
 #include <new>
 #include <thread>
 
+#include "common/scene/device_spec.h"
 #include "common/wire/writer.h"
 #include "tests/support/devices/stub_hd.h"
 #include "tests/system/dds_domain.h"

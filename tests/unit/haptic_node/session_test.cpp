@@ -7,6 +7,8 @@
 #include <random>
 
 #include "common/error/error.h"
+#include "common/scene/device_spec.h"
+#include "common/scene/scene.h"
 #include "tests/unit/haptic_node/virtual_world.h"
 
 namespace palpate::haptic::test {

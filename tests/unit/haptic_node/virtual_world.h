@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "common/message/messages.h"
+#include "common/scene/device_spec.h"
 #include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "haptic_node/session.h"
 
 namespace palpate::haptic::test {

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "common/error/error.h"
+#include "common/scene/scene.h"
 #include "tests/support/physics/pressed_world.h"
 
 namespace palpate::physics {

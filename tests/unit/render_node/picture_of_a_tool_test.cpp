@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/scene/device_spec.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "tests/unit/render_node/render_support.h"
 
 namespace palpate::render {

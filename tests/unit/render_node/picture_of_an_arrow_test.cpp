@@ -6,6 +6,9 @@
 #include <cmath>
 
 #include "common/message/vec3.h"
+#include "common/scene/device_spec.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "tests/unit/render_node/render_support.h"
 
 namespace palpate::render {

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "common/scene/scene.h"
 #include "render_node/view/camera.h"
 #include "tests/unit/render_node/render_support.h"
 

@@ -3,6 +3,11 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "common/scene/body_spec.h"
+#include "common/scene/device_spec.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
+
 namespace palpate::render::test {
 namespace {
 

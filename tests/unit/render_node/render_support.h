@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/message/messages.h"
-#include "common/scene/scene.h"
+#include "common/scene/scene_fwd.h"
 #include "render_node/picture.h"
 #include "render_node/view/camera.h"
 

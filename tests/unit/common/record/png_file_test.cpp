@@ -9,6 +9,7 @@
 
 #include "common/error/error.h"
 #include "common/record/slice_stack.h"
+#include "common/scene/shape_spec.h"
 #include "tests/support/image/bytes.h"
 #include "tests/support/image/made_png.h"
 #include "tests/support/image/scratch_folder.h"

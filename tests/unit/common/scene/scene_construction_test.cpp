@@ -8,7 +8,10 @@
 
 #include "common/math/angles.h"
 #include "common/math/units.h"
+#include "common/scene/body_spec.h"
 #include "common/scene/load_scene.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "tests/unit/common/scene/sample_scene.h"
 
 namespace palpate {

@@ -7,7 +7,9 @@
 #include <fstream>
 
 #include "common/error/error.h"
+#include "common/scene/body_spec.h"
 #include "common/scene/load_scene.h"
+#include "common/scene/scene.h"
 #include "tests/unit/common/scene/sample_scene.h"
 
 namespace palpate {

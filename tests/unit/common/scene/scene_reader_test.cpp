@@ -4,7 +4,12 @@
 
 #include <numbers>
 
+#include "common/scene/body_spec.h"
+#include "common/scene/device_spec.h"
 #include "common/scene/load_scene.h"
+#include "common/scene/material_spec.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "tests/unit/common/scene/sample_scene.h"
 
 namespace palpate {

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "common/scene/device_keys.h"
+#include "common/scene/scene.h"
 #include "tests/support/reference/page.h"
 #include "tests/support/reference/plain_text.h"
 #include "tests/unit/common/scene/scene_tables.h"

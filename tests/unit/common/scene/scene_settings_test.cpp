@@ -2,7 +2,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/scene/body_spec.h"
+#include "common/scene/device_spec.h"
 #include "common/scene/load_scene.h"
+#include "common/scene/material_spec.h"
+#include "common/scene/scene.h"
+#include "common/scene/shape_spec.h"
+#include "common/scene/tool_spec.h"
 #include "tests/unit/common/scene/sample_scene.h"
 
 namespace palpate {

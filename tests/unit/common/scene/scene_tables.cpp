@@ -6,6 +6,7 @@
 
 #include "common/error/error.h"
 #include "common/scene/load_scene.h"
+#include "common/scene/scene.h"
 #include "tests/unit/common/scene/sample_scene.h"
 
 namespace palpate::test {

@@ -9,6 +9,8 @@
 
 #include "common/math/units.h"
 #include "common/record/slice_stack.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/material_spec.h"
 #include "physics_node/body/body.h"
 #include "tests/support/image/bytes.h"
 #include "tests/support/image/run_importer.h"

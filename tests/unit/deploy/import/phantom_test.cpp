@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "common/scene/shape_spec.h"
 #include "physics_node/body/deformable.h"
 #include "tests/support/image/run_importer.h"
 #include "tests/support/image/scratch_folder.h"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "common/report/json_file.h"
+#include "common/scene/scene.h"
 #include "tests/unit/deploy/palpate/temporary_folder.h"
 
 namespace palpate::deploy {

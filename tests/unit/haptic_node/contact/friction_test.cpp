@@ -7,6 +7,9 @@
 #include <cmath>
 #include <random>
 
+#include "common/scene/device_spec.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "haptic_node/contact/local_contact.h"
 #include "tests/unit/haptic_node/virtual_world.h"
 

@@ -1,4 +1,5 @@
 #include "haptic_node/device/calibration.h"
+#include "common/scene/device_spec.h"
 
 #include <gtest/gtest.h>
 

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <thread>
 
+#include "common/scene/device_spec.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "tests/support/devices/stub_dhd.h"
 #include "tests/unit/haptic_node/drivers/opened_driver.h"
 #include "tests/unit/haptic_node/drivers/stub_library.h"

@@ -8,6 +8,9 @@
 #include <cmath>
 #include <thread>
 
+#include "common/scene/device_spec.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "tests/support/devices/stub_hd.h"
 #include "tests/unit/haptic_node/drivers/opened_driver.h"
 #include "tests/unit/haptic_node/drivers/stub_library.h"

@@ -10,6 +10,9 @@
 #include <fstream>
 
 #include "common/record/hdf5_file.h"
+#include "common/scene/device_spec.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "tests/unit/haptic_node/drivers/opened_driver.h"
 #include "tests/unit/haptic_node/virtual_world.h"
 

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "common/scene/device_spec.h"
+#include "common/scene/scene.h"
 #include "tests/unit/haptic_node/drivers/opened_driver.h"
 #include "tests/unit/haptic_node/virtual_world.h"
 

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "common/scene/device_spec.h"
 #include "tests/unit/haptic_node/loop/watched_world.h"
 
 namespace palpate::haptic::test {

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "common/error/error.h"
+#include "common/scene/device_spec.h"
+#include "common/scene/scene.h"
 #include "tests/unit/haptic_node/loop/running_loop.h"
 #include "tests/unit/haptic_node/loop/watched_world.h"
 

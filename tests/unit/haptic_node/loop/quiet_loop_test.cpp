@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "common/scene/device_spec.h"
 #include "haptic_node/loop/realtime.h"
 #include "tests/unit/haptic_node/loop/running_loop.h"
 #include "tests/unit/haptic_node/loop/watched_world.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "common/scene/device_spec.h"
 #include "haptic_node/loop/haptic_summary.h"
 #include "haptic_node/loop/rate_meter.h"
 #include "tests/unit/haptic_node/loop/running_loop.h"

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "common/scene/scene.h"
 #include "tests/support/devices/watched_device.h"
 #include "tests/unit/haptic_node/virtual_world.h"
 

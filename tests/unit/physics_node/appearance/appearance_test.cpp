@@ -9,6 +9,9 @@
 #include <set>
 #include <thread>
 
+#include "common/scene/body_spec.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "physics_node/appearance/colours.h"
 #include "physics_node/step/body_model.h"
 #include "tests/support/image/scratch_folder.h"

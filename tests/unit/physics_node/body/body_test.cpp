@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/error/error.h"
+#include "common/scene/body_spec.h"
 #include "tests/support/image/scratch_folder.h"
 #include "tests/support/physics/made_volume.h"
 #include "tests/support/physics/small_worlds.h"

@@ -1,5 +1,6 @@
 // Which of the kept cells deform.
 #include "physics_node/body/deformable.h"
+#include "common/scene/shape_spec.h"
 
 #include <gtest/gtest.h>
 

@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "common/error/error.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/material_spec.h"
 #include "physics_node/body/element_constants.h"
 #include "tests/support/image/scratch_folder.h"
 #include "tests/support/physics/made_volume.h"

@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 
+#include "common/scene/body_spec.h"
 #include "tests/support/image/scratch_folder.h"
 #include "tests/support/physics/made_volume.h"
 #include "tests/support/physics/small_worlds.h"

@@ -1,6 +1,7 @@
 // Contact as printed: what two masses do to each other.
 #include <gtest/gtest.h>
 
+#include "common/scene/scene.h"
 #include "physics_node/world.h"
 #include "tests/support/physics/small_worlds.h"
 

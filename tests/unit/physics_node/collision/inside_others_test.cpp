@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "common/scene/scene.h"
 #include "physics_node/report/physics_summary.h"
 #include "physics_node/step/body_model.h"
 #include "tests/support/physics/small_worlds.h"

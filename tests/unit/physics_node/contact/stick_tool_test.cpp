@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "common/message/vec3.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "physics_node/world.h"
 #include "tests/support/physics/pressed_world.h"
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "common/message/vec3.h"
+#include "common/scene/scene.h"
 #include "physics_node/world.h"
 #include "tests/support/physics/pressed_world.h"
 

@@ -12,7 +12,11 @@
 #include <tuple>
 
 #include "common/error/error.h"
+#include "common/scene/body_spec.h"
 #include "common/scene/load_scene.h"
+#include "common/scene/material_spec.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "physics_node/body/body.h"
 #include "physics_node/forecast/memory_need.h"
 #include "physics_node/forecast/speed_forecast.h"

@@ -10,6 +10,8 @@
 
 #include "common/error/error.h"
 #include "common/record/hdf5_file.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "physics_node/record/recorder.h"
 #include "tests/support/image/scratch_folder.h"
 #include "tests/support/physics/pressed_world.h"

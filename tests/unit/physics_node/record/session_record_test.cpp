@@ -15,6 +15,7 @@
 #include "common/record/part_file.h"
 #include "common/record/volume.h"
 #include "common/scene/load_scene.h"
+#include "common/scene/scene.h"
 #include "physics_node/record/export_vtk.h"
 #include "physics_node/record/mend_record.h"
 #include "physics_node/record/recorder.h"

@@ -10,6 +10,7 @@
 
 #include "common/record/volume.h"
 #include "common/scene/load_scene.h"
+#include "common/scene/scene.h"
 #include "tests/support/image/scratch_folder.h"
 #include "tests/support/physics/made_volume.h"
 

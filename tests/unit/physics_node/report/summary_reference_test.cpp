@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "common/scene/scene.h"
 #include "physics_node/report/physics_summary.h"
 #include "tests/support/image/scratch_folder.h"
 #include "tests/support/physics/pressed_world.h"

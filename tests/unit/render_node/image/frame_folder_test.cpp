@@ -9,6 +9,7 @@
 
 #include "common/error/error.h"
 #include "common/record/png_file.h"
+#include "common/scene/render_spec.h"
 #include "tests/support/image/scratch_folder.h"
 
 namespace palpate::render {

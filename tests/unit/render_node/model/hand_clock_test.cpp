@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/scene/scene.h"
 #include "render_node/model/view_model.h"
 #include "tests/unit/render_node/render_support.h"
 

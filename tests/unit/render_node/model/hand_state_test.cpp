@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <string>
 
+#include "common/scene/device_spec.h"
+#include "common/scene/scene.h"
 #include "render_node/model/view_model.h"
 #include "render_node/ui/notices.h"
 #include "tests/unit/render_node/render_support.h"

@@ -1,4 +1,6 @@
 #include "render_node/model/threshold_control.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/scene.h"
 
 #include <gtest/gtest.h>
 

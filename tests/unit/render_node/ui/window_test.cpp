@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/error/error.h"
+#include "common/scene/scene.h"
 #include "tests/unit/render_node/render_support.h"
 // Last: Xlib's macros.
 #include "tests/unit/render_node/ui/window_hand.h"

@@ -1,4 +1,5 @@
 #include "render_node/view/camera.h"
+#include "common/scene/render_spec.h"
 
 #include <gtest/gtest.h>
 

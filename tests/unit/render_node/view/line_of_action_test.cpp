@@ -6,6 +6,7 @@
 
 #include <random>
 
+#include "common/scene/scene.h"
 #include "render_node/model/view_model.h"
 #include "render_node/view/surface_under.h"
 #include "tests/unit/render_node/render_support.h"

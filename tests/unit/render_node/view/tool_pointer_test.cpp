@@ -1,6 +1,7 @@
 // From cursor, wheel and keys to the tip of a tool in the world.
 
 #include "render_node/view/tool_pointer.h"
+#include "common/scene/render_spec.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,64 @@
+#pragma once
+// [[body]] of a scene: shape, place, materials of its parts, what is held.
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "common/math/vec3.h"
+#include "common/scene/kinds.h"
+#include "common/scene/place.h"
+#include "common/scene/shape_spec.h"
+
+namespace palpate {
+
+struct FixedBox {
+  Vec3 min = Vec3::Zero(), max = Vec3::Zero();  // world [m]
+};
+
+/// A part of a body that is of another material, or empty: where the tissue rests, or how bright its
+/// image is.
+struct BoxRegion {
+  Vec3 min = Vec3::Zero(), max = Vec3::Zero();  // world [m]
+};
+struct BallRegion {
+  Vec3 center = Vec3::Zero();  // world [m]
+  double radius = 0;           // [m]
+};
+/// Of a volume only.
+struct IntensityRegion {
+  double lo = 0, hi = 0;  // inclusive
+};
+struct RegionSpec {
+  std::string material;
+  std::variant<BoxRegion, BallRegion, IntensityRegion> where;
+  Place place;
+};
+
+/// Material that is taken away from a shape.
+struct CavitySpec {
+  std::variant<BoxRegion, BallRegion> where;
+  Place place;
+};
+
+struct BodySpec {
+  std::string name;
+  LatticeKind lattice = LatticeKind::fcc;
+  std::optional<double> spacing;  // [m]; absent only for a volume of voxels, which brings its own
+  std::string material;
+  std::vector<RegionSpec> regions;  // of other materials; later ones win
+  std::vector<CavitySpec> cavities;
+  Vec3 at = Vec3::Zero();  // centre of the shape, or tip of a knife or needle [m]
+  Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();  // R_WB about `at`, from theta_deg; fcc only
+  Vec3 velocity = Vec3::Zero();                               // [m/s]
+  std::array<bool, 6> fixed_faces{};   // -x +x -y +y -z +z in its own frame: masses on that face are held
+  std::vector<FixedBox> fixed_boxes;   // masses inside are held
+  std::array<bool, 6> handle_faces{};  // of a tool, in its own frame: masses on that face move with the hand
+  Shape shape = BoxShape{};
+  Place place;
+};
+
+}  // namespace palpate

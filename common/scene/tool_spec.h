@@ -1,0 +1,42 @@
+#pragma once
+// [[tool]] of a scene: what the hand holds.
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+
+#include "common/math/vec3.h"
+#include "common/scene/kinds.h"
+#include "common/scene/place.h"
+
+namespace palpate {
+
+/// A point touches tissue by the plane under it; a body is one of the scene's, driven by masses that the
+/// hand holds.
+enum class ToolShape { point, stick, body };
+
+struct ToolSpec {
+  std::string name;
+  ToolShape shape = ToolShape::point;
+  std::string body;               // name of the body that it is; only ToolShape::body
+  std::string device;             // name of a [device.NAME]
+  Vec3 set_point = Vec3::Zero();  // moments are about this point [m]
+  double low_pass_Hz = 20;        // of the force and moment that a body reports
+  double radius = 0.003;          // of the tip: its force fades out over twice that [m]
+  double stiffness = 400;         // of the contact spring between hand and proxy [N/m]
+  double damping = 1.0;           // [N s/m]
+  double friction = 0;            // Coulomb's coefficient between tip and surface
+  double torque_limit = 0.1;      // [N m]
+  /// Of the hand between two answers of physics; absent: force_model_of().
+  std::optional<ForceModel> force_model;
+  double length = 0.1;  // from tip to end [m]; only ToolShape::stick
+  /// Where the handle is not turned; only ToolShape::stick.
+  Eigen::Matrix3d attitude = Eigen::Matrix3d::Identity();
+  Place place;
+};
+/// A point feels planes, all others a wrench.
+inline ForceModel force_model_of(const ToolSpec& tool) {
+  return tool.force_model.value_or(tool.shape == ToolShape::point ? ForceModel::norton : ForceModel::tangent);
+}
+
+}  // namespace palpate
