@@ -64,16 +64,11 @@ Trial::HandReport Trial::report() {
 
 /// A frame of the real physics, with the newest that it knows of the hand.
 void Trial::answer_of_world() {
-  constexpr std::int64_t silence_ns = 50'000'000;  // as palpate-physics has it
   HandReport came;
-  if (up_.receive(now_ns_, came)) {
-    if (came.state.tick > known_.state.tick) known_ = came;
-    known_ns_ = now_ns_;
-  }
+  if (up_.receive(now_ns_, came) && hands_.take(came.state, now_ns_)) known_ = came;
   Answer answer;
-  const bool fresh = known_.state.tick > 0 && now_ns_ - known_ns_ <= silence_ns;
-  world_->frame(fresh ? &known_.state : nullptr, tissue_.base(), physics_clock_ns(), answer.patch,
-                answer.wrench);
+  const auto& fresh = hands_.at(now_ns_).front();
+  world_->frame(fresh ? &*fresh : nullptr, tissue_.base(), physics_clock_ns(), answer.patch, answer.wrench);
   answer.patch.tick = answer.wrench.tick = ++frame_;
   if (!physics_alive) return;
   if (alter_patch) alter_patch(answer.patch, known_.proxy);

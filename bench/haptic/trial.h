@@ -13,6 +13,7 @@
 #include "bench/haptic/renderer.h"
 #include "bench/haptic/tissue.h"
 #include "bench/haptic/world_object.h"
+#include "physics_node/loop/hands.h"
 
 namespace palpate::bench {
 
@@ -115,8 +116,8 @@ class Trial {
   std::int64_t now_ns_;
   std::int64_t next_frame_ns_;
   std::uint64_t frame_ = 0;
-  HandReport known_;  // to physics
-  std::int64_t known_ns_ = 0;
+  HandReport known_;         // to physics
+  physics::Hands hands_{1};  // the same to the world, as long as it counts
   std::uint64_t tick_ = 0;
   std::optional<Answer> newest_;
   bool powered_ = false;

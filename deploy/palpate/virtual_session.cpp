@@ -20,7 +20,7 @@ VirtualSession::VirtualSession(const Scene& scene, const VirtualOptions& options
       world_(scene_),
       patches_(scene.tools.size()),
       wrenches_(scene.tools.size()),
-      states_(scene.tools.size()) {
+      known_hands_(scene.tools.size()) {
   world_.add_remarks(physics::remarks_about(world_));
   for (std::uint32_t n = 0; n < scene_.tools.size(); ++n) {
     hands_.push_back(
@@ -44,7 +44,7 @@ void VirtualSession::tick_hands(std::int64_t until_ns) {
       next_tick_ns_[n] += period;
       hands_[n]->tick(patches_[n].tick > 0 ? &patches_[n] : nullptr,
                       wrenches_[n].tick > 0 ? &wrenches_[n] : nullptr);
-      states_[n] = hands_[n]->tool_state();
+      known_hands_.take(hands_[n]->tool_state(), now_ns_);
       if (eye_) eye_->take(static_cast<std::uint32_t>(n), hands_[n]->trace());
     }
   }
@@ -66,9 +66,10 @@ void VirtualSession::run(double seconds, const std::function<void(double)>& prog
   tell_hands();
   for (std::int64_t f = 0; f < n_frames && !stop_requested() && !world_.has_stopped(); ++f) {
     tick_hands(now_ns_ + frame_ns);
-    world_.frame(states_);
+    const auto fresh = known_hands_.at(now_ns_);
+    world_.frame(fresh);
     tell_hands();
-    if (recorder_) recorder_->frame(world_, states_);
+    if (recorder_) recorder_->frame(world_, fresh);
     if (eye_) eye_->frame(world_, now_ns_);
     if (f % 50 == 0) progress(world_.t());
   }

@@ -12,6 +12,7 @@
 #include "common/scene/scene_source.h"
 #include "deploy/palpate/virtual_eye.h"
 #include "haptic_node/session.h"
+#include "physics_node/loop/hands.h"
 #include "physics_node/record/recorder.h"
 #include "physics_node/world.h"
 
@@ -54,7 +55,7 @@ class VirtualSession {
   std::vector<std::int64_t> next_tick_ns_;
   std::vector<ContactPatch> patches_;
   std::vector<ToolWrench> wrenches_;
-  std::vector<std::optional<ToolState>> states_;
+  physics::Hands known_hands_;  // to the tissue
   std::unique_ptr<physics::Recorder> recorder_;
   std::unique_ptr<VirtualEye> eye_;
   double wall_s_ = 0;

@@ -26,9 +26,6 @@
 namespace palpate::physics {
 namespace {
 
-constexpr std::int64_t hand_silence_ns = std::chrono::nanoseconds(Wire::hand_silence).count();
-// No hand makes so many ticks within that silence: a tick farther ahead is none, and would shut out those that follow.
-constexpr std::uint64_t most_ahead = 10'000;
 constexpr int most_commands = 64;  // a frame; what is more waits
 // Where frames and hand have one rate, frames are led to begin just after the hand has spoken, so that nothing waits for a
 // frame: a little earlier each time it had, later when it had not. One frame in 21 then begins too early.
@@ -44,8 +41,7 @@ PhysicsLoop::PhysicsLoop(const NodeOptions& options, const Scene& scene)
     : options_(options),
       scene_(scene),
       wire_(membership(options, scene, "physics")),
-      hands_(scene.tools.size()),
-      fresh_(scene.tools.size()) {
+      hands_(scene.tools.size()) {
   set_log_name("physics");
   status_.node = NodeKind::physics;
   status_.pid = static_cast<std::uint32_t>(getpid());
@@ -76,22 +72,6 @@ PhysicsLoop::PhysicsLoop(const NodeOptions& options, const Scene& scene)
   }
 }
 
-/// @return true if `state` is of the hand that is there now, and newer than what it said before
-bool PhysicsLoop::is_news(Hand& hand, const ToolState& state) {
-  const std::int64_t now = now_ns();
-  const bool silent = now - hand.came_ns > hand_silence_ns;
-  // By ticks alone: another hand may take over with another clock. Who comes after a silence has begun anew.
-  if (!hand.newest || silent) return true;
-  if (state.tick <= hand.newest->tick) return false;
-  const std::uint64_t ahead = state.tick - hand.newest->tick;
-  if (ahead > most_ahead) {
-    ++ticks_rejected_;
-    return false;
-  }
-  samples_lost_ += ahead - 1;
-  return true;
-}
-
 /// @return true if the hand has spoken since the last frame
 bool PhysicsLoop::take_tools() {
   ToolState state;
@@ -99,18 +79,9 @@ bool PhysicsLoop::take_tools() {
   while (wire_.tool_states.take(state)) {
     if (const auto changes = wire_.hand.changes(); changes != hand_changes_) {
       hand_changes_ = changes;
-      for (Hand& hand : hands_) hand.newest.reset();
+      hands_.begin_anew();
     }
-    if (state.tool >= hands_.size()) continue;
-    Hand& hand = hands_[state.tool];
-    if (!is_news(hand, state)) continue;
-    hand.newest = state;
-    hand.came_ns = now_ns();
-    any = true;
-  }
-  for (std::size_t n = 0; n < hands_.size(); ++n) {
-    const bool silent = !hands_[n].newest || now_ns() - hands_[n].came_ns > hand_silence_ns;
-    fresh_[n] = silent ? std::nullopt : hands_[n].newest;
+    any = hands_.take(state, now_ns()) || any;
   }
   return any;
 }
@@ -211,8 +182,8 @@ void PhysicsLoop::publish_status(NodePhase phase) {
   clear_counts(status_);
   add_counts(status_, wire_.tool_states.counts());
   add_counts(status_, wire_.commands.counts());
-  status_.samples_lost = samples_lost_;
-  status_.rejected[static_cast<std::size_t>(RejectReason::out_of_range)] += ticks_rejected_;
+  status_.samples_lost = hands_.samples_lost();
+  status_.rejected[static_cast<std::size_t>(RejectReason::out_of_range)] += hands_.ticks_rejected();
   status_.warnings += status_.refused[0] == '\0' ? 0 : 1;
   for (Speaker* speaker : {&wire_.hand, &wire_.people})
     for (const auto& line : speaker->remarks()) log_warn("{}", line);
@@ -235,13 +206,12 @@ int PhysicsLoop::run() {
     ++status_.lateness[octave_bin((wake.woke_ns - wake.due_ns) / 1000, histogram_bins)];
     take_commands();
     const bool heard = take_tools();
-    const bool led = in_step && std::any_of(fresh_.begin(), fresh_.end(),
-                                            [](const auto& hand) { return hand.has_value(); });
-    if (led) ticker.shift(heard ? -earlier_ns : later_ns);
-    if (!paused_) world_->frame(fresh_);
+    const auto fresh = hands_.at(now_ns());
+    if (in_step && hands_.any()) ticker.shift(heard ? -earlier_ns : later_ns);
+    if (!paused_) world_->frame(fresh);
     if (world_->has_stopped()) break;  // no answer is better than one from a world that stands still
     publish_hand();
-    if (recorder_ && !paused_) recorder_->frame(*world_, fresh_);
+    if (recorder_ && !paused_) recorder_->frame(*world_, fresh);
     const std::int64_t now = now_ns();
     if (now >= next_eye) {
       publish_eye();

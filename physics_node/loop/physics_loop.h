@@ -2,12 +2,11 @@
 // palpate-physics as it runs: one thread, one frame per 1 / frame_Hz of wall time, everything in order.
 
 #include <memory>
-#include <optional>
-#include <vector>
 
 #include "common/process/node_main.h"
 #include "common/scene/scene.h"
 #include "physics_node/appearance/appearance.h"
+#include "physics_node/loop/hands.h"
 #include "physics_node/loop/wire.h"
 #include "physics_node/record/recorder.h"
 #include "physics_node/report/run_warnings.h"
@@ -23,13 +22,7 @@ class PhysicsLoop {
   int run();
 
  private:
-  struct Hand {
-    std::optional<ToolState> newest;
-    std::int64_t came_ns = 0;
-  };
-
   bool take_tools();
-  bool is_news(Hand& hand, const ToolState& state);
   void take_commands();
   void publish_hand();
   void publish_eye();
@@ -46,11 +39,8 @@ class PhysicsLoop {
   std::unique_ptr<Appearance> appearance_;
   std::unique_ptr<Recorder> recorder_;
 
-  std::vector<Hand> hands_;
+  Hands hands_;
   std::uint64_t hand_changes_ = 0;  // how often another hand had taken over, at the last look
-  std::uint64_t samples_lost_ = 0;
-  std::uint64_t ticks_rejected_ = 0;
-  std::vector<std::optional<ToolState>> fresh_;  // what the frame gets
   ContactPatch patch_{};
   ToolWrench wrench_{};
   bool paused_ = false;

@@ -28,7 +28,6 @@ const std::map<std::string, std::string>& excused() {
       {"haptic_node/drivers/simulated", "tests/unit/haptic_node/drivers/simulated_driver_test.cpp"},
       {"haptic_node/drivers/spacenav", "tests/unit/haptic_node/drivers/spacenav_driver_test.cpp"},
       {"haptic_node/guardian", "a process that outlives its node: tests/system/motors_off_test.cpp"},
-      {"physics_node/loop", "topics of the running node: tests/system"},
   };
   return rooms;
 }
