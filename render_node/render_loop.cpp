@@ -67,7 +67,8 @@ class Fare {
     wire.tell(status_);
   }
   /// @return exit code: nothing that was to be kept may be missing
-  int write_report(const std::string& out, const ViewModel& model, Wire& wire, const FrameFolder* frames) const {
+  int write_report(const std::string& out, const ViewModel& model, Wire& wire,
+                   const FrameFolder* frames) const {
     const double seconds = seconds_from_ns(last_ns_ - first_ns_);
     const auto folder = std::filesystem::path(out) / "parts";
     std::error_code already;  // write_json says what is wrong with the folder

@@ -155,8 +155,8 @@ Row press_too_hard(const Case& base, const char* what) {
     }
   return {"S11", what, "limit reached and kept, direction within 0.1 deg, p-p <= 200 um, G <= 0.1 mJ",
           fmt::format("{:.1f} % of the limit at least, over it by {:.1g}, {:.2g} deg, {:.0f} um, G {:.3f} mJ",
-                      100 * reached, std::max(over, 0.0),
-                      turned * 180 / std::numbers::pi, 1e6 * swing, 1e3 * surplus),
+                      100 * reached, std::max(over, 0.0), turned * 180 / std::numbers::pi, 1e6 * swing,
+                      1e3 * surplus),
           reached > 0.99 && over <= 1e-12 && turned * 180 / std::numbers::pi <= 0.1 && swing <= 200e-6 &&
               surplus <= EnergyBook::G_allowed};
 }

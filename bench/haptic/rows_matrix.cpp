@@ -24,9 +24,11 @@ std::vector<Case> all_devices(const MatrixSize& size, RenderMode mode = RenderMo
 
 std::string figure_of(const Tally& t) {
   return fmt::format(
-      "{} cases: {} above 200 um, {} above 100 um, {} break an energy bound, {} not felt; most {:.0f} um, G {:.3f} "
+      "{} cases: {} above 200 um, {} above 100 um, {} break an energy bound, {} not felt; most {:.0f} um, G "
+      "{:.3f} "
       "mJ",
-      t.cases, t.above_200_um, t.above_100_um, t.energy_broken, t.unfelt, 1e6 * t.swing_most, 1e3 * t.surplus_most);
+      t.cases, t.above_200_um, t.above_100_um, t.energy_broken, t.unfelt, 1e6 * t.swing_most,
+      1e3 * t.surplus_most);
 }
 
 /// Stiffest wall that a hand can hold still, to 1 % [N/m]; up to 8000.
@@ -77,7 +79,8 @@ Row wall_is_stable(Runs& runs) {
   const bool quiet = std::all_of(results.begin(), results.end(), is_still);
   return {"S1",
           "static wall; K 1000, B 2 Touch and omega, K 500, B 1 Premium; all hands, rates, delays, losses",
-          "p-p <= max(2 resolution, 100 um), G <= 0.1 mJ", figure_of(t), quiet && t.energy_broken == 0 && t.unfelt == 0};
+          "p-p <= max(2 resolution, 100 um), G <= 0.1 mJ", figure_of(t),
+          quiet && t.energy_broken == 0 && t.unfelt == 0};
 }
 
 Row stiffest_wall(Runs& runs) {
@@ -121,8 +124,8 @@ Row push_without_a_hand_gains_nothing(Runs& runs) {
   const Tally t = tally(run_cases(chosen(cases, runs.effort, 24), runs.jobs));
   return {"S2", "no hand: the handle falls 20 mm under 1 N and bounces; K 300 and 500",
           "energy bounds in all",
-          fmt::format("{} cases: {} break an energy bound, {} not felt; G {:.3f} mJ", t.cases, t.energy_broken,
-                      t.unfelt, 1e3 * t.surplus_most),
+          fmt::format("{} cases: {} break an energy bound, {} not felt; G {:.3f} mJ", t.cases,
+                      t.energy_broken, t.unfelt, 1e3 * t.surplus_most),
           t.energy_broken == 0 && t.unfelt == 0};
 }
 
@@ -135,7 +138,8 @@ Row stiff_matrix_is_stable(Runs& runs) {
   return {"S3", "the same at K 1000, B 2", "<= 1 % above 300 um, energy bounds in all",
           fmt::format("{} cases: {} above 300 um, {} break an energy bound, {} not felt; most {:.0f} um, G "
                       "{:.3f} mJ",
-                      t.cases, t.above_300_um, t.energy_broken, t.unfelt, 1e6 * t.swing_most, 1e3 * t.surplus_most),
+                      t.cases, t.above_300_um, t.energy_broken, t.unfelt, 1e6 * t.swing_most,
+                      1e3 * t.surplus_most),
           t.above_300_um * 100 <= t.cases && t.energy_broken == 0 && t.unfelt == 0};
 }
 

@@ -130,7 +130,8 @@ Row torque_is_bounded(const Runs& runs) {
       "wrenches of 1 to 3 contacts or surfaces, which jump, under a hand that moves 4 mm and turns 5 deg; "
       "attitudes "
       "that are none",
-      "torque reaches its limit; torque and force limited by norm, direction kept within 0.1 deg; G <= 0.1 mJ; bound on the work of "
+      "torque reaches its limit; torque and force limited by norm, direction kept within 0.1 deg; G <= 0.1 "
+      "mJ; bound on the work of "
       "springs kept; bad attitudes rejected, 3 a fault",
       fmt::format("{} hands of 10 s: torque {:.4f} of {} N m, force {:.2f} of {} N, direction {:.1e} "
                   "deg; G {:.3f} mJ, work {:+.3f} mJ of its bound; {}",

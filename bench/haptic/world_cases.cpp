@@ -31,10 +31,11 @@ std::vector<Case> world_cases(Effort effort, RenderMode mode, const DeviceModel&
 
 std::string world_figure(const Tally& t) {
   return fmt::format(
-      "{} cases: {} above 200 um, {} above 100 um, {} break an energy bound, {} not felt; most {:.0f} um, G {:.3f} "
+      "{} cases: {} above 200 um, {} above 100 um, {} break an energy bound, {} not felt; most {:.0f} um, G "
+      "{:.3f} "
       "mJ; step {:.3f} N, {:.3f} N beyond K v T",
-      t.cases, t.above_200_um, t.above_100_um, t.energy_broken, t.unfelt, 1e6 * t.swing_most, 1e3 * t.surplus_most,
-      t.force_step_most, t.step_beyond_most);
+      t.cases, t.above_200_um, t.above_100_um, t.energy_broken, t.unfelt, 1e6 * t.swing_most,
+      1e3 * t.surplus_most, t.force_step_most, t.step_beyond_most);
 }
 
 }  // namespace palpate::bench

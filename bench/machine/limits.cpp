@@ -83,7 +83,8 @@ double triad_bytes_per_s(std::size_t bytes, int threads) {
       const float* const from = b.data();
       const float* const scaled = c.data();
       team.each(pieces, threads, [=](std::size_t p) {
-        for (std::size_t i = p * n / pieces; i < (p + 1) * n / pieces; ++i) to[i] = from[i] + 0.5F * scaled[i];
+        for (std::size_t i = p * n / pieces; i < (p + 1) * n / pieces; ++i)
+          to[i] = from[i] + 0.5F * scaled[i];
       });
       asm volatile("" : : "r"(to) : "memory");
     }

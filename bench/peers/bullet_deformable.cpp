@@ -41,8 +41,7 @@ namespace {
 class DeformableSolver final : public Solver {
  public:
   DeformableSolver() {
-    method_ = {"Bullet", "springs, explicit", "single", 1, Scheme::symplectic_euler,
-               2000,     {2, 4},           1 << 30};
+    method_ = {"Bullet", "springs, explicit", "single", 1, Scheme::symplectic_euler, 2000, {2, 4}, 1 << 30};
   }
   const Method& method() const override { return method_; }
 

@@ -74,13 +74,12 @@ std::unique_ptr<Solver> palpate_reference(Scheme scheme) {
 }
 
 Peer palpate_peer() {
-  Peer peer{
-      "palpate",
-      commit(),
-      "",
-      "Stores no spring and no neighbour: its bodies are lattices, a peer's may be anything. "
-      "Steps whole frames of 1 ms, with the guard's look at the energy; renders and publishes nothing.",
-      {}};
+  Peer peer{"palpate",
+            commit(),
+            "",
+            "Stores no spring and no neighbour: its bodies are lattices, a peer's may be anything. "
+            "Steps whole frames of 1 ms, with the guard's look at the energy; renders and publishes nothing.",
+            {}};
   for (const Way& way : {euler, verlet})
     for (const Precision precision : {Precision::single_, Precision::double_})
       for (const int threads : {1, 2})

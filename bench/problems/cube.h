@@ -29,8 +29,8 @@ struct CubeKind {
 
 struct Cube {
   std::unique_ptr<physics::BodyModel> body;
-  double stable_step = 0;  // [s]
-  double step = 0;         // half of that [s]
+  double stable_step = 0;               // [s]
+  double step = 0;                      // half of that [s]
   std::unique_ptr<physics::Team> team;  // made for the most threads that it was set moving for
 };
 

@@ -29,32 +29,33 @@ inline constexpr std::uint32_t n_tallies = 8;        // counters of rejected sam
 
 // What no number on the wire exceeds, whoever sends it. Why: a changed bit makes finite numbers, too, of which a time of
 // 1e300 s is one, and what is not bounded where it enters becomes an index or a size somewhere.
-inline constexpr double longest_time = 1e8;          // three years [s]
-inline constexpr double farthest_hand = 1e3;         // a hand, what it touches, and how fast they are [m], [m/s]
-inline constexpr double farthest_vertex = 1e6;       // what has flown off [m]
-inline constexpr double fastest_turn = 1e6;          // [rad/s]
-inline constexpr double strongest_hand = 1e3;        // that a device applies [N], [N m]
-inline constexpr double strongest_tissue = 1e6;      // [N], [N m]
-inline constexpr double most_energy = 1e6;           // [J]
-inline constexpr double largest_value = 1e9;         // of a command or a rate, in its unit
+inline constexpr double longest_time = 1e8;      // three years [s]
+inline constexpr double farthest_hand = 1e3;     // a hand, what it touches, and how fast they are [m], [m/s]
+inline constexpr double farthest_vertex = 1e6;   // what has flown off [m]
+inline constexpr double fastest_turn = 1e6;      // [rad/s]
+inline constexpr double strongest_hand = 1e3;    // that a device applies [N], [N m]
+inline constexpr double strongest_tissue = 1e6;  // [N], [N m]
+inline constexpr double most_energy = 1e6;       // [J]
+inline constexpr double largest_value = 1e9;     // of a command or a rate, in its unit
 inline constexpr std::int64_t latest_stamp = std::int64_t{1} << 61;  // either side of zero [ns]
 
 /// haptic -> physics. Where the hand is, and the force that it feels now.
 struct ToolState {
-  std::uint32_t tool = 0;            // index of [[tool]] in the scene, < max_tools
-  std::uint64_t tick = 0;            // counts ticks of the haptic loop; the newest wins
-  std::int64_t stamp_ns = 0;         // CLOCK_MONOTONIC of the writer: only differences on one machine mean anything
-  Array3 p_WT{};                     // tool tip [m]
-  Array4 q_WT{1, 0, 0, 0};           // attitude, unit
-  Array3 v_WT{};                     // velocity of the tip [m/s]
-  Array3 w_WT{};                     // angular velocity [rad/s]
-  Array3 proxy{};                    // where the proxy rests: the tip if nothing is touched [m]
-  Array3 force_on_hand{};            // force that the device applies to the hand, low-passed at 2 Hz; HapticTrace has it as it is [N]
-  Array3 force_now{};                // the same as it is in this tick [N]
-  Array3 torque_now{};               // about the tip, as it is in this tick [N m]
-  std::uint64_t contact_set = 0;     // contact_set of the patch that this force was computed from; 0 none
-  std::uint32_t buttons = 0;         // bit i: button i pressed
-  std::uint32_t engaged = 0;         // 1: the hand is armed and its forces count
+  std::uint32_t tool = 0;     // index of [[tool]] in the scene, < max_tools
+  std::uint64_t tick = 0;     // counts ticks of the haptic loop; the newest wins
+  std::int64_t stamp_ns = 0;  // CLOCK_MONOTONIC of the writer: only differences on one machine mean anything
+  Array3 p_WT{};              // tool tip [m]
+  Array4 q_WT{1, 0, 0, 0};    // attitude, unit
+  Array3 v_WT{};              // velocity of the tip [m/s]
+  Array3 w_WT{};              // angular velocity [rad/s]
+  Array3 proxy{};             // where the proxy rests: the tip if nothing is touched [m]
+  Array3
+      force_on_hand{};  // force that the device applies to the hand, low-passed at 2 Hz; HapticTrace has it as it is [N]
+  Array3 force_now{};             // the same as it is in this tick [N]
+  Array3 torque_now{};            // about the tip, as it is in this tick [N m]
+  std::uint64_t contact_set = 0;  // contact_set of the patch that this force was computed from; 0 none
+  std::uint32_t buttons = 0;      // bit i: button i pressed
+  std::uint32_t engaged = 0;      // 1: the hand is armed and its forces count
 };
 
 /// One facet of the tissue near a tool, as a Norton-equivalent plane: where the plane would be without
@@ -64,9 +65,9 @@ struct PatchFacet {
   Array3 point{};                   // a point of the plane at zero contact force [m]
   Array3 normal{};                  // out of the tissue, unit
   Array3 velocity{};                // of the plane [m/s]
-  double stiffness = 0;             // of the tissue behind the plane [N/m], > 0; rigid scenery: rigid_stiffness
-  double damping = 0;               // [N s/m], >= 0
-  std::uint32_t body = 0;           // index of [[body]], < max_bodies
+  double stiffness = 0;    // of the tissue behind the plane [N/m], > 0; rigid scenery: rigid_stiffness
+  double damping = 0;      // [N s/m], >= 0
+  std::uint32_t body = 0;  // index of [[body]], < max_bodies
 };
 inline constexpr double rigid_stiffness = 1e9;  // stands for "does not give"
 
@@ -91,19 +92,20 @@ struct ToolWrench {
   std::uint32_t tool = 0;
   std::uint64_t tick = 0;
   std::int64_t stamp_ns = 0;
-  std::uint64_t answers = 0;             // as in ContactPatch
+  std::uint64_t answers = 0;  // as in ContactPatch
   std::int64_t answers_ns = 0;
-  double t = 0;                          // simulated time [s]
-  Array3 p_WT{};                         // pose of the hand to which force and moment belong: its tip [m]
-  Array4 q_WT{1, 0, 0, 0};               // attitude, unit
-  Array3 force{};                        // on the tool [N]
-  Array3 moment{};                       // on the tool, about set_point [N m]
-  Array3 set_point{};                    // [m]
-  Array3 tip{};                          // of the tool, which M_T is about [m]; elsewhere than p_WT if the hand took it there
-  std::array<double, 36> stiffness{};    // local 6x6, symmetric, row major [N/m, N, N m/rad]; zero: not computed
-  Array3 normal{};                       // out of the tissue, unit; zero: no surface is known
-  double stretch = 0;                    // of the spring at p_WT, q_WT; below 0: the way that is left to contact [m]
-  std::uint32_t n_contacts = 0;          // colliding masses
+  double t = 0;             // simulated time [s]
+  Array3 p_WT{};            // pose of the hand to which force and moment belong: its tip [m]
+  Array4 q_WT{1, 0, 0, 0};  // attitude, unit
+  Array3 force{};           // on the tool [N]
+  Array3 moment{};          // on the tool, about set_point [N m]
+  Array3 set_point{};       // [m]
+  Array3 tip{};  // of the tool, which M_T is about [m]; elsewhere than p_WT if the hand took it there
+  std::array<double, 36>
+      stiffness{};               // local 6x6, symmetric, row major [N/m, N, N m/rad]; zero: not computed
+  Array3 normal{};               // out of the tissue, unit; zero: no surface is known
+  double stretch = 0;            // of the spring at p_WT, q_WT; below 0: the way that is left to contact [m]
+  std::uint32_t n_contacts = 0;  // colliding masses
 };
 
 /// physics -> render. One chunk of what is visible of a body: vertices with their positions at publication
@@ -111,8 +113,8 @@ struct ToolWrench {
 /// corner; a facet without an area is an element (a, b, b, b) or a mass (a, a, a, a) that belongs to no other facet.
 struct BodySurface {
   std::uint32_t body = 0;
-  std::uint32_t revision = 0;      // grows with every cut, break or change of threshold; starts at 1
-  std::uint32_t chunk = 0;         // < n_chunks <= max_surface_chunks
+  std::uint32_t revision = 0;  // grows with every cut, break or change of threshold; starts at 1
+  std::uint32_t chunk = 0;     // < n_chunks <= max_surface_chunks
   std::uint32_t n_chunks = 1;
   std::uint32_t total_vertices = 0;
   std::uint32_t total_facets = 0;
@@ -121,27 +123,28 @@ struct BodySurface {
   std::uint32_t first_vertex = 0;   // of this chunk
   std::uint32_t n_vertices = 0;     // <= max_surface_vertices
   std::uint32_t first_facet = 0;
-  std::uint32_t n_facets = 0;       // <= max_surface_facets
-  std::array<Array3f, max_surface_vertices> position{};                      // [m]
-  std::array<std::array<std::uint32_t, 4>, max_surface_facets> corners{};    // < total_vertices
-  std::array<std::uint32_t, max_surface_facets> rgba{};                      // 0xAABBGGRR
+  std::uint32_t n_facets = 0;                                              // <= max_surface_facets
+  std::array<Array3f, max_surface_vertices> position{};                    // [m]
+  std::array<std::array<std::uint32_t, 4>, max_surface_facets> corners{};  // < total_vertices
+  std::array<std::uint32_t, max_surface_facets> rgba{};                    // 0xAABBGGRR
 };
 
 /// State of a vertex.
-inline constexpr std::uint8_t vertex_yielded = 1;    // an element at this vertex has yielded
-inline constexpr std::uint8_t vertex_broken = 2;     // an element at this vertex has broken
-inline constexpr std::uint8_t vertex_share_one = 4;  // the other six bits: how many 63rds of its live elements have yielded,
-                                                     // which is how dark it is drawn; 0 unless vertex_yielded
+inline constexpr std::uint8_t vertex_yielded = 1;  // an element at this vertex has yielded
+inline constexpr std::uint8_t vertex_broken = 2;   // an element at this vertex has broken
+inline constexpr std::uint8_t vertex_share_one =
+    4;  // the other six bits: how many 63rds of its live elements have yielded,
+        // which is how dark it is drawn; 0 unless vertex_yielded
 
 /// physics -> render. Where some vertices of a BodySurface revision are now. Only blocks that changed are sent.
 struct VertexBlock {
   std::uint32_t body = 0;
-  std::uint32_t revision = 0;      // of the BodySurface that numbers these vertices
-  std::uint32_t block = 0;         // first_vertex / max_block_vertices
+  std::uint32_t revision = 0;  // of the BodySurface that numbers these vertices
+  std::uint32_t block = 0;     // first_vertex / max_block_vertices
   std::uint64_t tick = 0;
-  double t = 0;                    // simulated time [s]
+  double t = 0;  // simulated time [s]
   std::uint32_t first_vertex = 0;
-  std::uint32_t n_vertices = 0;    // <= max_block_vertices
+  std::uint32_t n_vertices = 0;                        // <= max_block_vertices
   std::array<Array3f, max_block_vertices> position{};  // [m]
   std::array<std::uint8_t, max_block_vertices> flags{};
 };
@@ -149,12 +152,12 @@ struct VertexBlock {
 /// haptic -> render, record. 1 kHz samples, in batches, none left out.
 struct TraceSample {
   std::uint64_t tick = 0;
-  double t = 0;            // device time since the loop started [s]
-  Array3 p{};              // tip [m]
-  Array3 proxy{};          // [m]
-  Array3 force{};          // on the hand [N]
-  Array3 torque{};         // on the hand, about the tip [N m]
-  double energy = 0;       // given to the hand so far through the device port [J]
+  double t = 0;       // device time since the loop started [s]
+  Array3 p{};         // tip [m]
+  Array3 proxy{};     // [m]
+  Array3 force{};     // on the hand [N]
+  Array3 torque{};    // on the hand, about the tip [N m]
+  double energy = 0;  // given to the hand so far through the device port [J]
 };
 struct HapticTrace {
   std::uint32_t tool = 0;
@@ -166,12 +169,12 @@ struct HapticTrace {
 /// render -> haptic. Where a person points with mouse and keys: the tip of a tool in the world, for the driver `mouse`.
 struct Pointer {
   std::uint32_t tool = 0;
-  std::uint64_t tick = 0;      // counts samples
-  std::int64_t stamp_ns = 0;   // writer's CLOCK_MONOTONIC
-  Array3 p_W{};                // [m]
-  Array4 q_W{1, 0, 0, 0};      // attitude of the tool, unit
-  std::uint32_t buttons = 0;   // bit i: button i pressed
-  std::uint32_t held = 0;      // 1: the person moves the tool; 0: let go
+  std::uint64_t tick = 0;     // counts samples
+  std::int64_t stamp_ns = 0;  // writer's CLOCK_MONOTONIC
+  Array3 p_W{};               // [m]
+  Array4 q_W{1, 0, 0, 0};     // attitude of the tool, unit
+  std::uint32_t buttons = 0;  // bit i: button i pressed
+  std::uint32_t held = 0;     // 1: the person moves the tool; 0: let go
 };
 
 enum class CommandKind : std::uint32_t { pause, resume, reset, threshold, record, material, device, stop };
@@ -179,10 +182,10 @@ inline constexpr std::uint32_t n_command_kinds = 8;
 
 /// render, palpate -> physics, haptic.
 struct Command {
-  std::uint64_t id = 0;             // grows per writer; a repeated id is ignored
+  std::uint64_t id = 0;  // grows per writer; a repeated id is ignored
   CommandKind kind = CommandKind::pause;
-  double value = 0;                 // threshold: intensity; record: 0 or 1; device: 1 ends a fault
-  std::array<char, 64> name{};      // material, or tool whose device it is about
+  double value = 0;             // threshold: intensity; record: 0 or 1; device: 1 ends a fault
+  std::array<char, 64> name{};  // material, or tool whose device it is about
 };
 
 enum class NodeKind : std::uint32_t { physics, haptic, render, supervisor };
@@ -191,31 +194,42 @@ enum class NodePhase : std::uint32_t { loading, ready, running, stopping, failed
 inline constexpr std::uint32_t n_node_phases = 5;
 
 /// Why a sample was rejected; index into NodeStatus::rejected.
-enum class RejectReason : std::uint32_t { version, count, unknown_id, not_finite, not_unit, out_of_range, text, other };
+enum class RejectReason : std::uint32_t {
+  version,
+  count,
+  unknown_id,
+  not_finite,
+  not_unit,
+  out_of_range,
+  text,
+  other
+};
 
 /// all -> anyone, 2 to 10 Hz.
 struct NodeStatus {
   NodeKind node = NodeKind::physics;
   NodePhase phase = NodePhase::loading;
   std::uint32_t pid = 0;
-  std::uint64_t scene_checksum = 0;     // of the scene text and the settings given on the command line
-  double t = 0;                         // simulated (physics), device (haptic) or drawn (render) time [s]
-  double rate_Hz = 0;                   // frames, ticks or pictures a second, over the last status period
-  double real_time_factor = 0;          // simulated per wall time, over the last status period
-  double loop_age_ms_p50 = 0;           // haptic only: hand tick to the patch that answers it
+  std::uint64_t scene_checksum = 0;  // of the scene text and the settings given on the command line
+  double t = 0;                      // simulated (physics), device (haptic) or drawn (render) time [s]
+  double rate_Hz = 0;                // frames, ticks or pictures a second, over the last status period
+  double real_time_factor = 0;       // simulated per wall time, over the last status period
+  double loop_age_ms_p50 = 0;        // haptic only: hand tick to the patch that answers it
   std::uint64_t ticks = 0;
-  std::uint64_t late = 0;               // ticks that missed their deadline
+  std::uint64_t late = 0;  // ticks that missed their deadline
   std::uint64_t samples_received = 0;
-  std::uint64_t samples_lost = 0;       // gaps in the writers' ticks
+  std::uint64_t samples_lost = 0;  // gaps in the writers' ticks
   std::array<std::uint64_t, n_tallies> rejected{};
-  std::uint64_t foreign = 0;            // samples of processes that may not speak here, or not now: never looked at
+  std::uint64_t foreign = 0;  // samples of processes that may not speak here, or not now: never looked at
   std::uint32_t warnings = 0;
-  double energy_J = 0;                  // haptic only: given to the hand so far, of the tool that got most
-  double surplus_J = 0;                 // haptic only: of that, made out of nothing, now; above 0.1 mJ is not passive
-  std::uint32_t stale_events = 0, safe_events = 0, faults = 0;  // haptic only: since the start, over all tools
+  double energy_J = 0;   // haptic only: given to the hand so far, of the tool that got most
+  double surplus_J = 0;  // haptic only: of that, made out of nothing, now; above 0.1 mJ is not passive
+  std::uint32_t stale_events = 0, safe_events = 0,
+                faults = 0;                              // haptic only: since the start, over all tools
   std::array<std::uint64_t, histogram_bins> lateness{};  // wake-up lateness since the start
-  std::array<char, 128> note{};         // what a person should know now
-  std::array<char, 128> refused{};      // the first sample that was rejected or foreign, and why; empty: none so far
+  std::array<char, 128> note{};                          // what a person should know now
+  std::array<char, 128>
+      refused{};  // the first sample that was rejected or foreign, and why; empty: none so far
 };
 
 }  // namespace palpate

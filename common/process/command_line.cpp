@@ -36,8 +36,9 @@ const CLI::App& chosen(const CLI::App& app) {
 std::string extras_text(const CLI::App& app, const std::vector<std::string>& extras) {
   const CLI::App& at = chosen(app);
   const auto commands = commands_of(at);
-  const auto word = std::find_if(extras.begin(), extras.end(),
-                                 [&](const std::string& extra) { return commands.empty() == extra.starts_with("-"); });
+  const auto word = std::find_if(extras.begin(), extras.end(), [&](const std::string& extra) {
+    return commands.empty() == extra.starts_with("-");
+  });
   const std::string& extra = word == extras.end() ? extras.front() : *word;
   if (extra.starts_with("-")) {
     const std::string name = extra.substr(0, extra.find('='));
@@ -45,7 +46,8 @@ std::string extras_text(const CLI::App& app, const std::vector<std::string>& ext
       return fmt::format("there is no option {}; did you mean {}?", name, *meant);
     return fmt::format("there is no option {}", name);
   }
-  if (!commands.empty()) return fmt::format("there is no command \"{}\"; {}", extra, advice(extra, commands, "commands"));
+  if (!commands.empty())
+    return fmt::format("there is no command \"{}\"; {}", extra, advice(extra, commands, "commands"));
   return fmt::format("\"{}\" is one word too many", extra);
 }
 
@@ -65,17 +67,20 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
   return {[words](std::string& given) -> std::string {
             if (std::find(words.begin(), words.end(), given) != words.end()) return {};
             const auto meant = near_miss(given, words);
-            return fmt::format("there is no \"{}\"; {}", given,
-                               meant ? fmt::format("did you mean \"{}\"?", *meant) : "write " + quoted_list(words));
+            return fmt::format(
+                "there is no \"{}\"; {}", given,
+                meant ? fmt::format("did you mean \"{}\"?", *meant) : "write " + quoted_list(words));
           },
           "{" + list + "}"};
 }
 
 std::string mistake_text(const CLI::App& app, const CLI::ParseError& error) {
   const auto extras = app.remaining(true);
-  const bool unknown = std::any_of(extras.begin(), extras.end(), [](const auto& extra) { return extra.starts_with("-"); });
+  const bool unknown =
+      std::any_of(extras.begin(), extras.end(), [](const auto& extra) { return extra.starts_with("-"); });
   // A mistyped option often makes another one seem to be missing.
-  if (!extras.empty() && (unknown || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)) return extras_text(app, extras);
+  if (!extras.empty() && (unknown || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr))
+    return extras_text(app, extras);
   return error.what();
 }
 

@@ -24,7 +24,8 @@ void check_file(const std::string& path) {
       if (row > row_limit)
         throw InputError(path + ": dataset " + dataset.path +
                          " has more in a row than any record; it is damaged");
-      const std::uint64_t at_once = std::max<std::uint64_t>(1, block_numbers / std::max<std::uint64_t>(1, row));
+      const std::uint64_t at_once =
+          std::max<std::uint64_t>(1, block_numbers / std::max<std::uint64_t>(1, row));
       for (std::uint64_t first = 0; first < dataset.shape[0]; first += at_once)
         file.read_rows<double>(dataset.path, first, std::min(at_once, dataset.shape[0] - first));
     }

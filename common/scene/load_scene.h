@@ -20,7 +20,8 @@ namespace palpate {
 Scene load_scene(const std::string& path, const std::vector<std::string>& settings = {});
 
 /// The same from text; `path` only names the file in messages.
-Scene parse_scene(std::string_view text, const std::string& path, const std::vector<std::string>& settings = {});
+Scene parse_scene(std::string_view text, const std::string& path,
+                  const std::vector<std::string>& settings = {});
 
 /// The text of a scene file. @throws InputError: none there, too large, cannot be read
 std::string text_of_file(const std::string& path);

@@ -112,12 +112,14 @@ void read_force_model(TableReader& reader, ToolSpec& spec) {
   const auto model = static_cast<ForceModel>(*word);
   spec.force_model = model;
   if (spec.friction > 0 && model != ForceModel::norton)
-    reader.complain("friction", "friction is felt with force_model = \"norton\" only; leave one of the two out");
+    reader.complain("friction",
+                    "friction is felt with force_model = \"norton\" only; leave one of the two out");
   const bool planes = model == ForceModel::norton || model == ForceModel::raw_planes;
   if (point && model == ForceModel::tangent)
     reader.complain("force_model", "a point feels planes; write \"norton\", \"raw_planes\" or \"direct\"");
   if (!point && planes)
-    reader.complain("force_model", "this tool is more than a point and feels a wrench; write \"tangent\" or \"direct\"");
+    reader.complain("force_model",
+                    "this tool is more than a point and feels a wrench; write \"tangent\" or \"direct\"");
 }
 
 ToolSpec read_tool(TableReader& reader, ReadContext& context) {

@@ -10,7 +10,7 @@ namespace palpate {
 
 struct SceneSource {
   struct File {
-    std::string body;    // that is made of it
+    std::string body;  // that is made of it
     std::string path;
     bool slice = false;  // one picture of a stack
   };

@@ -119,7 +119,8 @@ void TableReader::complain_word(std::string_view key, const toml::node& value,
                                 const std::vector<std::string>& words, std::string_view more) {
   const auto meant = near_miss(value.value_or(std::string()), words);
   complain_value(key, value,
-                 fmt::format("{}{}{}", quoted_list(words), more, meant ? fmt::format(" (did you mean \"{}\"?)", *meant) : ""));
+                 fmt::format("{}{}{}", quoted_list(words), more,
+                             meant ? fmt::format(" (did you mean \"{}\"?)", *meant) : ""));
 }
 
 void TableReader::complain_lack(std::string_view what, std::string_view advice) {

@@ -102,8 +102,9 @@ void check_output(const Command& command) {
     throw InputError(command.out + ": is the image itself; name another file to write");
   const std::string ending = std::filesystem::path(command.out).extension().string();
   if (ending != ".h5" && ending != ".hdf5" && !std::filesystem::is_directory(command.out, ignored))
-    throw InputError(fmt::format(
-        "{}: a volume is an HDF5 file, and its name should say so; write --out {}.h5", command.out, stem_of(command.out)));
+    throw InputError(
+        fmt::format("{}: a volume is an HDF5 file, and its name should say so; write --out {}.h5",
+                    command.out, stem_of(command.out)));
   make_last_folder(command.out);
   check_can_write(command.out);
 }
@@ -116,9 +117,10 @@ void report(const Command& command, const Volume& volume) {
 }
 
 void make_brain(const Command& command) {
-  if (const auto path = std::filesystem::path(command.out); path.extension() == ".h5" || path.extension() == ".png")
-    throw InputError(
-        fmt::format("{}: slices are PNG files in a folder; write --out {}", command.out, stem_of(command.out)));
+  if (const auto path = std::filesystem::path(command.out);
+      path.extension() == ".h5" || path.extension() == ".png")
+    throw InputError(fmt::format("{}: slices are PNG files in a folder; write --out {}", command.out,
+                                 stem_of(command.out)));
   make_last_folder(command.out);
   write_brain_phantom(command.out);
   if (command.quiet) return;

@@ -50,7 +50,8 @@ int main(int argc, char** argv) {
   app.add_option("a", interfaces[0], "network interface")->required();
   app.add_option("b", interfaces[1], "network interface")->required();
   app.add_option("--delay-ms", quality.delay_ms, "each way")->check(number_in({.lo = 0, .hi = 10'000}));
-  app.add_option("--jitter-ms", quality.jitter_ms, "uniform, on top")->check(number_in({.lo = 0, .hi = 10'000}));
+  app.add_option("--jitter-ms", quality.jitter_ms, "uniform, on top")
+      ->check(number_in({.lo = 0, .hi = 10'000}));
   app.add_option("--loss-percent", quality.loss_percent, "of frames")->check(number_in({.lo = 0, .hi = 100}));
   app.add_option("--seed", seed, "of loss and jitter");
   try {

@@ -28,11 +28,13 @@ struct ExportOptions {
 };
 
 void say(const physics::VtkExport& done) {
-  fmt::print("paraview {} ({} times, {:.0f} MB)\n", done.collection.string(), done.times, 1e-6 * static_cast<double>(done.bytes));
+  fmt::print("paraview {} ({} times, {:.0f} MB)\n", done.collection.string(), done.times,
+             1e-6 * static_cast<double>(done.bytes));
 }
 
 int run_export(const ExportOptions& options) {
-  const fs::path path = fs::is_directory(options.record) ? fs::path(options.record) / "record.h5" : fs::path(options.record);
+  const fs::path path =
+      fs::is_directory(options.record) ? fs::path(options.record) / "record.h5" : fs::path(options.record);
   keep_as_private_as({path.string()});
   const physics::SessionRecord record(path.string());
   const ScratchFolder files;
@@ -43,10 +45,12 @@ int run_export(const ExportOptions& options) {
   wish.most_bytes = static_cast<std::uint64_t>(1e6 * options.limit_MB);
   const physics::VtkExport done = physics::export_vtk(path.string(), laid_out.scene, wish);
   if (done.collection.empty())
-    throw InputError(path.string() + ": holds no positions; write what = [\"positions\"] under [record] in the scene and run "
+    throw InputError(path.string() +
+                     ": holds no positions; write what = [\"positions\"] under [record] in the scene and run "
                      "it again, or palpate replay it with such a scene");
   if (done.thinned)
-    fmt::print("a time every {:.3g} s, to keep to {:.0f} MB; --limit-MB allows more\n", done.every_s, options.limit_MB);
+    fmt::print("a time every {:.3g} s, to keep to {:.0f} MB; --limit-MB allows more\n", done.every_s,
+               options.limit_MB);
   say(done);
   return exit_ok;
 }
@@ -59,8 +63,8 @@ void export_for_viewers(const fs::path& out, const Scene& scene) {
     const physics::VtkExport done = physics::export_vtk((out / "record.h5").string(), scene, {.folder = out});
     if (!done.collection.empty()) say(done);
   } catch (const std::exception& hindered) {
-    fmt::print(stderr, "palpate: nothing for ParaView was written: {}; palpate export {} tries again\n", hindered.what(),
-               out.string());
+    fmt::print(stderr, "palpate: nothing for ParaView was written: {}; palpate export {} tries again\n",
+               hindered.what(), out.string());
   }
 }
 

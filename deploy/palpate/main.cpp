@@ -21,10 +21,9 @@ std::string asked_of(const CLI::App& app) {
 
 int main(int argc, char** argv) {
   using namespace palpate;
-  constexpr std::array subcommands = {deploy::add_run,    deploy::add_simulate, deploy::add_replay,
-                                      deploy::add_import, deploy::add_info,     deploy::add_plot,
-                                      deploy::add_doctor, deploy::add_bench,    deploy::add_reset,
-                                      deploy::add_export};
+  constexpr std::array subcommands = {
+      deploy::add_run,  deploy::add_simulate, deploy::add_replay, deploy::add_import, deploy::add_info,
+      deploy::add_plot, deploy::add_doctor,   deploy::add_bench,  deploy::add_reset,  deploy::add_export};
   int exit_code = exit_ok;
   CLI::App app{"palpate: feel soft tissue through a haptic device"};
   add_version(app, "palpate");
@@ -36,7 +35,8 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& asked_for_help) {
     return app.exit(asked_for_help);
   } catch (const CLI::ParseError& error) {
-    std::fprintf(stderr, "palpate: %s; see %s --help\n", mistake_text(app, error).c_str(), asked_of(app).c_str());
+    std::fprintf(stderr, "palpate: %s; see %s --help\n", mistake_text(app, error).c_str(),
+                 asked_of(app).c_str());
     return exit_mistake;
   } catch (const InputError& error) {
     for (const auto& line : error.complaints()) std::fprintf(stderr, "palpate: %s\n", line.c_str());

@@ -65,7 +65,8 @@ Share parse_share(const std::string& deployment, int side, const std::optional<s
 Share without_hand(Share share) {
   std::erase(share.here, NodeKind::haptic);
   std::erase(share.elsewhere, NodeKind::haptic);
-  if (share.here.empty()) throw InputError("the scene has no [[tool]], so that this PC has nothing to do; add one");
+  if (share.here.empty())
+    throw InputError("the scene has no [[tool]], so that this PC has nothing to do; add one");
   return share;
 }
 

@@ -71,7 +71,9 @@ HeldFolder::HeldFolder(const fs::path& folder)
   // Where a file system knows no locks, nobody is kept out.
   if (descriptor_ < 0 || flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   close(descriptor_);
-  throw InputError(folder.string() + ": another palpate is writing to it; wait until it has ended, or give another folder with --out");
+  throw InputError(
+      folder.string() +
+      ": another palpate is writing to it; wait until it has ended, or give another folder with --out");
 }
 
 HeldFolder::~HeldFolder() {

@@ -93,7 +93,8 @@ bool any_pointed(const Scene& scene, const RunOptions& options) {
 /// How long a session lasts: as told, else as the scene has it. With a window that is only said: a person closes it.
 double session_seconds(const Scene& scene, const RunOptions& options, bool windowed) {
   if (options.seconds > 0) return options.seconds;
-  return windowed && any_pointed(scene, options) ? std::numeric_limits<double>::infinity() : scene.natural_seconds();
+  return windowed && any_pointed(scene, options) ? std::numeric_limits<double>::infinity()
+                                                 : scene.natural_seconds();
 }
 
 /// The haptic node would refuse an unknown driver, too, but only after all nodes have started.
@@ -196,9 +197,9 @@ void add_run(CLI::App& app, int& exit_code) {
   command->add_option("scene", options->scene_path, "scene file (TOML)")->required();
   command->add_flag("--headless", options->headless, "pictures to files instead of a window");
   command
-      ->add_option(
-          "--seconds", options->seconds,
-          "how long, once all nodes run; else until the window is closed, or without one until the scene's length is simulated")
+      ->add_option("--seconds", options->seconds,
+                   "how long, once all nodes run; else until the window is closed, or without one until the "
+                   "scene's length is simulated")
       ->check(number_in(run_seconds));
   command->add_option("--out", options->out, "folder for results (default: out/NAME_OF_SCENE)");
   command->add_option("--set", options->settings, "table.key=value over the scene; may be repeated")

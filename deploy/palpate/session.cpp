@@ -80,7 +80,8 @@ class Session {
     if (time_is_up() && !plan_.until_closed) return true;
     if (time_is_up() && !said_up_) {
       said_up_ = true;
-      say(fmt::format("the {:.6g} s of the scene are over; close the window or press Ctrl-C to end", plan_.seconds));
+      say(fmt::format("the {:.6g} s of the scene are over; close the window or press Ctrl-C to end",
+                      plan_.seconds));
     }
     return std::any_of(nodes_.begin(), nodes_.end(),
                        [this](RunningNode& node) { return node.child.ending() || silent_for_good(node); });

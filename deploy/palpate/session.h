@@ -21,9 +21,9 @@ struct SessionPlan {
   std::vector<std::string> arguments;  // of every node
   Membership membership;               // of the supervisor; its identity is what all others are compared with
   double seconds = 0;                  // from the moment all nodes run; only said where `until_closed`
-  bool simulated_too = false;          // physics must have come so far, too: what happens slowly is seen to its end
-  bool until_closed = false;           // a window is open: it lasts until a person closes that, or presses Ctrl-C
-  std::function<void()> ending;        // called before nodes are stopped; empty: nothing
+  bool simulated_too = false;    // physics must have come so far, too: what happens slowly is seen to its end
+  bool until_closed = false;     // a window is open: it lasts until a person closes that, or presses Ctrl-C
+  std::function<void()> ending;  // called before nodes are stopped; empty: nothing
 };
 
 struct NodeOutcome {
@@ -36,7 +36,7 @@ struct NodeOutcome {
 };
 
 struct SessionResult {
-  int exit_code = 0;  // 0 done or stopped by a person; 1 a node failed; 2 a node found a mistake
+  int exit_code = 0;         // 0 done or stopped by a person; 1 a node failed; 2 a node found a mistake
   bool interrupted = false;  // by Ctrl-C or SIGTERM
   double wall_s = 0;         // that all nodes ran
   std::vector<NodeOutcome> nodes;

@@ -104,7 +104,8 @@ void StatusLine::show(const StatusBoard& board, const std::vector<NodeKind>& nod
   const std::string text = status_text(board, nodes, seconds);
   if (terminal_) {
     winsize size{};
-    const std::size_t columns = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col - 1U : 0;
+    const std::size_t columns =
+        ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col - 1U : 0;
     std::printf("\r%s\033[K", cut_to(text, columns).c_str());  // a longer line would not be written over
     open_ = true;
   } else {

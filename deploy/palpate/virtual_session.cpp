@@ -91,9 +91,11 @@ nlohmann::json VirtualSession::finish() {
   for (std::size_t n = 0; n < hands_.size(); ++n) {
     const haptic::FaultCause cause = hands_[n]->fault_cause();
     if (cause == haptic::FaultCause::none) continue;
-    faults.push_back(fmt::format("{}: fault: {}; no force since then", scene_.tools[n].name, haptic::text_of(cause)));
-    summary["haptic"]["fault_causes"].push_back(
-        {{"tool", scene_.tools[n].name}, {"cause", haptic::name_of(cause)}, {"text", haptic::text_of(cause)}});
+    faults.push_back(
+        fmt::format("{}: fault: {}; no force since then", scene_.tools[n].name, haptic::text_of(cause)));
+    summary["haptic"]["fault_causes"].push_back({{"tool", scene_.tools[n].name},
+                                                 {"cause", haptic::name_of(cause)},
+                                                 {"text", haptic::text_of(cause)}});
   }
   add_warnings(summary, faults);
   if (eye_) summary["render"] = eye_->summary(wall_s_);

@@ -11,13 +11,13 @@ namespace palpate::haptic {
 
 /// One look at a device, in the world frame.
 struct DeviceSample {
-  bool has_new = false;                                   // false: the device had nothing newer
-  bool lost = false;                                      // unplugged
-  std::uint32_t fault = 0;                                // HDEV_FAULT_*
-  FaultCause trouble = FaultCause::none;                  // that the host has found by itself
-  double temperature = -1;  // of the hottest motor, 1 = its limit; below 0: unknown
-  std::int64_t t_ns = 0;                                  // when it was measured
-  Vec3 x = Vec3::Zero();                                  // tip [m]
+  bool has_new = false;                   // false: the device had nothing newer
+  bool lost = false;                      // unplugged
+  std::uint32_t fault = 0;                // HDEV_FAULT_*
+  FaultCause trouble = FaultCause::none;  // that the host has found by itself
+  double temperature = -1;                // of the hottest motor, 1 = its limit; below 0: unknown
+  std::int64_t t_ns = 0;                  // when it was measured
+  Vec3 x = Vec3::Zero();                  // tip [m]
   Eigen::Quaterniond q = Eigen::Quaterniond::Identity();  // attitude, unit
   bool is_rotation = true;                                // false: what the device calls its attitude is none
   bool powered = false;                                   // motors on

@@ -58,7 +58,8 @@ Device::Device(const DriverLibrary& library, const Options& options, ClockFuncti
   };
 
   const auto pairs = static_cast<std::uint32_t>(kv.size() / 2);
-  if (api_->open(host_.get(), words_.id.c_str(), kv.data(), pairs, &handle_) != HDEV_OK || handle_ == nullptr) {
+  if (api_->open(host_.get(), words_.id.c_str(), kv.data(), pairs, &handle_) != HDEV_OK ||
+      handle_ == nullptr) {
     handle_ = nullptr;
     refuse(api_->last_error(nullptr));
   }

@@ -37,11 +37,10 @@ bool is_driver_name(const std::string& name) {
   for (const auto& folder : folders) searched.push_back(folder.string());
   const auto present = drivers_present(folders);
   const auto meant = near_miss(name, present);
-  throw InputError(
-      fmt::format("{}{}driver \"{}\": {}; {}searched {}; drivers there: {}", place, place.empty() ? "" : ": ",
-                  name, why, meant && *meant != name ? fmt::format("did you mean \"{}\"? ", *meant) : "",
-                  fmt::join(searched, ", "),
-                  present.empty() ? std::string("none") : fmt::format("{}", fmt::join(present, ", "))));
+  throw InputError(fmt::format(
+      "{}{}driver \"{}\": {}; {}searched {}; drivers there: {}", place, place.empty() ? "" : ": ", name, why,
+      meant && *meant != name ? fmt::format("did you mean \"{}\"? ", *meant) : "", fmt::join(searched, ", "),
+      present.empty() ? std::string("none") : fmt::format("{}", fmt::join(present, ", "))));
 }
 
 /// The first function that the table lacks, or null.

@@ -275,7 +275,8 @@ int HapticNode::leave() {
   try {
     const LoopStats* stats = loop_->stats();
     if (!options_.out.empty())
-      write_haptic_summary(options_.out, stats == nullptr ? LoopStats() : *stats, tools_, said_.lines(), *wire_);
+      write_haptic_summary(options_.out, stats == nullptr ? LoopStats() : *stats, tools_, said_.lines(),
+                           *wire_);
   } catch (const std::runtime_error& error) {  // a disk that has filled up is nobody's mistake
     log_error("{}", error.what());
     kept = false;

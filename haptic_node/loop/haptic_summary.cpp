@@ -79,9 +79,8 @@ nlohmann::json haptic_summary(const LoopStats& stats, const std::vector<SessionR
   return {{"haptic", haptic}};
 }
 
-void write_haptic_summary(const std::string& out, const LoopStats& stats,
-                          const std::vector<ToolWatch>& tools, const std::vector<std::string>& warnings,
-                          const Wire& wire) {
+void write_haptic_summary(const std::string& out, const LoopStats& stats, const std::vector<ToolWatch>& tools,
+                          const std::vector<std::string>& warnings, const Wire& wire) {
   std::error_code already;  // write_json says what is wrong with the folder
   std::filesystem::create_directories(out + "/parts", already);
   std::vector<SessionReport> reports;

@@ -21,8 +21,7 @@ nlohmann::json haptic_summary(const LoopStats& stats, const std::vector<SessionR
                               std::uint64_t trace_lost, const std::vector<FaultRecord>& faults = {});
 
 /// Writes it, what was said of trouble, and what went over the wire, to OUT/parts/haptic.json. @throws InputError as write_json does
-void write_haptic_summary(const std::string& out, const LoopStats& stats,
-                          const std::vector<ToolWatch>& tools, const std::vector<std::string>& warnings,
-                          const Wire& wire);
+void write_haptic_summary(const std::string& out, const LoopStats& stats, const std::vector<ToolWatch>& tools,
+                          const std::vector<std::string>& warnings, const Wire& wire);
 
 }  // namespace palpate::haptic

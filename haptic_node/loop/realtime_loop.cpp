@@ -60,7 +60,8 @@ void RealtimeLoop::tick_tool(ToolChannel& channel, HapticSession& session, std::
   if (to_us) stats_.loop_age.add(1e3 * seconds_from_ns(woke_ns - patch->answers_ns));
   const ToolWrench* wrench = channel.wrenches.newest();
   // Looked at after the answers: who spoke them has been written down before.
-  if (const auto physics = channel.physics.load(std::memory_order_acquire); physics != channel.physics_heard) {
+  if (const auto physics = channel.physics.load(std::memory_order_acquire);
+      physics != channel.physics_heard) {
     channel.physics_heard = physics;
     session.listen_anew();
   }

@@ -18,7 +18,7 @@ struct FaultRecord {
   std::string tool;
   double t = 0;  // since the loop began [s]
   FaultCause cause = FaultCause::none;
-  std::string words;  // of the driver; empty: it says nothing
+  std::string words;       // of the driver; empty: it says nothing
   bool may_force = false;  // its motors could not be shown to be off
 };
 

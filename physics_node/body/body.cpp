@@ -85,8 +85,7 @@ void hold_masses(const BodySpec& spec, Body& body) {
   }
   for (const Index cell : lattice.masses) {
     const bool touches_scenery = body.cells && touches_rigid_cell(*body.cells, lattice, cell);
-    if (!touches_scenery && !frame.is_on(depth, cell) &&
-        !is_in_box(spec, lattice.rest_position(cell)))
+    if (!touches_scenery && !frame.is_on(depth, cell) && !is_in_box(spec, lattice.rest_position(cell)))
       continue;
     body.inverse_mass[static_cast<std::size_t>(cell)] = 0;
     ++body.n_held;

@@ -5,7 +5,10 @@
 namespace palpate::physics {
 
 ContactImpulses::ContactImpulses(const std::vector<ContactBody>& bodies)
-    : first_(first_candidates(bodies)), taken_(bodies.size()), felt_(bodies.size(), 0), count_(bodies.size(), 1) {
+    : first_(first_candidates(bodies)),
+      taken_(bodies.size()),
+      felt_(bodies.size(), 0),
+      count_(bodies.size(), 1) {
   const std::size_t n = first_.back();
   dv_.assign(n, Vec3::Zero());
   is_touched_.assign(n, 0);

@@ -66,11 +66,13 @@ InsideOthers::InsideOthers(const BodyModels& bodies)
 void InsideOthers::find_box(Other& body) noexcept {
   body.box = body.scenery;
   const auto& masses = body.moving->body().lattice.masses;
-  for (std::size_t n = 0; n < masses.size(); ++n) body.box.extend(body.rest[n] + body.moving->displacement(masses[n]));
+  for (std::size_t n = 0; n < masses.size(); ++n)
+    body.box.extend(body.rest[n] + body.moving->displacement(masses[n]));
 }
 
 /// Takes those masses of a body that lie in a box. @param apart  null: whatever piece they belong to
-void InsideOthers::take_points(const Other& of, const Eigen::AlignedBox3d& box, const Fragments* apart) noexcept {
+void InsideOthers::take_points(const Other& of, const Eigen::AlignedBox3d& box,
+                               const Fragments* apart) noexcept {
   point_.clear(), piece_.clear();
   near_.setEmpty();
   if (box.isEmpty()) return;
@@ -136,7 +138,8 @@ void InsideOthers::mark_in_volumes(const Other& outer, const Fragments* apart) n
       std::array<Vec3, 6> x;
       for (std::size_t c = 0; c < volume.corner.size(); ++c) x[c] = moving.position(cell + volume.corner[c]);
       const Index piece = apart != nullptr ? apart->label(cell) : any_piece;
-      for (const auto& t : volume.tetrahedra) mark_in_tetrahedron({x[t[0]], x[t[1]], x[t[2]], x[t[3]]}, piece);
+      for (const auto& t : volume.tetrahedra)
+        mark_in_tetrahedron({x[t[0]], x[t[1]], x[t[2]], x[t[3]]}, piece);
     }
   }
 }

@@ -37,7 +37,8 @@ OutcomeMeasures measure_outcome(const BodyModel& moving, const Fragments* fragme
   if (counts.elements > 0)
     m.broken = 1 - static_cast<double>(counts.live_elements) / static_cast<double>(counts.elements);
   if (m.broken > 0)
-    m.cut = static_cast<double>(counts.elements - counts.live_elements) / static_cast<double>(middle_section(lattice));
+    m.cut = static_cast<double>(counts.elements - counts.live_elements) /
+            static_cast<double>(middle_section(lattice));
   m.yielded = static_cast<double>(counts.yielded_masses) / static_cast<double>(lattice.n_masses());
   const double size = radius_of_gyration(lattice);
   double shape = counts.shape_rms;

@@ -23,7 +23,9 @@ std::int64_t middle_section(const Lattice& lattice) {
     const double h = axis.dot(lattice.rest_position(cell)) - height;
     Mask half = lattice.mask[static_cast<std::size_t>(cell)] & ((Mask{1} << lattice.n_half) - 1);
     for (; half != 0; half &= half - 1)
-      if ((h < 0) != (h + axis.dot(lattice.rest_vector[static_cast<std::size_t>(std::countr_zero(half))]) < 0)) ++crossing;
+      if ((h < 0) !=
+          (h + axis.dot(lattice.rest_vector[static_cast<std::size_t>(std::countr_zero(half))]) < 0))
+        ++crossing;
   }
   return std::max<std::int64_t>(crossing, 1);
 }

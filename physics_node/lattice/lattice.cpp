@@ -105,8 +105,8 @@ double Lattice::total_share() const {
 
 Index Lattice::mass_at(const Vec3i& grid) const {
   const Index room = (kind == LatticeKind::fcc ? pitch : pitch / 2) - lanes;
-  const bool inside = (grid.array() >= 0).all() && grid.x() / 2 < room && grid.y() < size.y() - 2 &&
-                      grid.z() < size.z() - 2;
+  const bool inside =
+      (grid.array() >= 0).all() && grid.x() / 2 < room && grid.y() < size.y() - 2 && grid.z() < size.z() - 2;
   if (!inside) return -1;
   const Index cell = cell_of(grid);
   return mass_share[static_cast<std::size_t>(cell)] > 0 ? cell : -1;
@@ -142,7 +142,8 @@ Lattice make_lattice(LatticeKind kind, const Vec3i& extent, const Vec3& origin, 
     for (int row = 0; row < 2 * rows_per_y; ++row) {
       // Any grid coordinate in a row of this kind will do.
       const int parity = row % 2;
-      const Vec3i at = kind == LatticeKind::fcc ? Vec3i(2 + parity, 2 + parity, 2) : Vec3i(2 + row / 2, 2, 2 + parity);
+      const Vec3i at =
+          kind == LatticeKind::fcc ? Vec3i(2 + parity, 2 + parity, 2) : Vec3i(2 + row / 2, 2, 2 + parity);
       const Index offset = lattice.cell_of(at + delta) - lattice.cell_of(at);
       lattice.offset[static_cast<std::size_t>(row)][n] = offset;
       // Diagonals of voxels join masses of even X + Y + Z.
@@ -164,8 +165,7 @@ void index_masses(Lattice& lattice) {
     if (lattice.mass_share[static_cast<std::size_t>(cell)] <= 0) continue;
     lattice.masses.push_back(cell);
     // A short gap in a row is stepped over: its empty cells stay empty, and runs never share a vector of cells.
-    const bool extends = !lattice.rows.empty() &&
-                         lattice.rows.back().first / row_cells == cell / row_cells &&
+    const bool extends = !lattice.rows.empty() && lattice.rows.back().first / row_cells == cell / row_cells &&
                          cell < lattice.rows.back().first + lattice.rows.back().count + lanes;
     if (extends) {
       lattice.rows.back().count = cell - lattice.rows.back().first + 1;

@@ -5,7 +5,8 @@ namespace {
 
 Vec3i point_of(const Lattice& lattice, int row_kind) {
   const int parity = row_kind % 2;
-  return lattice.kind == LatticeKind::fcc ? Vec3i(4 + parity, 4 + parity, 4) : Vec3i(4 + row_kind / 2, 4, 4 + parity);
+  return lattice.kind == LatticeKind::fcc ? Vec3i(4 + parity, 4 + parity, 4)
+                                          : Vec3i(4 + row_kind / 2, 4, 4 + parity);
 }
 
 }  // namespace

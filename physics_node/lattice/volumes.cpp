@@ -27,7 +27,8 @@ void add_tetrahedra(const Surroundings& around, std::vector<VolumePattern>& patt
   for (std::size_t a = 0; a < near.size(); ++a)
     for (std::size_t b = a + 1; b < near.size(); ++b)
       for (std::size_t c = b + 1; c < near.size(); ++c) {
-        if (!around.element(near[a], near[b]) || !around.element(near[b], near[c]) || !around.element(near[a], near[c]))
+        if (!around.element(near[a], near[b]) || !around.element(near[b], near[c]) ||
+            !around.element(near[a], near[c]))
           continue;
         patterns.push_back(pattern_of(around, {Vec3i::Zero(), near[a], near[b], near[c]}));
         patterns.back().tetrahedra = {{0, 1, 2, 3}};
@@ -64,7 +65,8 @@ void add_octahedron(const Surroundings& around, std::size_t missing, std::vector
     pattern.tetrahedra = {{apex, ring[0], ring[1], ring[2]}, {apex, ring[0], ring[2], ring[3]}};
     pattern.lacks = round_a_site[missing] - first;
   } else {
-    for (std::size_t n = 0; n < 4; ++n) pattern.tetrahedra.push_back({number(0), number(1), ring[n], ring[(n + 1) % 4]});
+    for (std::size_t n = 0; n < 4; ++n)
+      pattern.tetrahedra.push_back({number(0), number(1), ring[n], ring[(n + 1) % 4]});
   }
   patterns.push_back(std::move(pattern));
 }

@@ -16,11 +16,12 @@
 namespace palpate::physics {
 
 struct VolumePattern {
-  std::vector<Index> corner;                             // from the one that comes first in storage, which is the first: 0
-  std::vector<Need> needs;                               // all its elements; a mass is needed only after one that shows it to exist
-  std::vector<std::array<std::uint8_t, 4>> tetrahedra;   // numbers of corners
-  Vec3i lowest = Vec3i::Zero();                          // least coordinates of the corners, from the first: names the cell of a voxel
-  std::optional<Vec3i> lacks;                            // from the first corner: the mass that is not there
+  std::vector<Index> corner;  // from the one that comes first in storage, which is the first: 0
+  std::vector<Need> needs;    // all its elements; a mass is needed only after one that shows it to exist
+  std::vector<std::array<std::uint8_t, 4>> tetrahedra;  // numbers of corners
+  Vec3i lowest =
+      Vec3i::Zero();           // least coordinates of the corners, from the first: names the cell of a voxel
+  std::optional<Vec3i> lacks;  // from the first corner: the mass that is not there
 };
 
 /// By row kind. Every volume of the lattice is found once, from its first corner.

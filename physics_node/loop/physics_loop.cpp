@@ -63,9 +63,11 @@ PhysicsLoop::PhysicsLoop(const NodeOptions& options, const Scene& scene)
   }
   Index masses = 0;
   for (std::size_t b = 0; b < world_->n_bodies(); ++b) masses += world_->body(b).body().lattice.n_masses();
-  log_info("{} masses, step {:.3f} ms of at most {:.3f}, {} thread(s) at most, {} visible facets, loaded in {:.2f} s",
-           masses, 1e3 * world_->step_seconds(), 1e3 * world_->stable_step_seconds(), world_->threads(),
-           appearance_->facets_visible(), seconds_from_ns(now_ns() - begin));
+  log_info(
+      "{} masses, step {:.3f} ms of at most {:.3f}, {} thread(s) at most, {} visible facets, loaded in "
+      "{:.2f} s",
+      masses, 1e3 * world_->step_seconds(), 1e3 * world_->stable_step_seconds(), world_->threads(),
+      appearance_->facets_visible(), seconds_from_ns(now_ns() - begin));
   for (const auto& remark : world_->remarks()) {
     log_warn("{}", remark);
     note(remark);

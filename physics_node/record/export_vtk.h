@@ -10,8 +10,8 @@
 namespace palpate::physics {
 
 struct VtkWish {
-  std::filesystem::path folder;        // record.pvd and vtk/ are made in it
-  double rate_Hz = 10;                 // of the times written, at most those recorded
+  std::filesystem::path folder;            // record.pvd and vtk/ are made in it
+  double rate_Hz = 10;                     // of the times written, at most those recorded
   std::uint64_t most_bytes = 200'000'000;  // fewer times are written where they would take more
 };
 

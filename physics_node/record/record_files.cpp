@@ -45,7 +45,8 @@ std::FILE* Recorder::make_csv(const std::string& name, const char* heading) {
 
 void Recorder::make_files(const World& world, const SceneSource& source) {
   for (const auto& name : tool_names_)
-    make_csv(trace_name(name), "t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm,contacts,"
+    make_csv(trace_name(name),
+             "t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm,contacts,"
              "raw_fx_N,raw_fy_N,raw_fz_N,raw_mx_Nm,raw_my_Nm,raw_mz_Nm");
   if (spec_.energy)
     energy_csv_ =

@@ -76,8 +76,14 @@ void Recorder::note_tools(const World& world) noexcept {
   for (std::uint32_t n = 0; n < tallies_.size(); ++n) {
     const Tool& tool = world.tool(n);
     const Wrench now = tool.wrench(), raw = tool.raw_wrench();
-    ToolRow row{n, tool.contacts(), world.t(), array(tool.tip()), array(now.force), array(now.moment),
-                array(raw.force), array(raw.moment)};
+    ToolRow row{n,
+                tool.contacts(),
+                world.t(),
+                array(tool.tip()),
+                array(now.force),
+                array(now.moment),
+                array(raw.force),
+                array(raw.moment)};
     Tally& tally = tallies_[n];
     tally.peak = std::max(tally.peak, now.force.norm());
     tally.moment_peak = std::max(tally.moment_peak, std::hypot(row.moment[0], row.moment[1], row.moment[2]));

@@ -20,8 +20,9 @@ namespace palpate::physics {
 
 inline constexpr std::int64_t frames_between_hashes = 20;
 inline constexpr std::uint64_t most_kept_bytes = std::uint64_t{512}
-                                                 << 20;            // of the files of a scene, together
-inline constexpr std::uint64_t index_width = 7, state_width = 25;  // columns of /session/inputs/NAME/index and state
+                                                 << 20;  // of the files of a scene, together
+inline constexpr std::uint64_t index_width = 7,
+                               state_width = 25;  // columns of /session/inputs/NAME/index and state
 
 class SessionLog {
  public:
@@ -80,7 +81,7 @@ class SessionLog {
 
   Hdf5File& file_;
   std::unique_ptr<SpscRing<Entry, n_entries>> entries_;
-  bool lost_ = false;                  // an entry found no room: nothing is told any more
+  bool lost_ = false;                       // an entry found no room: nothing is told any more
   std::vector<std::optional<Entry>> told_;  // newest input of each tool
   std::int64_t broken_ = 0, restored_ = 0;
 

@@ -48,7 +48,8 @@ class SessionRecord {
 
   /// What physics got from the hands in frame `frame`. Call it for frames in order, from 0 on.
   /// @param tools  of the scene, in order; out: the newest state of each, absent where its hand was silent
-  void inputs(std::uint64_t frame, const std::vector<ToolSpec>& specs, std::span<std::optional<ToolState>> tools);
+  void inputs(std::uint64_t frame, const std::vector<ToolSpec>& specs,
+              std::span<std::optional<ToolState>> tools);
 
  private:
   struct Track {

@@ -17,7 +17,8 @@ std::string who(const Scene& scene, std::size_t b) {
 }
 
 bool anything_moves(const Scene& scene) {
-  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const BodySpec& body) { return !body.velocity.isZero(); });
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                     [](const BodySpec& body) { return !body.velocity.isZero(); });
 }
 
 void add_holds(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
@@ -26,19 +27,26 @@ void add_holds(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
     const BodySpec& spec = scene.bodies[b];
     if (is_tool(scene, body)) continue;
     if (body.n_held == body.lattice.n_masses())
-      remarks.push_back(who(scene, b) + " is held at all of its masses: nothing of it moves; hold a face, or a smaller box");
+      remarks.push_back(who(scene, b) +
+                        " is held at all of its masses: nothing of it moves; hold a face, or a smaller box");
     for (const FixedBox& box : spec.fixed_boxes) {
       const Eigen::AlignedBox3d held(box.min, box.max);
-      const bool any = std::any_of(body.lattice.masses.begin(), body.lattice.masses.end(),
-                                   [&](Index cell) { return held.contains(body.lattice.rest_position(cell)); });
-      if (!any) remarks.push_back(who(scene, b) + ": a box of \"fixed\" holds none of its masses; lengths are in millimetres");
+      const bool any = std::any_of(body.lattice.masses.begin(), body.lattice.masses.end(), [&](Index cell) {
+        return held.contains(body.lattice.rest_position(cell));
+      });
+      if (!any)
+        remarks.push_back(who(scene, b) +
+                          ": a box of \"fixed\" holds none of its masses; lengths are in millimetres");
     }
     if (body.n_held > 0) continue;
     if (falls_for_ever(scene))
-      remarks.push_back(who(scene, b) + " falls: nothing holds it and nothing lies below; give it fixed = [\"-z\"], a [floor], or "
-                                        "gravity_m_per_s2 = [0, 0, 0]");
+      remarks.push_back(
+          who(scene, b) +
+          " falls: nothing holds it and nothing lies below; give it fixed = [\"-z\"], a [floor], or "
+          "gravity_m_per_s2 = [0, 0, 0]");
     else if (scene.gravity.isZero() && !scene.floor && scene.walls.empty() && !anything_moves(scene))
-      remarks.push_back(who(scene, b) + " drifts away once it is touched: nothing holds it; give it fixed = [\"-z\"]");
+      remarks.push_back(who(scene, b) +
+                        " drifts away once it is touched: nothing holds it; give it fixed = [\"-z\"]");
   }
 }
 
@@ -52,14 +60,17 @@ void add_voxels(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
     const DeformableRegion& region = image->deformable;
     const auto [i, j, k] = region.center_voxel;
     if (!region.all && !region.gravity_center && !cells.inside(i, j, k))
-      remarks.push_back(fmt::format("{}: center_voxel = [{}, {}, {}] lies outside its {} x {} x {} cells; they count from 0, in the "
-                                    "partition",
-                                    who(scene, b), i, j, k, cells.size.x(), cells.size.y(), cells.size.z()));
+      remarks.push_back(fmt::format(
+          "{}: center_voxel = [{}, {}, {}] lies outside its {} x {} x {} cells; they count from 0, in the "
+          "partition",
+          who(scene, b), i, j, k, cells.size.x(), cells.size.y(), cells.size.z()));
     const double filled = static_cast<double>(cells.n_filled()) / static_cast<double>(cells.filled.size());
     if (filled > most_filled)
-      remarks.push_back(fmt::format("{}: \"keep\" takes {:.0f} % of the image, the air round the tissue as well, it seems; palpate info "
-                                    "shows how intensities are spread",
-                                    who(scene, b), 100 * filled));
+      remarks.push_back(
+          fmt::format("{}: \"keep\" takes {:.0f} % of the image, the air round the tissue as well, it seems; "
+                      "palpate info "
+                      "shows how intensities are spread",
+                      who(scene, b), 100 * filled));
   }
 }
 
@@ -80,7 +91,8 @@ void add_planes(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
         if (body.inverse_mass[static_cast<std::size_t>(cell)] > 0)
           deepest = std::max(deepest, (plane.point - body.lattice.rest_position(cell)).dot(plane.normal));
       if (deepest > 0.5 * body.lattice.spacing())
-        remarks.push_back(fmt::format("{} begins {:.3g} mm {}; move it by its at_mm", who(scene, b), 1e3 * deepest, plane.what));
+        remarks.push_back(fmt::format("{} begins {:.3g} mm {}; move it by its at_mm", who(scene, b),
+                                      1e3 * deepest, plane.what));
     }
   }
 }
@@ -101,10 +113,12 @@ void add_overlaps(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
       const Enclosure enclosure(*bodies[b]);
       const std::size_t stride = 1 + places.size() / most_looked_at;
       std::size_t inside = 0;
-      for (std::size_t n = 0; n < places.size(); n += stride) inside += enclosure.contains(places[n]) ? stride : 0;
+      for (std::size_t n = 0; n < places.size(); n += stride)
+        inside += enclosure.contains(places[n]) ? stride : 0;
       if (inside > 0)
-        remarks.push_back(fmt::format("{} begins inside body \"{}\" with some {} of its masses; move one of them by its at_mm",
-                                      who(scene, a), outer.name, inside));
+        remarks.push_back(fmt::format(
+            "{} begins inside body \"{}\" with some {} of its masses; move one of them by its at_mm",
+            who(scene, a), outer.name, inside));
     }
 }
 

@@ -18,8 +18,10 @@ constexpr double softest_Pa = 50, stiffest_Pa = 1e8;  // a jelly; past it lies b
 constexpr double lightest = 50, heaviest = 25000;     // [kg/m^3]: lung; tungsten
 constexpr double smallest_m = 1e-3, largest_m = 5;    // of a body
 constexpr double most_gravity = 50;                   // [m/s^2]
-constexpr double slowest_frame_Hz = 50;  // Why: below, three patch periods are so long that the hand is often without an answer
-constexpr int busy_steps_a_frame = 300;  // Why: even a thousand masses then take longer than the frame on one core
+constexpr double slowest_frame_Hz =
+    50;  // Why: below, three patch periods are so long that the hand is often without an answer
+constexpr int busy_steps_a_frame =
+    300;  // Why: even a thousand masses then take longer than the frame on one core
 
 /// A scene need not have the table.
 std::string place_of_physics(const Scene& scene) {
@@ -31,16 +33,19 @@ void add_materials(const Scene& scene, Remarks& remarks) {
   for (const MaterialSpec& material : scene.materials) {
     const std::string who = fmt::format("{}: material \"{}\"", material.place.text(), material.name);
     if (material.modulus && *material.modulus < softest_Pa)
-      remarks.push_back(fmt::format("{} has a modulus of {:.3g} kPa, softer than jelly; tissue has 0.5 to 1000 (the key is in kPa, "
-                                    "not MPa)",
-                                    who, 1e-3 * *material.modulus));
+      remarks.push_back(fmt::format(
+          "{} has a modulus of {:.3g} kPa, softer than jelly; tissue has 0.5 to 1000 (the key is in kPa, "
+          "not MPa)",
+          who, 1e-3 * *material.modulus));
     if (material.modulus && *material.modulus > stiffest_Pa)
-      remarks.push_back(fmt::format("{} has a modulus of {:.3g} kPa, as stiff as bone; tissue has 0.5 to 1000 (the key is in kPa, "
-                                    "not Pa)",
-                                    who, 1e-3 * *material.modulus));
+      remarks.push_back(fmt::format(
+          "{} has a modulus of {:.3g} kPa, as stiff as bone; tissue has 0.5 to 1000 (the key is in kPa, "
+          "not Pa)",
+          who, 1e-3 * *material.modulus));
     if (material.density && (*material.density < lightest || *material.density > heaviest))
-      remarks.push_back(fmt::format("{} has a density of {:.3g} kg/m^3; tissue has about 1000 (g/cm^3 times 1000)", who,
-                                    *material.density));
+      remarks.push_back(
+          fmt::format("{} has a density of {:.3g} kg/m^3; tissue has about 1000 (g/cm^3 times 1000)", who,
+                      *material.density));
   }
 }
 
@@ -49,8 +54,8 @@ void add_sizes(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
     const Body& body = bodies[b]->body();
     const double size = box_of(body).sizes().maxCoeff();
     if (size < smallest_m || size > largest_m)
-      remarks.push_back(fmt::format("{}: body \"{}\" measures {:.3g} mm; lengths are in millimetres", scene.bodies[b].place.text(),
-                                    body.name, 1e3 * size));
+      remarks.push_back(fmt::format("{}: body \"{}\" measures {:.3g} mm; lengths are in millimetres",
+                                    scene.bodies[b].place.text(), body.name, 1e3 * size));
   }
 }
 
@@ -59,17 +64,20 @@ void add_sizes(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
 Remarks number_remarks(const Scene& scene, const Bodies& bodies, int steps_a_frame) {
   Remarks remarks;
   if (scene.gravity.norm() > most_gravity)
-    remarks.push_back(fmt::format("{}: gravity is {:.4g} m/s^2; that of the earth is 9.81 (the key is in m/s^2, not mm/s^2)",
-                                  scene.path, scene.gravity.norm()));
+    remarks.push_back(fmt::format(
+        "{}: gravity is {:.4g} m/s^2; that of the earth is 9.81 (the key is in m/s^2, not mm/s^2)",
+        scene.path, scene.gravity.norm()));
   if (scene.gravity.z() > 0)
     remarks.push_back(fmt::format("{}: gravity points up, [0, 0, -9.81] points down", scene.path));
   if (!scene.tools.empty() && scene.physics.frame_Hz < slowest_frame_Hz)
-    remarks.push_back(fmt::format("{}: at {:.4g} frames a second the hand is often without an answer; frame_Hz = 1000 is usual",
-                                  place_of_physics(scene), scene.physics.frame_Hz));
+    remarks.push_back(fmt::format(
+        "{}: at {:.4g} frames a second the hand is often without an answer; frame_Hz = 1000 is usual",
+        place_of_physics(scene), scene.physics.frame_Hz));
   if (steps_a_frame > busy_steps_a_frame)
-    remarks.push_back(fmt::format("{}: {} steps a frame are too many for real time; larger cells, softer or heavier material, or "
-                                  "integrator = \"backward_euler\" take fewer",
-                                  place_of_physics(scene), steps_a_frame));
+    remarks.push_back(fmt::format(
+        "{}: {} steps a frame are too many for real time; larger cells, softer or heavier material, or "
+        "integrator = \"backward_euler\" take fewer",
+        place_of_physics(scene), steps_a_frame));
   add_materials(scene, remarks);
   add_sizes(scene, bodies, remarks);
   return remarks;

@@ -19,8 +19,8 @@ Remarks picture_remarks(const Scene& scene, const Bodies& bodies) {
   if (box.isEmpty() || !(radius > 0) || !camera.distance) return {};
   const Vec3 target = camera.target.value_or(box.center());
   // Yaw 0 stands on the -y side (render_node/view/camera.h).
-  const Vec3 back(std::sin(camera.yaw) * std::cos(camera.pitch), -std::cos(camera.yaw) * std::cos(camera.pitch),
-                  std::sin(camera.pitch));
+  const Vec3 back(std::sin(camera.yaw) * std::cos(camera.pitch),
+                  -std::cos(camera.yaw) * std::cos(camera.pitch), std::sin(camera.pitch));
   const Vec3 eye = target + *camera.distance * back, to = box.center() - eye;
   const double away = to.norm();
   const std::string place = scene.path + ": [render] camera";
@@ -29,13 +29,17 @@ Remarks picture_remarks(const Scene& scene, const Bodies& bodies) {
   const double half = std::atan(std::tan(0.5 * camera.field_of_view) * std::max(1.0, wide));
   const double off = std::acos(std::clamp(-to.dot(back) / away, -1.0, 1.0)), ball = std::asin(radius / away);
   if (off > half + ball)
-    return {fmt::format("{} looks past all bodies, which lie {:.0f} degrees aside; leave target_mm out, or give their middle [{:.4g}, "
-                        "{:.4g}, {:.4g}]",
-                        place, off * 180 / M_PI, 1e3 * box.center().x(), 1e3 * box.center().y(), 1e3 * box.center().z())};
+    return {fmt::format(
+        "{} looks past all bodies, which lie {:.0f} degrees aside; leave target_mm out, or give their middle "
+        "[{:.4g}, "
+        "{:.4g}, {:.4g}]",
+        place, off * 180 / M_PI, 1e3 * box.center().x(), 1e3 * box.center().y(), 1e3 * box.center().z())};
   constexpr double smallest = 0.02;  // of the picture's height
   if (ball / (0.5 * camera.field_of_view) < smallest)
-    return {fmt::format("{} stands {:.3g} m from bodies of {:.3g} m, which are a dot in the picture; distance_mm is in millimetres", place,
-                        away, 2 * radius)};
+    return {
+        fmt::format("{} stands {:.3g} m from bodies of {:.3g} m, which are a dot in the picture; distance_mm "
+                    "is in millimetres",
+                    place, away, 2 * radius)};
   return {};
 }
 

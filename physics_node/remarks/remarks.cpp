@@ -38,7 +38,8 @@ bool falls_for_ever(const Scene& scene) {
   if (scene.gravity.isZero()) return false;
   const auto stops = [&](const Vec3& normal) { return normal.dot(scene.gravity) < 0; };
   return !(scene.floor && stops(Vec3::UnitZ())) &&
-         std::none_of(scene.walls.begin(), scene.walls.end(), [&](const WallSpec& wall) { return stops(wall.normal); });
+         std::none_of(scene.walls.begin(), scene.walls.end(),
+                      [&](const WallSpec& wall) { return stops(wall.normal); });
 }
 
 bool is_tool(const Scene& scene, const Body& body) {

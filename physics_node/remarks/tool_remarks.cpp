@@ -16,9 +16,9 @@
 namespace palpate::physics {
 namespace {
 
-constexpr double fastest_hand = 3;      // [m/s]: a throw; pressing and cutting stay below 1
-constexpr double far_away = 10;         // times the size of the bodies
-constexpr double touch = 0.8;           // of the spacing: from anywhere on a facet a vertex is within 0.71 of it
+constexpr double fastest_hand = 3;  // [m/s]: a throw; pressing and cutting stay below 1
+constexpr double far_away = 10;     // times the size of the bodies
+constexpr double touch = 0.8;       // of the spacing: from anywhere on a facet a vertex is within 0.71 of it
 constexpr std::size_t most_samples = 4000;
 
 std::vector<Vec3> samples_of(const DeviceSpec& device, double apart) {
@@ -85,13 +85,17 @@ class ToolLook {
     const Vec3 start = device_.waypoints.front().p;
     const bool inside = tool_.shape != ToolShape::body && begins_inside(start);
     if (inside)
-      found.push_back(fmt::format("{} begins inside tissue, and forces come on only outside of it; begin its path outside", who()));
+      found.push_back(fmt::format(
+          "{} begins inside tissue, and forces come on only outside of it; begin its path outside", who()));
     const double away = box_.exteriorDistance(start), size = box_.diagonal().norm();
     if (away > far_away * size) {
-      found.push_back(fmt::format("{} begins {:.3g} m away from bodies of {:.3g} m; waypoints are in millimetres", who(), away, size));
+      found.push_back(
+          fmt::format("{} begins {:.3g} m away from bodies of {:.3g} m; waypoints are in millimetres", who(),
+                      away, size));
     } else if (!inside && !any_flies(scene_, bodies_) && !touches()) {
-      found.push_back(fmt::format("{}: its path never touches a body and stays {:.3g} mm away at the least; lead it to the surface", who(),
-                                  1e3 * least_distance()));
+      found.push_back(fmt::format(
+          "{}: its path never touches a body and stays {:.3g} mm away at the least; lead it to the surface",
+          who(), 1e3 * least_distance()));
     }
     add_pace(found);
     return found;
@@ -102,7 +106,8 @@ class ToolLook {
 
   bool begins_inside(const Vec3& start) const {
     return std::any_of(shape_.begin(), shape_.end(), [&](const Vec3& p) {
-      return std::any_of(others_.begin(), others_.end(), [&](const Enclosure& other) { return other.contains(start + p); });
+      return std::any_of(others_.begin(), others_.end(),
+                         [&](const Enclosure& other) { return other.contains(start + p); });
     });
   }
 
@@ -126,7 +131,8 @@ class ToolLook {
     const std::size_t stride = 1 + shape_.size() / 50;
     for (const Vec3& at : samples)
       for (const Enclosure& other : others_)
-        for (std::size_t n = 0; n < shape_.size(); n += stride) least = std::min(least, other.distance(at + shape_[n]));
+        for (std::size_t n = 0; n < shape_.size(); n += stride)
+          least = std::min(least, other.distance(at + shape_[n]));
     return least;
   }
 
@@ -135,13 +141,16 @@ class ToolLook {
     for (std::size_t n = 1; n < path.size(); ++n) {
       const double speed = (path[n].p - path[n - 1].p).norm() / (path[n].t - path[n - 1].t);
       if (speed <= fastest_hand) continue;
-      found.push_back(fmt::format("{} is led at {:.3g} m/s from {:.3g} to {:.3g} s, faster than a hand; waypoints are [s, mm, mm, mm]",
-                                  who(), speed, path[n - 1].t, path[n].t));
+      found.push_back(
+          fmt::format("{} is led at {:.3g} m/s from {:.3g} to {:.3g} s, faster than a hand; waypoints are "
+                      "[s, mm, mm, mm]",
+                      who(), speed, path[n - 1].t, path[n].t));
       break;
     }
     if (scene_.seconds && path.back().t > *scene_.seconds + 1e-9)
-      found.push_back(fmt::format("{}: its path takes {:.4g} s, the scene ends after {:.4g}; give [scene] seconds = {:.4g}", who(),
-                                  path.back().t, *scene_.seconds, path.back().t));
+      found.push_back(fmt::format(
+          "{}: its path takes {:.4g} s, the scene ends after {:.4g}; give [scene] seconds = {:.4g}", who(),
+          path.back().t, *scene_.seconds, path.back().t));
   }
 
   const Scene& scene_;

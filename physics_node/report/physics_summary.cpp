@@ -69,23 +69,18 @@ void add_momentum_errors(const World& world, nlohmann::json& part) {
 }
 
 nlohmann::json energy_part(const EnergyLedger& ledger) {
-  return {{"kinetic", ledger.kinetic},
-          {"elastic", ledger.elastic},
-          {"dissipated", ledger.dissipated},
-          {"gravitational", ledger.gravitational},
-          {"plastic", ledger.plastic},
-          {"broken", ledger.broken},
-          {"tool_work", ledger.tool_work},
-          {"guard", ledger.guard},
-          {"contact", ledger.contact},
-          {"numerical", ledger.numerical},
-          {"exchanged", ledger.exchanged},
-          {"balance_error", ledger.balance_error()}};
+  return {{"kinetic", ledger.kinetic},       {"elastic", ledger.elastic},
+          {"dissipated", ledger.dissipated}, {"gravitational", ledger.gravitational},
+          {"plastic", ledger.plastic},       {"broken", ledger.broken},
+          {"tool_work", ledger.tool_work},   {"guard", ledger.guard},
+          {"contact", ledger.contact},       {"numerical", ledger.numerical},
+          {"exchanged", ledger.exchanged},   {"balance_error", ledger.balance_error()}};
 }
 
 /// Depends on the machine and on what else it does; nothing else here but times does.
 nlohmann::json team_part(const TeamChoice& choice) {
-  return {{"mean_threads", choice.mean_threads()}, {"trials", choice.trials()}, {"changes", choice.changes()}};
+  return {
+      {"mean_threads", choice.mean_threads()}, {"trials", choice.trials()}, {"changes", choice.changes()}};
 }
 
 nlohmann::json stages_part(const StepReport& report) {
@@ -143,7 +138,8 @@ nlohmann::json physics_summary(const World& world, const Recorder* recorder, dou
       of_body["inside_others"] = inside->now(b);
       of_body["inside_others_max"] = inside->most(b);
     }
-    if (world.fragments(b) != nullptr) of_body["inside_own_pieces"] = inside->between_pieces(b, *world.fragments(b));
+    if (world.fragments(b) != nullptr)
+      of_body["inside_own_pieces"] = inside->between_pieces(b, *world.fragments(b));
     const Momenta p = moving.momenta();
     momenta.linear += p.linear;
     momenta.angular += p.angular;
@@ -176,7 +172,8 @@ nlohmann::json physics_summary(const World& world, const Recorder* recorder, dou
   if (recorder != nullptr) part["record"] = {{"dropped", recorder->dropped()}};
   part["warnings"] = nlohmann::json::array();
   add_warnings(part, all_warnings(world));
-  if (inside && inside->any() && !world.inside_others()->any()) add_warning(part, inside_text(world, *inside));
+  if (inside && inside->any() && !world.inside_others()->any())
+    add_warning(part, inside_text(world, *inside));
   count_warnings(part);
   return part;
 }

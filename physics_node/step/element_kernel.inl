@@ -27,8 +27,8 @@ inline __attribute__((always_inline)) typename Pack<Real>::V drag_of(const Eleme
 
 /// Held masses have inverse mass w zero: neither force nor gravity moves them. @param b  their drag
 template <class Real, class V>
-inline __attribute__((always_inline)) V acceleration_of(const ElementContext<Real>& m, const Masses<Real>& p, V w, V b,
-                                                        int a) {
+inline __attribute__((always_inline)) V acceleration_of(const ElementContext<Real>& m, const Masses<Real>& p,
+                                                        V w, V b, int a) {
   using P = Pack<Real>;
   const V gravity = w > V{} ? P::all(m.g[a]) : V{};
   return P::fma(P::fnma(b, p.v[a], p.f[a]), w, gravity);
@@ -37,7 +37,8 @@ inline __attribute__((always_inline)) V acceleration_of(const ElementContext<Rea
 /// Before a first step, or one of another dt: what K = m v(-) . v(+) / 2 becomes less, as v(+) becomes another. Velocity Verlet
 /// begins anew with v, and v(-) = 2 v - v(+); without a step before K is m v^2 / 2.
 template <class Real, bool verlet>
-__attribute__((noinline)) void watch_begin(const ElementContext<Real>& m, const Masses<Real>& p, Watched<Real>& watched) {
+__attribute__((noinline)) void watch_begin(const ElementContext<Real>& m, const Masses<Real>& p,
+                                           Watched<Real>& watched) {
   using P = Pack<Real>;
   using V = typename P::V;
   const V w = P::load(m.inverse_mass + p.i), b = drag_of(m, p.i);
@@ -58,7 +59,7 @@ __attribute__((noinline)) void watch_begin(const ElementContext<Real>& m, const 
 /// What the ledger is told of masses that have moved.
 template <class Real, bool verlet>
 __attribute__((noinline)) void watch_masses(const ElementContext<Real>& m, const Masses<Real>& p,
-                                                        Watched<Real>& watched) {
+                                            Watched<Real>& watched) {
   using P = Pack<Real>;
   using V = typename P::V;
   const V w = P::load(m.inverse_mass + p.i), b = drag_of(m, p.i);
@@ -68,7 +69,9 @@ __attribute__((noinline)) void watch_masses(const ElementContext<Real>& m, const
     v2 = P::fma(v, v, v2);
     a2 = P::fma(acceleration, acceleration, a2);
     const V after = verlet ? P::load(m.v_half[a] + p.i) : v;
-    const V before = !verlet ? p.v[a] : m.begins ? p.v[a] + p.v[a] - after : after - acceleration * P::all(m.dt);
+    const V before = !verlet    ? p.v[a]
+                     : m.begins ? p.v[a] + p.v[a] - after
+                                : after - acceleration * P::all(m.dt);
     vv = P::fma(before, after, vv);
     fallen = P::fma_all(P::load(m.u[a] + p.i), m.g[a], fallen);
     fallen_before = P::fma_all(p.u[a], m.g[a], fallen_before);
@@ -185,7 +188,8 @@ void step_row(const ElementContext<Real>& m, const RowSegment& row, const SlotLi
     (work > 0 ? ledger.viscous : ledger.numerical) += work;
   } else {
     ledger.viscous += dt * power;
-    if (__builtin_expect(m.begins, false)) ledger.numerical += (static_cast<double>(m.dt_before) - dt) * power;
+    if (__builtin_expect(m.begins, false))
+      ledger.numerical += (static_cast<double>(m.dt_before) - dt) * power;
   }
   if (__builtin_expect(m.begins, false)) ledger.numerical += static_cast<double>(P::sum(watched.begun));
   if (!m.watch) return;
@@ -209,22 +213,27 @@ void kernel(const ElementContext<Real>& m, Index first_row, Index last_row, Swee
   for (Index r = first_row; r < last_row; ++r) {
     if (m.row_state[r] == RowState::asleep) continue;
     const RowSegment row = m.rows[r];
-    step_row<Real, damper, yields, varied, verlet, exact>(m, row, lists[row.kind], sweep, m.row_state[r], m.ledger[r]);
+    step_row<Real, damper, yields, varied, verlet, exact>(m, row, lists[row.kind], sweep, m.row_state[r],
+                                                          m.ledger[r]);
   }
 }
 
 template <class Real, DamperKind damper, bool yields, bool varied>
 ElementKernel<Real> by_integrator(KernelKind kind) {
   if (kind.exact)
-    return kind.verlet ? &kernel<Real, damper, yields, varied, true, true> : &kernel<Real, damper, yields, varied, false, true>;
-  return kind.verlet ? &kernel<Real, damper, yields, varied, true, false> : &kernel<Real, damper, yields, varied, false, false>;
+    return kind.verlet ? &kernel<Real, damper, yields, varied, true, true>
+                       : &kernel<Real, damper, yields, varied, false, true>;
+  return kind.verlet ? &kernel<Real, damper, yields, varied, true, false>
+                     : &kernel<Real, damper, yields, varied, false, false>;
 }
 
 template <class Real, DamperKind damper>
 ElementKernel<Real> by_law(KernelKind kind) {
   if (kind.varied)
-    return kind.yields ? by_integrator<Real, damper, true, true>(kind) : by_integrator<Real, damper, false, true>(kind);
-  return kind.yields ? by_integrator<Real, damper, true, false>(kind) : by_integrator<Real, damper, false, false>(kind);
+    return kind.yields ? by_integrator<Real, damper, true, true>(kind)
+                       : by_integrator<Real, damper, false, true>(kind);
+  return kind.yields ? by_integrator<Real, damper, true, false>(kind)
+                     : by_integrator<Real, damper, false, false>(kind);
 }
 
 }  // namespace

@@ -16,12 +16,12 @@ namespace {
 template <class Real>
 struct Masses {
   using V = typename Pack<Real>::V;
-  Index i;                     // first cell
+  Index i;  // first cell
   typename Pack<Real>::I mask;
   V u[3], v[3], f[3];
-  V viscous{};                 // power lost in dampers so far [W]
-  V passed{};                  // the same as the step before did it: mean force then and now times motion; only exact [W]
-  V elastic{};                 // energy so far, only where it is watched [J]
+  V viscous{};  // power lost in dampers so far [W]
+  V passed{};   // the same as the step before did it: mean force then and now times motion; only exact [W]
+  V elastic{};  // energy so far, only where it is watched [J]
 };
 
 /// Where the masses' numbers stand: in registers, which stores into one of them cannot change.
@@ -48,12 +48,12 @@ typename Pack<Real>::V constant(const Real* of_each, Real of_all, Index owner) {
 
 /// By how much an element has become longer in the step that led here, dt l', and what its damper did in it after its last kick.
 struct LastStep {
-  double longer = 0;   // [m]
-  double damper = 0;   // [J]
+  double longer = 0;  // [m]
+  double damper = 0;  // [J]
 };
 template <class Real>
-__attribute__((noinline)) LastStep last_step(const ElementContext<Real>& m, const ElementSlot<Real>& e, Index i, Real stretch,
-                                             Real c) {
+__attribute__((noinline)) LastStep last_step(const ElementContext<Real>& m, const ElementSlot<Real>& e,
+                                             Index i, Real stretch, Real c) {
   Real seen = 0, moved = 0;
   for (int a = 0; a < 3; ++a) {
     const Real x = e.D[a] + m.u[a][i + e.offset] - m.u[a][i];
@@ -72,10 +72,12 @@ __attribute__((noinline)) LastStep last_step(const ElementContext<Real>& m, cons
 ///   s > snap: gone, with its elastic energy f_s^2 / (2 k1)
 /// @return the lanes that are gone, lane n as bit n
 template <class Real, bool varied>
-__attribute__((noinline)) unsigned commit_yield(const ElementContext<Real>& m, const ElementSlot<Real>& e, Index i,
-                                                typename Pack<Real>::I beyond, typename Pack<Real>::V stretch,
-                                                RowLedger& ledger) {
-  const auto pick = [&](const Real* of_each, Real of_all, Index owner) { return varied ? of_each[owner] : of_all; };
+__attribute__((noinline)) unsigned commit_yield(const ElementContext<Real>& m, const ElementSlot<Real>& e,
+                                                Index i, typename Pack<Real>::I beyond,
+                                                typename Pack<Real>::V stretch, RowLedger& ledger) {
+  const auto pick = [&](const Real* of_each, Real of_all, Index owner) {
+    return varied ? of_each[owner] : of_all;
+  };
   unsigned gone = 0;
   for (int lane = 0; lane < Pack<Real>::width; ++lane) {
     if (beyond[lane] == 0) continue;
@@ -102,15 +104,17 @@ __attribute__((noinline)) unsigned commit_yield(const ElementContext<Real>& m, c
 /// The same where something may be struck. With s_0 = s - dt l' the stretch one step ago, the trapezoid of the forces then and
 /// now took less than the path over the corner at s_y, by (k1 - k2) (s_y - s_0) (s - s_y) / 2.
 template <class Real, bool varied>
-__attribute__((noinline)) unsigned commit_exactly(const ElementContext<Real>& m, const ElementSlot<Real>& e, Index i,
-                                                  typename Pack<Real>::I beyond, typename Pack<Real>::V stretch,
-                                                  RowLedger& ledger) {
+__attribute__((noinline)) unsigned commit_exactly(const ElementContext<Real>& m, const ElementSlot<Real>& e,
+                                                  Index i, typename Pack<Real>::I beyond,
+                                                  typename Pack<Real>::V stretch, RowLedger& ledger) {
   for (int lane = 0; lane < Pack<Real>::width; ++lane) {
     if (beyond[lane] == 0) continue;
     const Index owner = i + e.memory + lane;
     const Real bend = varied ? m.k1[e.half][owner] - m.k2[e.half][owner] : e.k1 - e.k2;
-    const Real over = stretch[lane] - (varied ? m.yield[e.half][owner] : e.yield) - m.hardening[e.half][owner];
-    const double before = last_step<Real>(m, e, i + lane, stretch[lane], Real(0)).longer - static_cast<double>(over);
+    const Real over =
+        stretch[lane] - (varied ? m.yield[e.half][owner] : e.yield) - m.hardening[e.half][owner];
+    const double before =
+        last_step<Real>(m, e, i + lane, stretch[lane], Real(0)).longer - static_cast<double>(over);
     if (before > 0) ledger.numerical -= 0.5 * static_cast<double>(bend * over) * before;
   }
   return commit_yield<Real, varied>(m, e, i, beyond, stretch, ledger);
@@ -119,8 +123,8 @@ __attribute__((noinline)) unsigned commit_exactly(const ElementContext<Real>& m,
 /// Elements that have just broken do not pull any more, which leaves f_s (s - s_0) / 2, nor have their dampers their last half
 /// step. @param gone  their lanes, lane n as bit n
 template <class Real, bool varied>
-__attribute__((noinline)) void book_breaks(const ElementContext<Real>& m, const ElementSlot<Real>& e, Index i, unsigned gone,
-                                           RowLedger& ledger) {
+__attribute__((noinline)) void book_breaks(const ElementContext<Real>& m, const ElementSlot<Real>& e, Index i,
+                                           unsigned gone, RowLedger& ledger) {
   for (int lane = 0; lane < Pack<Real>::width; ++lane) {
     if ((gone >> lane & 1U) == 0) continue;
     const Index owner = i + e.memory + lane;
@@ -138,8 +142,8 @@ __attribute__((noinline)) void book_breaks(const ElementContext<Real>& m, const 
 
 /// l l' of the pack's elements with other velocities than now.
 template <class Real>
-inline __attribute__((always_inline)) typename Pack<Real>::V rate_with(const Real* const v[3], Index i, Index j,
-                                                                       const Elements<Real>& at) {
+inline __attribute__((always_inline)) typename Pack<Real>::V rate_with(const Real* const v[3], Index i,
+                                                                       Index j, const Elements<Real>& at) {
   using P = Pack<Real>;
   typename P::V rate{};
   for (int a = 0; a < 3; ++a) rate = P::fma(P::load(v[a] + j) - P::load(v[a] + i), at.x[a], rate);
@@ -156,7 +160,8 @@ inline __attribute__((always_inline)) typename Pack<Real>::V yielding_force(
   const Index owner = p.i + e.memory;
   const V k1 = constant<Real, varied>(m.k1[e.half], e.k1, owner);
   const V l_c = P::load(m.l_c[e.half] + owner);
-  const V s_y = constant<Real, varied>(m.yield[e.half], e.yield, owner) + P::load(m.hardening[e.half] + owner);
+  const V s_y =
+      constant<Real, varied>(m.yield[e.half], e.yield, owner) + P::load(m.hardening[e.half] + owner);
   const V stretch = at.q / (at.l + e.L);
   const typename P::I beyond = (stretch > s_y) & live;
   V force = k1 * (stretch - l_c);
@@ -175,8 +180,9 @@ inline __attribute__((always_inline)) typename Pack<Real>::V yielding_force(
 
 /// Energy f_s^2 / (2 k1) of the pack's elements, for the ledger.
 template <class Real, bool varied>
-inline __attribute__((always_inline)) void watch_elastic(const ElementContext<Real>& m, const ElementSlot<Real>& e,
-                                                         Masses<Real>& p, const Elements<Real>& at,
+inline __attribute__((always_inline)) void watch_elastic(const ElementContext<Real>& m,
+                                                         const ElementSlot<Real>& e, Masses<Real>& p,
+                                                         const Elements<Real>& at,
                                                          typename Pack<Real>::I live,
                                                          typename Pack<Real>::V static_over_l) {
   using P = Pack<Real>;
@@ -191,7 +197,8 @@ inline __attribute__((always_inline)) void watch_elastic(const ElementContext<Re
 
 /// Power of the dampers over the step that led here: c (w + w_before) / 2 times the rate at which it moved, w = l'.
 template <class Real, bool verlet>
-inline __attribute__((always_inline)) typename Pack<Real>::V passed_power(const Streams<Real>& at_mass, Index i, Index j,
+inline __attribute__((always_inline)) typename Pack<Real>::V passed_power(const Streams<Real>& at_mass,
+                                                                          Index i, Index j,
                                                                           const Elements<Real>& at,
                                                                           typename Pack<Real>::V c,
                                                                           typename Pack<Real>::V rate) {
@@ -221,7 +228,7 @@ inline __attribute__((always_inline)) void add_elements(const ElementContext<Rea
   at.l2 = at.q + e.L2;
   at.l = P::square_root(at.l2);
 
-  V s;  // force over length
+  V s;          // force over length
   V w[3] = {};  // velocity of the far end, relative
   if constexpr (damper != DamperKind::none)
     for (int a = 0; a < 3; ++a) w[a] = P::load(at_mass.v[a] + j) - p.v[a];
@@ -234,7 +241,8 @@ inline __attribute__((always_inline)) void add_elements(const ElementContext<Rea
       const V viscous = c * rate / at.l2;
       s += viscous;
       p.viscous += P::where(live, viscous * rate);
-      if constexpr (exact) p.passed += P::where(live, passed_power<Real, verlet>(at_mass, p.i, j, at, c, rate));
+      if constexpr (exact)
+        p.passed += P::where(live, passed_power<Real, verlet>(at_mass, p.i, j, at, c, rate));
     } else {
       const V k1 = constant<Real, varied>(m.k1[e.half], e.k1, owner);
       const V h = P::fma_all(at.l, e.L, at.l2);
@@ -243,7 +251,8 @@ inline __attribute__((always_inline)) void add_elements(const ElementContext<Rea
       s = P::fma(k1 * at.q, at.l2, viscous) * over;
       watch_elastic<Real, varied>(m, e, p, at, live, k1 * at.q * at.l2 * over);
       p.viscous = P::fma(P::where(live, viscous * over), rate, p.viscous);
-      if constexpr (exact) p.passed += P::where(live, passed_power<Real, verlet>(at_mass, p.i, j, at, c, rate));
+      if constexpr (exact)
+        p.passed += P::where(live, passed_power<Real, verlet>(at_mass, p.i, j, at, c, rate));
     }
   } else {
     if constexpr (yields) {

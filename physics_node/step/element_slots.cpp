@@ -87,9 +87,11 @@ VariedConstants<Real> make_varied_constants(const Body& body, std::size_t colour
 }
 
 template void make_slots(const Body&, std::array<SlotList<float>, max_row_kinds>&,
-                         std::array<SlotList<float>, max_row_kinds>&, std::array<SlotList<float>, max_row_kinds>&);
+                         std::array<SlotList<float>, max_row_kinds>&,
+                         std::array<SlotList<float>, max_row_kinds>&);
 template void make_slots(const Body&, std::array<SlotList<double>, max_row_kinds>&,
-                         std::array<SlotList<double>, max_row_kinds>&, std::array<SlotList<double>, max_row_kinds>&);
+                         std::array<SlotList<double>, max_row_kinds>&,
+                         std::array<SlotList<double>, max_row_kinds>&);
 template VariedConstants<float> make_varied_constants(const Body&, std::size_t);
 template VariedConstants<double> make_varied_constants(const Body&, std::size_t);
 

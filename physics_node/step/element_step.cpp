@@ -22,7 +22,8 @@ void point_at_constants(ElementContext<Real>& m, const VariedConstants<Real>& va
 }
 
 template <class Real>
-ElementContext<Real> make_context(const Body& body, LatticeState<Real>& s, const ExplicitStep& step, bool exact) {
+ElementContext<Real> make_context(const Body& body, LatticeState<Real>& s, const ExplicitStep& step,
+                                  bool exact) {
   ElementContext<Real> m = {};
   m.rows = body.lattice.rows.data();
   m.row_state = s.row_state.data();
@@ -61,9 +62,9 @@ ElementContext<Real> make_context(const Body& body, LatticeState<Real>& s, const
 
 template <class Real>
 ElementKernel<Real> choose_kernel(const Body& body, bool verlet, bool exact) {
-  const DamperKind damper = !any_damped(body)                        ? DamperKind::none
+  const DamperKind damper = !any_damped(body)                  ? DamperKind::none
                             : body.law.damper == Damper::axial ? DamperKind::axial
-                                                                     : DamperKind::other;
+                                                               : DamperKind::other;
   const KernelKind kind{damper, any_yields(body), !body.law_of.empty(), verlet, exact};
   switch (instruction_set()) {
     case InstructionSet::avx512:

@@ -7,13 +7,13 @@
 namespace palpate::physics {
 
 struct ExplicitStep {
-  double dt = 0;               // [s]
-  Vec3 gravity = Vec3::Zero(); // [m/s^2]
-  Team* team = nullptr;        // null: no team
-  int threads = 1;             // of the team that this step may use
-  bool verlet = false;         // velocity_verlet; else symplectic Euler
-  bool watch = false;          // note speeds, accelerations and energies of rows in state.ledger
-  bool exact = false;          // book dampers exactly, where velocities may jump: see below
+  double dt = 0;                // [s]
+  Vec3 gravity = Vec3::Zero();  // [m/s^2]
+  Team* team = nullptr;         // null: no team
+  int threads = 1;              // of the team that this step may use
+  bool verlet = false;          // velocity_verlet; else symplectic Euler
+  bool watch = false;           // note speeds, accelerations and energies of rows in state.ledger
+  bool exact = false;           // book dampers exactly, where velocities may jump: see below
 };
 
 /// One step of every mass of a body, in place:

@@ -4,13 +4,11 @@
 #include <memory>
 #include <vector>
 
-#include "physics_node/step/energy_ledger.h"
 #include "physics_node/step/body_model.h"
+#include "physics_node/step/energy_ledger.h"
 #include "physics_node/step/step_report.h"
 
 namespace palpate::physics {
-
-
 
 Energies sum_energies(const BodyModels& bodies, const Vec3& gravity);
 Losses sum_losses(const BodyModels& bodies);
@@ -45,10 +43,10 @@ class EnergyAccount {
 
  private:
   Energies start_;
-  Losses lost_;                     // at the start
-  Booked booked_;                   // at the start
-  double most_fallen_ = 0;          // magnitude, since the start [J]
-  double guard_ = 0;                // [J]
+  Losses lost_;             // at the start
+  Booked booked_;           // at the start
+  double most_fallen_ = 0;  // magnitude, since the start [J]
+  double guard_ = 0;        // [J]
 };
 
 }  // namespace palpate::physics

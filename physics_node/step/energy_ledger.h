@@ -16,7 +16,8 @@ struct EnergyLedger {
   double tool_work = 0;      // done by tools on tissue
   double guard = 0;          // taken out where the guard restored a state
   double start = 0;          // kinetic + elastic + gravitational at the start
-  double exchanged = 0;      // kinetic and elastic at the start, |work| of tools, most work of gravity: what the error goes by
+  double exchanged =
+      0;  // kinetic and elastic at the start, |work| of tools, most work of gravity: what the error goes by
 
   /// start + tool_work - dissipated - plastic - numerical - broken - contact - guard - (kinetic + elastic + gravitational)
   double missing() const {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int most_newton = 30;
 constexpr int most_halvings = 5;
-constexpr int most_stalls = 4;   // iterations in a row that bring less than a tenth
+constexpr int most_stalls = 4;  // iterations in a row that bring less than a tenth
 constexpr int most_cg = 400;
 constexpr double loose = 1e-3;   // of a linear system, relative to its right side
 constexpr double tight = 1e-10;  // of the residual, relative to the forces in play
@@ -63,7 +63,8 @@ ImplicitStep<Real>::ImplicitStep(const Body& body) : elements_(body) {
 template <class Real>
 void ImplicitStep<Real>::find_drag(const Body& body, const LatticeState<Real>& state) noexcept {
   if (body.law.damper != Damper::drag) return;
-  for (const Index cell : body.lattice.masses) drag_[static_cast<std::size_t>(cell)] = law_at(body, cell).drag;
+  for (const Index cell : body.lattice.masses)
+    drag_[static_cast<std::size_t>(cell)] = law_at(body, cell).drag;
   elements_.add_drag(body, state, drag_);
 }
 
@@ -77,8 +78,8 @@ double ImplicitStep<Real>::residual(const Body& body, const LatticeState<Real>& 
       r_[a][static_cast<std::size_t>(nodal.cell)] += nodal.force[static_cast<Eigen::Index>(a)];
   for (std::size_t a = 0; a < 3; ++a)
     for_cells(body, [&](std::size_t i) {
-      const double inertia =
-          mass_[i] * ((D_[a][i] / dt - static_cast<double>(state.v[a][i])) / dt - gravity[static_cast<Eigen::Index>(a)]);
+      const double inertia = mass_[i] * ((D_[a][i] / dt - static_cast<double>(state.v[a][i])) / dt -
+                                         gravity[static_cast<Eigen::Index>(a)]);
       r_[a][i] = mass_[i] > 0 ? inertia + drag_[i] * D_[a][i] / dt - r_[a][i] : 0;
     });
   return std::sqrt(dot(body, r_, r_));
@@ -125,7 +126,8 @@ int ImplicitStep<Real>::conjugate_gradients(const Body& body, double dt, double 
     });
   };
   // A x = - r: r_ becomes the remainder - r - A x.
-  for (std::size_t a = 0; a < 3; ++a) for_cells(body, [&](std::size_t i) { r_[a][i] = -r_[a][i], x_[a][i] = 0; });
+  for (std::size_t a = 0; a < 3; ++a)
+    for_cells(body, [&](std::size_t i) { r_[a][i] = -r_[a][i], x_[a][i] = 0; });
   precondition();
   for (std::size_t a = 0; a < 3; ++a) for_cells(body, [&](std::size_t i) { p_[a][i] = z_[a][i]; });
   double rz = dot(body, r_, z_);
@@ -150,7 +152,8 @@ int ImplicitStep<Real>::conjugate_gradients(const Body& body, double dt, double 
 }
 
 template <class Real>
-void ImplicitStep<Real>::finish(const Body& body, LatticeState<Real>& state, const ExplicitStep& how) noexcept {
+void ImplicitStep<Real>::finish(const Body& body, LatticeState<Real>& state,
+                                const ExplicitStep& how) noexcept {
   const StepLosses lost = elements_.losses(body, state, D_, how.dt);
   double inertia = 0;  // (1/2) m |v' - v|^2
   double drag = 0;
@@ -175,14 +178,16 @@ ImplicitReport ImplicitStep<Real>::step(const Body& body, LatticeState<Real>& st
   const double dt = how.dt;
   find_drag(body, state);
   for (std::size_t a = 0; a < 3; ++a)
-    for_cells(body, [&](std::size_t i) { D_[a][i] = mass_[i] > 0 ? dt * static_cast<double>(state.v[a][i]) : 0; });
+    for_cells(body,
+              [&](std::size_t i) { D_[a][i] = mass_[i] > 0 ? dt * static_cast<double>(state.v[a][i]) : 0; });
   double r = residual(body, state, dt, how.gravity, forces);
   // The forces in play: of the first residual, and never less than those of a hundred-thousandth of a cell.
   double k = 0;
   for (const ElementLaw& law : body.laws) k = std::max(k, law.k1[0]);
   const double enough = tight * std::max(r, 1e-5 * k * body.lattice.rest_length[0]);
   int stalls = 0;
-  for (; report.newton_iterations < most_newton && stalls < most_stalls && r > enough; ++report.newton_iterations) {
+  for (; report.newton_iterations < most_newton && stalls < most_stalls && r > enough;
+       ++report.newton_iterations) {
     make_preconditioner(body, dt);
     for (std::size_t a = 0; a < 3; ++a) for_cells(body, [&](std::size_t i) { r_start_[a][i] = r_[a][i]; });
     report.cg_iterations += conjugate_gradients(body, dt, std::max(loose * r, 0.1 * enough));
@@ -205,7 +210,8 @@ ImplicitReport ImplicitStep<Real>::step(const Body& body, LatticeState<Real>& st
   for (const NodalForce& nodal : forces)
     if (mass_[static_cast<std::size_t>(nodal.cell)] > 0)
       for (std::size_t a = 0; a < 3; ++a)
-        report.work += nodal.force[static_cast<Eigen::Index>(a)] * D_[a][static_cast<std::size_t>(nodal.cell)];
+        report.work +=
+            nodal.force[static_cast<Eigen::Index>(a)] * D_[a][static_cast<std::size_t>(nodal.cell)];
   finish(body, state, how);
   return report;
 }

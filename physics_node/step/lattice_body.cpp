@@ -24,7 +24,11 @@ template <class Real>
 class LatticeBody final : public BodyModel {
  public:
   LatticeBody(Body body, Integrator integrator)
-      : BodyModel(body_), body_(std::move(body)), state_(body_), sleep_(body_), saved_{{body_, state_}, {body_, state_}} {
+      : BodyModel(body_),
+        body_(std::move(body)),
+        state_(body_),
+        sleep_(body_),
+        saved_{{body_, state_}, {body_, state_}} {
     NodeMotion::show({state_.u[0].data(), state_.u[1].data(), state_.u[2].data()},
                      {state_.v[0].data(), state_.v[1].data(), state_.v[2].data()});
     Topology::show({state_.mask.data(), state_.mask.size()});
@@ -163,8 +167,8 @@ class LatticeBody final : public BodyModel {
     state_.forget_last_step();
   }
 
-  void read(std::span<const std::uint32_t> which, std::span<const Index> cells, std::span<const Vec3> rest, double dt, std::span<Vec3> x, std::span<Vec3> v,
-            std::span<Vec3> v_move) const noexcept override {
+  void read(std::span<const std::uint32_t> which, std::span<const Index> cells, std::span<const Vec3> rest,
+            double dt, std::span<Vec3> x, std::span<Vec3> v, std::span<Vec3> v_move) const noexcept override {
     const Three<Real>& moving = moving_velocity(state_);
     const bool known = v_before_[0].size() > 0 && !implicit_;
     for (const std::uint32_t n : which) {
@@ -278,7 +282,7 @@ class LatticeBody final : public BodyModel {
   Sleep sleep_;
   MomentumAccount momentum_;
   SavedState<Real> saved_[2];
-  std::size_t good_ = 0;  // the other one is to prove itself
+  std::size_t good_ = 0;                          // the other one is to prove itself
   std::unique_ptr<ImplicitStep<Real>> implicit_;  // only for backward_euler
 };
 

@@ -14,7 +14,8 @@ Vec3 vector_at(const Field& field, Index cell) {
 }
 
 void add_at(Field& field, Index cell, const Vec3& v) {
-  for (std::size_t a = 0; a < 3; ++a) field[a][static_cast<std::size_t>(cell)] += v[static_cast<Eigen::Index>(a)];
+  for (std::size_t a = 0; a < 3; ++a)
+    field[a][static_cast<std::size_t>(cell)] += v[static_cast<Eigen::Index>(a)];
 }
 
 /// visit(slot number, slot, cell) for every live element, in storage order.
@@ -102,7 +103,8 @@ void LinearisedElements<Real>::evaluate(const Body& body, const LatticeState<Rea
     add_at(force, i, pull);
     add_at(force, i + slot.offset, -pull);
     const auto cell = static_cast<std::size_t>(i);
-    for (std::size_t axis = 0; axis < 3; ++axis) slots_[n].n[axis][cell] = e.n[static_cast<Eigen::Index>(axis)];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      slots_[n].n[axis][cell] = e.n[static_cast<Eigen::Index>(axis)];
     slots_[n].a[cell] = e.k + (c + c_all) / dt;
     slots_[n].b[cell] = f / e.l + c_all / dt;
   });
@@ -117,7 +119,8 @@ void LinearisedElements<Real>::add_product(const Body& body, const Field& y, Fie
       const Index offset = body.lattice.offset[kind][static_cast<std::size_t>(body.lattice.forward[kind][s])];
       const double* const n[3] = {slot.n[0].data() + row.first, slot.n[1].data() + row.first,
                                   slot.n[2].data() + row.first};
-      const double* const from[3] = {y[0].data() + row.first, y[1].data() + row.first, y[2].data() + row.first};
+      const double* const from[3] = {y[0].data() + row.first, y[1].data() + row.first,
+                                     y[2].data() + row.first};
       double* const to[3] = {out[0].data() + row.first, out[1].data() + row.first, out[2].data() + row.first};
       product_of_row(row.count, offset, n, slot.a.data() + row.first, slot.b.data() + row.first, from, to);
     }
@@ -125,7 +128,8 @@ void LinearisedElements<Real>::add_product(const Body& body, const Field& y, Fie
 }
 
 template <class Real>
-void LinearisedElements<Real>::add_blocks(const Body& body, std::array<ZeroedArray<double>, 6>& blocks) const {
+void LinearisedElements<Real>::add_blocks(const Body& body,
+                                          std::array<ZeroedArray<double>, 6>& blocks) const {
   constexpr int first[6] = {0, 1, 2, 1, 0, 0};
   constexpr int second[6] = {0, 1, 2, 2, 2, 1};
   for (const RowSegment& row : body.lattice.rows) {

@@ -13,8 +13,9 @@ using Field = std::array<ZeroedArray<double>, 3>;
 
 /// What one implicit step does to the energy, beyond what the forces at its end say.
 struct StepLosses {
-  double viscous = 0;    // [J]
-  double numerical = 0;  // of the elements: force at the end times motion, less what is stored and what yield and break took [J]
+  double viscous = 0;  // [J]
+  double numerical =
+      0;  // of the elements: force at the end times motion, less what is stored and what yield and break took [J]
 };
 
 /// At displacements u_n + D and velocities D / dt, by element, with n its direction and r the velocity of its far end:

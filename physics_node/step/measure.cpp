@@ -41,7 +41,8 @@ void for_each_element(const Body& body, const LatticeState<Real>& s, const Visit
       const double q = stretch.dot(2 * lattice.rest_vector[d] + stretch);
       const double l = std::sqrt(std::max(L * L + q, 1e-6 * L * L));
       const double longer = q / (l + L);
-      ElementNow now{i, j, (lattice.rest_vector[d] + stretch) / l, l / L, e.k1 * longer, e.k1, e.c, 0, 0, e.k1};
+      ElementNow now{i, j,   (lattice.rest_vector[d] + stretch) / l, l / L, e.k1 * longer, e.k1, e.c, 0,
+                     0, e.k1};
       if (yields) {
         const auto l_c = static_cast<double>(s.l_c[d][c]);
         const double s_y = (e.y_p - 1) * L + static_cast<double>(s.hardening[d][c]);
@@ -62,9 +63,11 @@ double damper_power(const Body& body, const ElementNow& now, const Three<Real>& 
     case Damper::axial:
       return -now.c * now.along(v) * now.along(w);
     case Damper::relative:
-      return -now.c * (vector_of(v, now.j) - vector_of(v, now.i)).dot(vector_of(w, now.j) - vector_of(w, now.i));
+      return -now.c *
+             (vector_of(v, now.j) - vector_of(v, now.i)).dot(vector_of(w, now.j) - vector_of(w, now.i));
     case Damper::drag:
-      return -now.c * (vector_of(v, now.j).dot(vector_of(w, now.j)) + vector_of(v, now.i).dot(vector_of(w, now.i)));
+      return -now.c *
+             (vector_of(v, now.j).dot(vector_of(w, now.j)) + vector_of(v, now.i).dot(vector_of(w, now.i)));
   }
   return 0;
 }
@@ -149,7 +152,8 @@ Losses measure_losses(const LatticeState<Real>& state) {
 }
 
 template <class Real>
-MomentumAccount::Start measure_momenta(const Body& body, const Three<Real>& u, const Three<Real>& v) noexcept {
+MomentumAccount::Start measure_momenta(const Body& body, const Three<Real>& u,
+                                       const Three<Real>& v) noexcept {
   MomentumAccount::Start sum;
   for (const Index i : body.lattice.masses) {
     const double m = law_at(body, i).mass;

@@ -55,7 +55,8 @@ void SavedState<Real>::bring_back(const Body& body, LatticeState<Real>& state) c
   state.ledger = ledger_;
   for (RowLedger& row : state.ledger) {
     row.speed2 = row.kinetic = row.between = 0;
-    row.acceleration2 = std::numeric_limits<double>::max();  // not known: nothing may sleep before the next look
+    row.acceleration2 =
+        std::numeric_limits<double>::max();  // not known: nothing may sleep before the next look
   }
   state.breaks = breaks_;
   state.fresh.replace_all();

@@ -37,7 +37,8 @@ Sleep::Sleep(const Body& body)
       masses_of_(body.lattice.rows.size(), 0),
       before_(body.lattice.rows.size()) {
   if (!may_sleep_) return;
-  for (const Index cell : body.lattice.masses) ++masses_of_[static_cast<std::size_t>(body.lattice.row_of(cell))];
+  for (const Index cell : body.lattice.masses)
+    ++masses_of_[static_cast<std::size_t>(body.lattice.row_of(cell))];
   for (const RowSegment& row : body.lattice.rows) {
     beside_begin_.push_back(static_cast<Index>(beside_.size()));
     const auto rows = rows_beside(body.lattice, row);
@@ -59,8 +60,7 @@ void Sleep::wake_row(const Body& body, LatticeState<Real>& state, Index row) noe
   disturb(state, r);
   if (state.row_state[r] == RowState::awake) return;
   const RowSegment& segment = body.lattice.rows[r];
-  for (auto& axis : state.f)
-    std::fill_n(axis.data() + segment.first, segment.count, Real(0));
+  for (auto& axis : state.f) std::fill_n(axis.data() + segment.first, segment.count, Real(0));
   state.row_state[r] = RowState::awake;
 }
 
@@ -75,7 +75,8 @@ void Sleep::classify(const Body& body, LatticeState<Real>& state) noexcept {
   };
   sleeping_masses_ = 0;
   for (std::size_t r = 0; r < rows.size(); ++r)
-    if (rows[r] != RowState::awake) rows[r] = has_beside(r, RowState::awake) ? RowState::rim : RowState::asleep;
+    if (rows[r] != RowState::awake)
+      rows[r] = has_beside(r, RowState::awake) ? RowState::rim : RowState::asleep;
   for (std::size_t r = 0; r < rows.size(); ++r)
     if (rows[r] == RowState::asleep && has_beside(r, RowState::rim)) rows[r] = RowState::far_rim;
   for (std::size_t r = 0; r < rows.size(); ++r) {

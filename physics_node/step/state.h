@@ -17,7 +17,8 @@ using Three = std::array<ZeroedArray<Real>, 3>;  // x, y, z
 template <class Real>
 Vec3 vector_of(const Three<Real>& three, Index cell) noexcept {
   const auto c = static_cast<std::size_t>(cell);
-  return {static_cast<double>(three[0][c]), static_cast<double>(three[1][c]), static_cast<double>(three[2][c])};
+  return {static_cast<double>(three[0][c]), static_cast<double>(three[1][c]),
+          static_cast<double>(three[2][c])};
 }
 template <class Real>
 using ByHalf = std::array<ZeroedArray<Real>, max_half>;  // by half direction
@@ -31,16 +32,16 @@ struct VariedConstants {
 
 template <class Real>
 struct LatticeState {
-  Three<Real> u, v;         // displacement from rest [m], velocity [m/s]               (n_cells)
-  Three<Real> f;            // force gathered so far; zero between steps [N]            (n_cells)
-  Three<Real> v_half;       // velocity half a step ago; only for velocity_verlet       (n_cells)
+  Three<Real> u, v;           // displacement from rest [m], velocity [m/s]               (n_cells)
+  Three<Real> f;              // force gathered so far; zero between steps [N]            (n_cells)
+  Three<Real> v_half;         // velocity half a step ago; only for velocity_verlet       (n_cells)
   bool v_half_known = false;  // false: the next step of velocity_verlet is the first
-  Three<Real> v_seen;       // that dampers saw in the last step; only where something may touch or press (n_cells)
+  Three<Real> v_seen;  // that dampers saw in the last step; only where something may touch or press (n_cells)
   bool v_seen_known = false;
-  double dt_before = 0;     // of the last explicit step; 0: there was none [s]
-  ZeroedArray<Mask> mask;   // live elements                                            (n_cells)
-  ByHalf<Real> l_c;         // plastic stretch [m]; only where a material yields        (n_cells)
-  ByHalf<Real> hardening;   // l - L at yield, less that at first yield [m]; only there (n_cells)
+  double dt_before = 0;            // of the last explicit step; 0: there was none [s]
+  ZeroedArray<Mask> mask;          // live elements                                            (n_cells)
+  ByHalf<Real> l_c;                // plastic stretch [m]; only where a material yields        (n_cells)
+  ByHalf<Real> hardening;          // l - L at yield, less that at first yield [m]; only there (n_cells)
   ZeroedArray<Real> inverse_mass;  // constant, in this precision                       (n_cells)
   VariedConstants<Real> varied;
 

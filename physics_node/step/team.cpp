@@ -57,7 +57,8 @@ void Team::claim(bool from_front) noexcept {
   std::uint64_t seen = unclaimed_.load(std::memory_order_acquire);
   for (Range rest(seen); rest.front < rest.back; rest = Range(seen)) {
     const std::uint32_t n = rest.take(from_front);
-    if (!unclaimed_.compare_exchange_weak(seen, rest.word(), std::memory_order_acq_rel, std::memory_order_acquire))
+    if (!unclaimed_.compare_exchange_weak(seen, rest.word(), std::memory_order_acq_rel,
+                                          std::memory_order_acquire))
       continue;
     piece_(work_, n);  // both stand until the call is finished, and that needs this piece
     if (unfinished_.fetch_sub(1, std::memory_order_acq_rel) == 1) unfinished_.notify_one();
@@ -76,8 +77,7 @@ void Team::serve(Worker& self) noexcept {
 }
 
 void Team::run(std::size_t count, int threads, Piece piece, const void* work) noexcept {
-  const std::size_t helpers =
-      std::min(workers_.size(), static_cast<std::size_t>(std::max(threads, 1) - 1));
+  const std::size_t helpers = std::min(workers_.size(), static_cast<std::size_t>(std::max(threads, 1) - 1));
   if (helpers == 0 || count < 2 || count > most_pieces) {
     for (std::size_t n = 0; n < count; ++n) piece(work, n);
     return;

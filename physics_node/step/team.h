@@ -36,7 +36,8 @@ class Team {
   /// Contract: one call at a time. Allocates and throws nothing; blocks only for pieces that a worker has begun.
   template <class Work>
   void each(std::size_t count, int threads, const Work& work) noexcept {
-    run(count, threads, [](const void* self, std::size_t n) { (*static_cast<const Work*>(self))(n); }, &work);
+    run(
+        count, threads, [](const void* self, std::size_t n) { (*static_cast<const Work*>(self))(n); }, &work);
   }
 
  private:

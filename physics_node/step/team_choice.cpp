@@ -64,7 +64,8 @@ void TeamChoice::try_on(std::int64_t ns) noexcept {
   last_ = turn_;
   turn_ = {};
   ++turn_number_;
-  if (won_ == pairs_to_win || lost_ == pairs_to_win) end_trial(won_ == pairs_to_win && rival_better(other_, own_));
+  if (won_ == pairs_to_win || lost_ == pairs_to_win)
+    end_trial(won_ == pairs_to_win && rival_better(other_, own_));
 }
 
 void TeamChoice::end_trial(bool rival_wins) noexcept {

@@ -50,12 +50,17 @@ class TeamChoice {
     std::int64_t ns = 0, steps = 0;
     void add(std::int64_t more_ns) noexcept { ns += more_ns, ++steps; }
     void add(const Stretch& more) noexcept { ns += more.ns, steps += more.steps; }
-    bool whole() const noexcept { return ns >= long_stretch_ns || (ns >= stretch_ns && steps >= stretch_steps); }
-    double mean_ns() const noexcept { return steps > 0 ? static_cast<double>(ns) / static_cast<double>(steps) : 0; }
+    bool whole() const noexcept {
+      return ns >= long_stretch_ns || (ns >= stretch_ns && steps >= stretch_steps);
+    }
+    double mean_ns() const noexcept {
+      return steps > 0 ? static_cast<double>(ns) / static_cast<double>(steps) : 0;
+    }
   };
 
   bool in_trial() const noexcept { return turn_number_ > 0; }
-  TeamChoice(int most, int first, bool may_try = true) noexcept : most_(most), settled_(first), may_try_(may_try) {}
+  TeamChoice(int most, int first, bool may_try = true) noexcept
+      : most_(most), settled_(first), may_try_(may_try) {}
   bool rival_turn() const noexcept { return in_trial() && turn_number_ % 2 == 0; }
   void settle(std::int64_t ns) noexcept;
   std::int64_t soon() const noexcept;
@@ -68,12 +73,13 @@ class TeamChoice {
   int settled_;
   bool may_try_;
   int rival_ = 1;
-  bool up_ = true;      // the next rival is the larger neighbour
-  int turn_number_ = 0;  // of the trial, from 1; the rival has the even ones. 0: no trial
-  int won_ = 0, lost_ = 0;              // pairs, by the rival
-  Stretch turn_, last_, own_, other_;   // of the trial: this turn and the one before; in all, present number and rival
-  Stretch window_;              // between trials
-  double usual_ns_ = 0;         // mean of the first window after a trial
+  bool up_ = true;          // the next rival is the larger neighbour
+  int turn_number_ = 0;     // of the trial, from 1; the rival has the even ones. 0: no trial
+  int won_ = 0, lost_ = 0;  // pairs, by the rival
+  Stretch turn_, last_, own_,
+      other_;            // of the trial: this turn and the one before; in all, present number and rival
+  Stretch window_;       // between trials
+  double usual_ns_ = 0;  // mean of the first window after a trial
   std::int64_t since_trial_ns_ = 0;
   std::int64_t interval_ns_ = stretch_ns;  // the first trial comes at once
   std::int64_t trials_ = 0, changes_ = 0, steps_ = 0, thread_steps_ = 0;

@@ -9,8 +9,8 @@
 namespace palpate::physics {
 
 struct TrialElement {
-  Vec3 n;        // direction, toward the far end
-  double l = 0;  // length [m]
+  Vec3 n;                 // direction, toward the far end
+  double l = 0;           // length [m]
   double f_s = 0, k = 0;  // static force [N] and its slope [N/m]
   double c = 0;           // [N s/m]
   double stored = 0;      // recoverable energy [J]
@@ -19,8 +19,8 @@ struct TrialElement {
 
 /// The element of `slot` whose first end is cell i, at displacements u + D. `memory` is that of the state.
 template <class Real>
-TrialElement trial_element(const Body& body, const LatticeState<Real>& s, const ElementSlot<Real>& slot, Index i,
-                           const Vec3& shift) {
+TrialElement trial_element(const Body& body, const LatticeState<Real>& s, const ElementSlot<Real>& slot,
+                           Index i, const Vec3& shift) {
   const auto first = static_cast<std::size_t>(i);
   const auto far = static_cast<std::size_t>(i + slot.offset);
   const auto owner = static_cast<std::size_t>(i + slot.memory);

@@ -133,7 +133,8 @@ Eigen::Vector3d Painter::pushed_at(const Tool& tool, const ToolView& view, const
 }
 
 // As the papers show it, a tool rests on the surface where its proxy is, however far beneath the hand has gone.
-void Painter::draw_tool(Tool& tool, const ToolView& view, const ViewModel& model, const PaintOptions& options) {
+void Painter::draw_tool(Tool& tool, const ToolView& view, const ViewModel& model,
+                        const PaintOptions& options) {
   if (!view.tip || size_ <= 0) return;
   const Eigen::Vector3d at = tool.at_hand ? *view.tip : view.proxy;
   const Eigen::Vector3d axis = tool.length > 0 ? Eigen::Vector3d(view.attitude * tool.axis) : tool.axis;

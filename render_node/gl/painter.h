@@ -40,15 +40,15 @@ class Painter {
     double length = 0;       // of the stick [m]; 0: as the picture needs
     double force_limit = 0;  // of its device [N]
     std::optional<std::size_t> body;  // that it is, drawn as such, without a stick
-    bool at_hand = false;    // is where the hand is, not at the proxy
+    bool at_hand = false;             // is where the hand is, not at the proxy
     SolidDrawing stick, arrow;
   };
   void adapt_sizes(const Eigen::AlignedBox3d& box);
   void draw_bodies(ViewModel& model, const Camera& camera, const PaintOptions& options, int height);
   void draw_planes(const ViewModel& model, const Camera& camera);
   void draw_tool(Tool& tool, const ToolView& view, const ViewModel& model, const PaintOptions& options);
-  Eigen::Vector3d pushed_at(const Tool& tool, const ToolView& view, const ViewModel& model, const Eigen::Vector3d& at,
-                            const Eigen::Vector3d& axis) const;
+  Eigen::Vector3d pushed_at(const Tool& tool, const ToolView& view, const ViewModel& model,
+                            const Eigen::Vector3d& at, const Eigen::Vector3d& axis) const;
   void draw_arrow(Tool& tool, const Eigen::Vector3d& from, const Eigen::Vector3d& force);
 
   const Scene& scene_;

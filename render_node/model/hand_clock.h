@@ -31,7 +31,7 @@ class HandClock {
   std::optional<double> at(std::uint64_t tick) const {
     if (!heard_ || tick == 0) return std::nullopt;
     const double ahead = tick >= newest_.tick ? static_cast<double>(tick - newest_.tick)
-                                               : -static_cast<double>(newest_.tick - tick);
+                                              : -static_cast<double>(newest_.tick - tick);
     if (std::abs(ahead) > most_ticks) return std::nullopt;
     return newest_.t + ahead * period_;
   }

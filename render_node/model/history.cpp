@@ -9,8 +9,10 @@ namespace palpate::render {
 
 void History::add(double t, double value) {
   if (!(std::abs(t) <= longest_time) || !std::isfinite(value)) return;
-  if (t < newest_t_ - slack_s) buckets_.clear();
-  else t = std::max(t, newest_t_);
+  if (t < newest_t_ - slack_s)
+    buckets_.clear();
+  else
+    t = std::max(t, newest_t_);
   newest_t_ = t;
   now_ = value;
   const auto number = static_cast<std::int64_t>(std::floor(t / bucket_s + 1e-6));  // 0.07 / 0.01 is below 7

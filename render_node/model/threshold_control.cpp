@@ -11,7 +11,8 @@ namespace palpate::render {
 ThresholdControl::ThresholdControl(const Scene& scene) {
   for (const auto& body : scene.bodies) {
     const auto* volume = std::get_if<VolumeShape>(&body.shape);
-    if (volume == nullptr || body.lattice != LatticeKind::voxel) continue;  // only cells are shown by intensity
+    if (volume == nullptr || body.lattice != LatticeKind::voxel)
+      continue;  // only cells are shown by intensity
     applies_ = true;
     if (volume->keep_min < 0 || volume->keep_max > 255) {
       lo_ = -1024;

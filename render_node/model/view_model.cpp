@@ -17,7 +17,8 @@ ViewModel::ViewModel(const Scene& scene) : tools_(scene.tools.size()) {
     const DeviceSpec& device = scene.device(scene.tools[i].device);
     tools_[i].name = scene.tools[i].name;
     tools_[i].clock = HandClock(device.rate_Hz);
-    if (device.driver == "simulated" && !device.waypoints.empty()) tools_[i].path_s = device.waypoints.back().t;
+    if (device.driver == "simulated" && !device.waypoints.empty())
+      tools_[i].path_s = device.waypoints.back().t;
   }
 }
 

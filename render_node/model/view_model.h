@@ -31,8 +31,8 @@ struct ToolView {
   Vec3 tip_in_tissue = Vec3::Zero();                             // of the tool, where physics has it [m]
   std::uint32_t n_contacts = 0;
   double energy = 0;  // given to the hand so far [J]
-  double path_s = 0;                    // of a simulated hand, from when its forces are on to the end; 0: there is none [s]
-  std::optional<double> path_began;     // when forces were first on, by the hand's clock [s]
+  double path_s = 0;  // of a simulated hand, from when its forces are on to the end; 0: there is none [s]
+  std::optional<double> path_began;  // when forces were first on, by the hand's clock [s]
   // All against the time of the hand (hand_clock.h).
   HandClock clock{1000};
   History on_tool;                        // magnitude of the tissue's force [N]

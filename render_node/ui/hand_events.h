@@ -11,7 +11,8 @@ namespace palpate::render {
 
 class HandEvents {
  public:
-  static constexpr double tap_s = 1.0 / 30;  // how long a key is taken to have been down that came and went in one poll [s]
+  static constexpr double tap_s =
+      1.0 / 30;  // how long a key is taken to have been down that came and went in one poll [s]
 
   void key(int code, bool down) {
     Key& key = keys_[code];
@@ -19,7 +20,8 @@ class HandEvents {
     key.down = down;
   }
   void button(int number, bool down) {
-    if (number >= 0 && number < static_cast<int>(down_.size())) down_[static_cast<std::size_t>(number)] = down;
+    if (number >= 0 && number < static_cast<int>(down_.size()))
+      down_[static_cast<std::size_t>(number)] = down;
   }
   void cursor(double x, double y) {
     const Eigen::Vector2d now(x, y);

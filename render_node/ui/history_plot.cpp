@@ -53,7 +53,8 @@ void draw_grid(ImDrawList& list, const Axes& axes) {
 
 void draw_history(ImDrawList& list, const Axes& axes, const PlotLine& what, double now, double per_unit) {
   std::vector<ImVec2> line;
-  for (const auto& point : what.history->points(now)) line.push_back(axes.at(point.age, per_unit * point.value));
+  for (const auto& point : what.history->points(now))
+    line.push_back(axes.at(point.age, per_unit * point.value));
   const float width = ImGui::GetFontSize() * 0.12F;
   list.AddPolyline(line.data(), static_cast<int>(line.size()), what.colour, ImDrawFlags_None, width);
   if (!line.empty()) list.AddCircleFilled(line.back(), 1.7F * width, what.colour);

@@ -46,7 +46,9 @@ void choose_colours() {
 }  // namespace
 
 ImguiContext::ImguiContext(int height)
-    : context_(ImGui::CreateContext()), height_(height), scale_(std::max(0.5F, static_cast<float>(height) / 720.0F)) {
+    : context_(ImGui::CreateContext()),
+      height_(height),
+      scale_(std::max(0.5F, static_cast<float>(height) / 720.0F)) {
   make_current();
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;  // nothing is remembered between runs

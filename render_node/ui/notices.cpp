@@ -14,10 +14,13 @@ std::string note_of(const ViewModel& model, NodeKind kind) {
   return status ? std::string(status->note.data()) : std::string();
 }
 
-std::string why_no_force(const HandState& hand, const std::string& tool, const ToolPointer* pointer, bool pointed) {
-  if (hand.state == "fault") return fmt::format("{}: device fault, no forces; palpate reset {} opens it anew", tool, tool);
+std::string why_no_force(const HandState& hand, const std::string& tool, const ToolPointer* pointer,
+                         bool pointed) {
+  if (hand.state == "fault")
+    return fmt::format("{}: device fault, no forces; palpate reset {} opens it anew", tool, tool);
   if (hand.state == "ready" || hand.state == "safe") {
-    if (pointed && !pointer->held()) return fmt::format("{}: press T to take it, over the place to touch", tool);
+    if (pointed && !pointer->held())
+      return fmt::format("{}: press T to take it, over the place to touch", tool);
     if (!hand.reason.empty()) return fmt::format("{}: no force yet: {}", tool, hand.reason);
   }
   if (hand.state == "stale") return fmt::format("{}: no force: physics is silent", tool);
@@ -34,7 +37,8 @@ std::vector<std::string> hindrances(const Scene& scene, const ViewModel& model, 
   const std::string note = note_of(model, NodeKind::haptic);
   for (std::size_t i = 0; i < scene.tools.size(); ++i) {
     const bool pointed = pointer != nullptr && pointer->tool() == i;
-    const std::string line = why_no_force(hand_state(note, scene.tools[i].name), scene.tools[i].name, pointer, pointed);
+    const std::string line =
+        why_no_force(hand_state(note, scene.tools[i].name), scene.tools[i].name, pointer, pointed);
     if (!line.empty()) lines.push_back(line);
   }
   if (model.path_is_over()) lines.emplace_back("the hand's path is over; Esc ends");

@@ -14,6 +14,7 @@ namespace palpate::render {
 /// Lines for the middle of the picture; empty: nothing hinders. One a tool at most.
 /// @param paused   by this window
 /// @param pointer  the tool that the mouse leads, if any
-std::vector<std::string> hindrances(const Scene& scene, const ViewModel& model, bool paused, const ToolPointer* pointer);
+std::vector<std::string> hindrances(const Scene& scene, const ViewModel& model, bool paused,
+                                    const ToolPointer* pointer);
 
 }  // namespace palpate::render

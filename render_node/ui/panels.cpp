@@ -114,7 +114,8 @@ float plot_height(const ViewModel& model, const PanelFacts& facts, float scale) 
   for (std::size_t i = 1; i < model.tools().size(); ++i)
     rows += 1 + (model.tools()[i].on_hand.empty() ? 0.0F : 1.0F) + (model.tools()[i].answered ? 3.0F : 0.0F);
   const float legends = plots > 1 ? 2.0F : 1.0F;
-  const float left = ImGui::GetContentRegionAvail().y - (rows + legends) * line - ImGui::GetStyle().ItemSpacing.y;
+  const float left =
+      ImGui::GetContentRegionAvail().y - (rows + legends) * line - ImGui::GetStyle().ItemSpacing.y;
   return std::clamp(left / plots, 58 * scale, 150 * scale);
 }
 
@@ -187,14 +188,17 @@ PanelWishes lay_out_panels(const Scene& scene, const ViewModel& model, const Pan
     ImGui::Separator();
   }
   node_rows(model);
-  row("facets visible", fmt::format("{} of {}", grouped(model.facets_visible()), grouped(model.facets_total())));
+  row("facets visible",
+      fmt::format("{} of {}", grouped(model.facets_visible()), grouped(model.facets_total())));
   ImGui::Separator();
   tool_rows(scene, model, facts, scale);
   ImGui::End();
   return wishes;
 }
 
-float panel_width_in(float picture_width, float scale) { return std::min(panel_width * scale, 0.4F * picture_width); }
+float panel_width_in(float picture_width, float scale) {
+  return std::min(panel_width * scale, 0.4F * picture_width);
+}
 
 void lay_out_hindrances(const std::vector<std::string>& lines, float scale) {
   if (lines.empty()) return;

@@ -137,8 +137,9 @@ void Window::lay_out_pointers() {
   const Vec3 before = box.center() + 0.5 * box.diagonal().norm() * camera.axes().row(2).transpose();
   const auto middle = camera.project(camera.target());
   for (const std::uint32_t tool : pointed_) {
-    const auto surface = middle ? surface_under(model_.bodies(), camera, *middle, clearance(scene_.tools[tool]))
-                                : std::nullopt;
+    const auto surface = middle
+                             ? surface_under(model_.bodies(), camera, *middle, clearance(scene_.tools[tool]))
+                             : std::nullopt;
     const auto body = std::find_if(scene_.bodies.begin(), scene_.bodies.end(), [&](const BodySpec& spec) {
       return spec.name == scene_.tools[tool].body;
     });
@@ -149,7 +150,8 @@ void Window::lay_out_pointers() {
 /// A tool that is a body starts where it lies: to jump would tear what it is in.
 std::optional<Vec3> Window::surface_under_cursor(std::uint32_t tool) const {
   const ImGuiIO& io = ImGui::GetIO();
-  if (scene_.tools[tool].shape == ToolShape::body || !ImGui::IsMousePosValid() || io.WantCaptureMouse) return std::nullopt;
+  if (scene_.tools[tool].shape == ToolShape::body || !ImGui::IsMousePosValid() || io.WantCaptureMouse)
+    return std::nullopt;
   return surface_under(model_.bodies(), stage_->camera(),
                        {static_cast<double>(io.MousePos.x), static_cast<double>(io.MousePos.y)},
                        clearance(scene_.tools[tool]));

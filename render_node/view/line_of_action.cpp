@@ -19,7 +19,8 @@ std::optional<double> hit(const Vec3& from, const Vec3& along, const Vec3& a, co
   if (std::abs(det) <= 1e-12 * ab.norm() * ac.norm()) return std::nullopt;  // edge on, or without an area
   const Vec3 to = from - a, r = to.cross(ab);
   const double u = to.dot(q) / det, v = along.dot(r) / det;
-  constexpr double rim = 1e-6;  // Why: positions are single precision; a line through an edge must not slip between two
+  constexpr double rim =
+      1e-6;  // Why: positions are single precision; a line through an edge must not slip between two
   if (u < -rim || v < -rim || u + v > 1 + rim) return std::nullopt;
   return ac.dot(r) / det;
 }

@@ -24,8 +24,9 @@ struct PointerInput {
   bool fine = false;                // a tenth of the way per notch
   Vec3 turn = Vec3::Zero();         // keys held, -1..1 about right, up and towards the viewer
   bool toggle = false;              // take it, or let it go
-  std::optional<Vec3> surface;      // under the cursor, where a tool that is taken starts [m]; nothing: where it lies
-  std::uint32_t buttons = 0;        // bit i: button i of the tool
+  std::optional<Vec3>
+      surface;  // under the cursor, where a tool that is taken starts [m]; nothing: where it lies
+  std::uint32_t buttons = 0;  // bit i: button i of the tool
 };
 
 class ToolPointer {

@@ -91,9 +91,11 @@ INSTANTIATE_TEST_SUITE_P(
         DoorCase{"archive.h", "deploy/import/a.cpp", "deploy/palpate/a.cpp", "libarchive"},
         DoorCase{"dlfcn.h", "haptic_node/device/a.cpp", "haptic_node/loop/a.cpp", "dlopen"},
         DoorCase{"dlfcn.h", "deploy/palpate/doctor.cpp", "deploy/palpate/run.cpp", "dlopen"},
-        DoorCase{"dlfcn.h", "haptic_node/drivers/kit/a.cpp", "haptic_node/drivers/openhaptics/a.cpp", "dlopen"},
+        DoorCase{"dlfcn.h", "haptic_node/drivers/kit/a.cpp", "haptic_node/drivers/openhaptics/a.cpp",
+                 "dlopen"},
         DoorCase{"spnav.h", "haptic_node/drivers/spacenav/a.cpp", "haptic_node/loop/a.cpp", "libspnav"},
-        DoorCase{"igtlMessageHeader.h", "haptic_node/drivers/openigtlink/a.cpp", "common/a.cpp", "OpenIGTLink"},
+        DoorCase{"igtlMessageHeader.h", "haptic_node/drivers/openigtlink/a.cpp", "common/a.cpp",
+                 "OpenIGTLink"},
         DoorCase{"benchmark/benchmark.h", "bench/kernel/a.cpp", "tests/a.cpp", "Google Benchmark"},
         DoorCase{"nlohmann/json.hpp", "common/report/a.h", "haptic_node/proxy/a.h", "JSON"},
         DoorCase{"nlohmann/json.hpp", "haptic_node/loop/haptic_summary.h", "common/time/a.h", "JSON"}));
@@ -162,8 +164,9 @@ TEST_F(PlantedHouse, RefusesDataAndBinaries) {
 TEST_F(PlantedHouse, RefusesRoomsWithoutUnitTests) {
   plant("tests/unit/common/time/clock_test.cpp", "// a test\n");
   EXPECT_TRUE(is_fine("common/time/clock.h", "// a clock\n"));
-  EXPECT_THAT(breach("common/weather/rain.h", "// rain\n"),
-              StartsWith("common/weather:1: a room without unit tests; write tests/unit/common/weather/*_test.cpp"));
+  EXPECT_THAT(
+      breach("common/weather/rain.h", "// rain\n"),
+      StartsWith("common/weather:1: a room without unit tests; write tests/unit/common/weather/*_test.cpp"));
   plant("tests/house/mirror_rules.cpp", "// the list\n");
   EXPECT_FALSE(is_fine("tests/unit/common/math/sum_test.cpp", "// excused, and tested\n"));
 }

@@ -15,8 +15,8 @@ namespace {
 
 /// What the worst frame of a run said.
 struct Books {
-  double error = 0;    // of the balance of energy
-  double falls = 0;    // of `dissipated`, over what was exchanged
+  double error = 0;                // of the balance of energy
+  double falls = 0;                // of `dissipated`, over what was exchanged
   double linear = 0, angular = 0;  // of momentum, at the end
   EnergyLedger last;
 };
@@ -27,7 +27,8 @@ Books keep(World& world, double seconds, double from = 0.02) {
   while (world.t() < seconds) {
     world.frame({});
     const EnergyLedger seen = world.watched_ledger();
-    books.falls = std::max(books.falls, (most - seen.dissipated) / std::max(seen.exchanged, EnergyLedger::negligible));
+    books.falls =
+        std::max(books.falls, (most - seen.dissipated) / std::max(seen.exchanged, EnergyLedger::negligible));
     most = std::max(most, seen.dissipated);
     if (world.t() > from) books.error = std::max(books.error, seen.balance_error());
   }
@@ -54,7 +55,8 @@ struct Rest {
   double restitution, viscosity_Pa_s;
 };
 void PrintTo(const Rest& c, std::ostream* out) {
-  *out << c.integrator << " " << c.lattice << " " << c.precision << " e " << c.restitution << " " << c.viscosity_Pa_s << " Pa s";
+  *out << c.integrator << " " << c.lattice << " " << c.precision << " e " << c.restitution << " "
+       << c.viscosity_Pa_s << " Pa s";
 }
 
 class OnTheFloor : public testing::TestWithParam<Rest> {};
@@ -65,7 +67,8 @@ TEST_P(OnTheFloor, ACubeOfGelKeepsItsBooks) {
   recipe.lattice = c.lattice;
   recipe.precision = c.precision;
   recipe.shape = Recipe::box(40, 40, 40);
-  recipe.material = fmt::format("density_kg_per_m3 = 1000\nmodulus_kPa = 10\nviscosity_Pa_s = {}", c.viscosity_Pa_s);
+  recipe.material =
+      fmt::format("density_kg_per_m3 = 1000\nmodulus_kPa = 10\nviscosity_Pa_s = {}", c.viscosity_Pa_s);
   recipe.gravity = "[0, 0, -9.81]";
   recipe.physics = fmt::format("integrator = \"{}\"", c.integrator);
   recipe.body = "at_mm = [0, 0, 20.2]";
@@ -87,13 +90,14 @@ std::vector<Rest> rests() {
     for (const char* lattice : {"fcc", "voxel"})
       for (const char* precision : {"double", "single"})
         for (const double e : {0.0, 0.5, 1.0})
-          for (const double viscosity : {2.0, 20.0}) all.push_back({integrator, lattice, precision, e, viscosity});
+          for (const double viscosity : {2.0, 20.0})
+            all.push_back({integrator, lattice, precision, e, viscosity});
   return all;
 }
 INSTANTIATE_TEST_SUITE_P(Resting, OnTheFloor, testing::ValuesIn(rests()), [](const auto& test) {
   const Rest& c = test.param;
-  return fmt::format("{}_{}_{}_e{}_{}Pas", c.integrator, c.lattice, c.precision, static_cast<int>(10 * c.restitution),
-                     static_cast<int>(c.viscosity_Pa_s));
+  return fmt::format("{}_{}_{}_e{}_{}Pas", c.integrator, c.lattice, c.precision,
+                     static_cast<int>(10 * c.restitution), static_cast<int>(c.viscosity_Pa_s));
 });
 
 // --- a column that falls over ---
@@ -114,7 +118,8 @@ TEST(OnTheFloor, AColumnThatFallsOverKeepsItsBooks) {
     world.restart_ledger();
     const Books books = keep(world, 1.5);
     double top = 0;
-    for (const Index cell : world.body(0).body().lattice.masses) top = std::max(top, world.body(0).position(cell).z());
+    for (const Index cell : world.body(0).body().lattice.masses)
+      top = std::max(top, world.body(0).position(cell).z());
     EXPECT_LT(top, 0.04) << "it stands";
     EXPECT_LT(books.error, 2e-3) << integrator;
     EXPECT_EQ(books.falls, 0) << integrator;
@@ -173,14 +178,17 @@ Recipe meeting(int seed, const char* integrator) {
   recipe.material = fmt::format("mass_g = 1\nk1_N_per_m = {}", dice.between(100, 1000));
   if (seed % 4 != 3) recipe.material += fmt::format("\nviscosity_N_s_per_m = {}", dice.between(0.01, 0.5));
   if (seed % 3 == 2)
-    recipe.material += fmt::format("\nk2_ratio = 0.3\nyield_ratio = {}\nbreak_ratio = {}", dice.between(1.02, 1.1),
-                                   dice.between(1.15, 1.4));
+    recipe.material += fmt::format("\nk2_ratio = 0.3\nyield_ratio = {}\nbreak_ratio = {}",
+                                   dice.between(1.02, 1.1), dice.between(1.15, 1.4));
   recipe.body = fmt::format("at_mm = [0, 0, {}]\nvelocity_m_per_s = [{}, {}, {}]", dice.between(21, 40),
                             dice.between(-0.5, 0.5), dice.between(-0.5, 0.5), dice.between(-1.5, 0));
   recipe.world = fmt::format(
-      "[contact]\nrestitution = {}\ndistance = \"{}\"\n[[body]]\nname = \"ball\"\nlattice = \"{}\"\nspacing_mm = 10\n"
-      "shape = \"sphere\"\nradius_mm = 22\nat_mm = [{}, 0, 95]\nvelocity_m_per_s = [0, 0, -1]\nmaterial = \"m\"\n",
-      dice.between(0, 1), seed % 2 == 0 ? "swept" : "paper", seed % 3 == 1 ? "fcc" : "voxel", dice.between(-20, 20));
+      "[contact]\nrestitution = {}\ndistance = \"{}\"\n[[body]]\nname = \"ball\"\nlattice = "
+      "\"{}\"\nspacing_mm = 10\n"
+      "shape = \"sphere\"\nradius_mm = 22\nat_mm = [{}, 0, 95]\nvelocity_m_per_s = [0, 0, -1]\nmaterial = "
+      "\"m\"\n",
+      dice.between(0, 1), seed % 2 == 0 ? "swept" : "paper", seed % 3 == 1 ? "fcc" : "voxel",
+      dice.between(-20, 20));
   recipe.world += floor_at(0);
   recipe.physics = fmt::format("integrator = \"{}\"\nsafety = {}", integrator, dice.between(0.2, 0.8));
   return recipe;
@@ -211,7 +219,8 @@ TEST(Tools, WorkIsWhatTheTissueTakes) {
       const double push = 0.2 * (1 - std::cos(0.1 * n));
       const std::optional<ToolState> hand = steady_hand({0, 0, push});
       world.frame(std::span(&hand, 1));
-      if (n > 20) worst = std::max({worst, world.watched_ledger().balance_error(), world.ledger().balance_error()});
+      if (n > 20)
+        worst = std::max({worst, world.watched_ledger().balance_error(), world.ledger().balance_error()});
     }
     EXPECT_GT(world.ledger().exchanged, 1e-6) << integrator;
     EXPECT_LT(worst, 1e-3) << integrator;
@@ -225,9 +234,11 @@ TEST(Tools, WorkOfAHandThatLeadsABodyIsWhatItTakes) {
       World world(parse_scene(
           fmt::format("gravity_m_per_s2 = [0, 0, 0]\n[physics]\nprecision = \"double\"\nintegrator = \"{}\"\n"
                       "[contact]\ndistance = \"{}\"\nrestitution = 0.5\n"
-                      "[[body]]\nname = \"ball\"\nshape = \"sphere\"\nradius_mm = 12\nspacing_mm = 6\nat_mm = [20, 18, 10]\n"
+                      "[[body]]\nname = \"ball\"\nshape = \"sphere\"\nradius_mm = 12\nspacing_mm = 6\nat_mm "
+                      "= [20, 18, 10]\n"
                       "material = \"m\"\n"
-                      "[[tool]]\nname = \"plate\"\nshape = \"knife\"\nlength_mm = 40\nheight_mm = 40\nspacing_mm = 5\n"
+                      "[[tool]]\nname = \"plate\"\nshape = \"knife\"\nlength_mm = 40\nheight_mm = "
+                      "40\nspacing_mm = 5\n"
                       "material = \"steel\"\ndevice = \"hand\"\n"
                       "[material.m]\nmass_g = 1\nk1_N_per_m = 500\n"
                       "[material.steel]\nmass_g = 10\nk1_N_per_m = 20000\n"
@@ -243,7 +254,8 @@ TEST(Tools, WorkOfAHandThatLeadsABodyIsWhatItTakes) {
         state.q_WT = {1, 0, 0, 0};
         const std::vector<std::optional<ToolState>> hand{state};
         world.frame(hand);
-        if (n > 20) worst = std::max({worst, world.watched_ledger().balance_error(), world.ledger().balance_error()});
+        if (n > 20)
+          worst = std::max({worst, world.watched_ledger().balance_error(), world.ledger().balance_error()});
       }
       EXPECT_GT(world.collisions()->tally().collisions, 10);
       EXPECT_GT(world.body(0).momenta().linear.y(), 1e-3) << "the ball was struck";

@@ -51,7 +51,8 @@ double height_of_edge(const BodyModel& body, double x) {
   double lowest = 1e9;
   for (const Index cell : body.body().lattice.masses) {
     const Vec3 rest = body.body().lattice.rest_position(cell);
-    if (std::abs(rest.x() - x) < 0.012 && rest.z() < 0.012) lowest = std::min(lowest, body.position(cell).z());
+    if (std::abs(rest.x() - x) < 0.012 && rest.z() < 0.012)
+      lowest = std::min(lowest, body.position(cell).z());
   }
   return lowest;
 }
@@ -71,7 +72,8 @@ double broken_share_where(const BodyModel& body, const Holds& holds) {
 }
 
 /// As long as the scene says. Whatever else happens: no mass ends or ever is inside another body, and nothing is warned of.
-void run(World& world, const std::function<void()>& after_frame = [] {}) {
+void run(
+    World& world, const std::function<void()>& after_frame = [] {}) {
   while (world.t() < world.scene().natural_seconds() - 1e-9 && !world.has_stopped()) {
     world.frame({});
     after_frame();
@@ -90,7 +92,8 @@ void run(World& world, const std::function<void()>& after_frame = [] {}) {
 /// Share of the mass in the heaviest fragment.
 double largest(const World& world, std::size_t b) {
   const auto& masses = world.fragments(b)->masses();
-  return *std::max_element(masses.begin(), masses.end()) / static_cast<double>(world.body(b).body().lattice.n_masses());
+  return *std::max_element(masses.begin(), masses.end()) /
+         static_cast<double>(world.body(b).body().lattice.n_masses());
 }
 
 TEST(Collide, AOneSphereRunsThroughTheOther) {
@@ -99,8 +102,10 @@ TEST(Collide, AOneSphereRunsThroughTheOther) {
   const double speed = mean_velocity(bullet).x();
   run(world);
   const double kept = mean_velocity(bullet).x() / speed;
-  fmt::print("broken: target {:.2f}, bullet {:.3f}; the bullet keeps {:.2f} of its speed and is {:.0f} mm beyond the target\n",
-             broken_share(target), broken_share(bullet), kept, 1e3 * (centre(bullet) - centre(target)).x());
+  fmt::print(
+      "broken: target {:.2f}, bullet {:.3f}; the bullet keeps {:.2f} of its speed and is {:.0f} mm beyond "
+      "the target\n",
+      broken_share(target), broken_share(bullet), kept, 1e3 * (centre(bullet) - centre(target)).x());
   EXPECT_GT(broken_share(target), 0.3);
   EXPECT_EQ(broken_share(bullet), 0);
   EXPECT_GT(kept, 0.6);
@@ -111,8 +116,8 @@ TEST(Collide, BBothSpheresAreDestroyed) {
   World world(scene_called("collide_b"));
   run(world);
   for (std::size_t b = 0; b < 2; ++b) {
-    fmt::print("{}: broken {:.3f}, largest fragment {:.3f}\n", world.body(b).body().name, broken_share(world.body(b)),
-               largest(world, b));
+    fmt::print("{}: broken {:.3f}, largest fragment {:.3f}\n", world.body(b).body().name,
+               broken_share(world.body(b)), largest(world, b));
     EXPECT_GT(broken_share(world.body(b)), 0.8);
     EXPECT_LT(largest(world, b), 0.1);
   }
@@ -137,10 +142,13 @@ TEST(Collide, CBothAreDestroyedWhereTheyTouchAndTheFarEdgeOfTheCubeLifts) {
   const Vec3 middle(-0.05, 0, 0.15);  // of the ball
   const double under = broken_share_where(ball, [&](const Vec3& p) { return p.z() < middle.z() - 0.02; });
   const double over = broken_share_where(ball, [&](const Vec3& p) { return p.z() > middle.z() + 0.02; });
-  fmt::print("broken: cube {:.3f}, near the contact {:.3f}, elsewhere {:.3f}; ball {:.3f}, below {:.3f}, above {:.3f}\n",
-             broken_share(cube), contact, elsewhere, broken_share(ball), under, over);
-  fmt::print("the far edge lifts {:.1f} mm while the near one has risen {:.1f} mm; turned by {:.1f} degrees\n", 1e3 * lift,
-             1e3 * near_then, turn);
+  fmt::print(
+      "broken: cube {:.3f}, near the contact {:.3f}, elsewhere {:.3f}; ball {:.3f}, below {:.3f}, above "
+      "{:.3f}\n",
+      broken_share(cube), contact, elsewhere, broken_share(ball), under, over);
+  fmt::print(
+      "the far edge lifts {:.1f} mm while the near one has risen {:.1f} mm; turned by {:.1f} degrees\n",
+      1e3 * lift, 1e3 * near_then, turn);
   EXPECT_GT(contact, 0.05);
   EXPECT_GT(contact, 2 * elsewhere);
   EXPECT_GT(under, 0.05);
@@ -158,11 +166,11 @@ TEST(Collide, DTheHarderCubeCracksNearContactAndFloorAndTurnsALittle) {
   run(world, [&] { turn = std::max(turn, turned_by(cube)); });
   const double contact = broken_share_where(cube, [](const Vec3& p) { return (p - struck).norm() < 0.045; });
   const double floor = broken_share_where(cube, [](const Vec3& p) { return p.z() < 0.02; });
-  const double elsewhere = broken_share_where(cube, [](const Vec3& p) {
-    return (p - struck).norm() >= 0.045 && p.z() >= 0.02;
-  });
-  fmt::print("broken near the contact {:.3f}, near the floor {:.3f}, elsewhere {:.3f}; turned by {:.1f} degrees\n", contact,
-             floor, elsewhere, turn);
+  const double elsewhere =
+      broken_share_where(cube, [](const Vec3& p) { return (p - struck).norm() >= 0.045 && p.z() >= 0.02; });
+  fmt::print(
+      "broken near the contact {:.3f}, near the floor {:.3f}, elsewhere {:.3f}; turned by {:.1f} degrees\n",
+      contact, floor, elsewhere, turn);
   EXPECT_GT(contact, 0.05);
   EXPECT_GT(contact, 2 * elsewhere);
   EXPECT_GT(floor, 1.2 * elsewhere);
@@ -173,14 +181,15 @@ TEST(Collide, DTheHarderCubeCracksNearContactAndFloorAndTurnsALittle) {
 
 /// The paper's contact, of masses with masses, on the same scene: what the measure is for.
 TEST(Collide, ByThePapersContactTheBallEndsInsideTheCubeAndThatIsSaid) {
-  World world(load_scene(std::string(SCENES) + "/collide_c.toml", {"contact.distance=\"paper\"",
-                         "body.ball.velocity_m_per_s=[0.0,0.0,-0.6]", "material.soft.yield_ratio=1.4",
-                         "material.soft.break_ratio=2.0"}));
+  World world(load_scene(std::string(SCENES) + "/collide_c.toml",
+                         {"contact.distance=\"paper\"", "body.ball.velocity_m_per_s=[0.0,0.0,-0.6]",
+                          "material.soft.yield_ratio=1.4", "material.soft.break_ratio=2.0"}));
   while (world.t() < 0.15) world.frame({});
   const auto summary = physics_summary(world, nullptr, 1);
   EXPECT_GT(summary.at("bodies").at("ball").at("inside_others").get<int>(), 50);
   ASSERT_FALSE(summary.at("warnings").empty());
-  EXPECT_NE(summary.at("warnings")[0].get<std::string>().find("bodies go into each other"), std::string::npos);
+  EXPECT_NE(summary.at("warnings")[0].get<std::string>().find("bodies go into each other"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -68,8 +68,8 @@ TEST_P(Falls, EndAsTheyAreCalledAndAccountForTheirEnergyAndMomentum) {
   }
   const auto summary = physics_summary(world, nullptr, 1);
   const int inside = summary.at("bodies").at("ball").at("inside_own_pieces");
-  fmt::print("{}: largest {:.3f}, second {:.3f}; {} masses inside other pieces\n", GetParam(), measures.largest, measures.second,
-             inside);
+  fmt::print("{}: largest {:.3f}, second {:.3f}; {} masses inside other pieces\n", GetParam(),
+             measures.largest, measures.second, inside);
   EXPECT_LE(inside, most_inside_own_pieces);
   EXPECT_TRUE(summary.at("warnings").empty()) << summary.at("warnings");
   double mass = 0;
@@ -90,7 +90,8 @@ TEST_P(Falls, EndAlikeWithTheirNumbersMovedByThreePercent) {
     const std::jthread one(work), two(work);
   }
   for (unsigned n = 0; n < outcomes.size(); ++n)
-    EXPECT_STREQ(name_of(outcomes[n]), GetParam()) << fmt::format("{}", fmt::join(corner(scene, unstrained, n), " "));
+    EXPECT_STREQ(name_of(outcomes[n]), GetParam())
+        << fmt::format("{}", fmt::join(corner(scene, unstrained, n), " "));
 }
 INSTANTIATE_TEST_SUITE_P(OfThePaper, Falls,
                          testing::Values("restitution", "crack", "disunion", "crush", "smash"));

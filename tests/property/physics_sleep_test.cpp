@@ -56,7 +56,8 @@ TEST(Sleep, BeginsAtOnceWhereNothingEverMoved) {
 
 TEST(Sleep, CountsMassesAndNoPlacesWithoutOne) {
   Recipe recipe = bar(true);
-  recipe.shape = "shape = \"tube\"\nouter_radius_mm = 40\ninner_radius_mm = 20\nlength_mm = 100\naxis = \"z\"";
+  recipe.shape =
+      "shape = \"tube\"\nouter_radius_mm = 40\ninner_radius_mm = 20\nlength_mm = 100\naxis = \"z\"";
   recipe.body = "fixed = [\"-z\"]";
   World world(scene_of(recipe));
   rest(world, 0.005);

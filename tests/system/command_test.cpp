@@ -36,7 +36,9 @@ Answer answer_of(const std::string& command) {
   return answer;
 }
 
-Answer palpate_says(const std::string& arguments) { return answer_of(test::quoted(PALPATE) + " " + arguments); }
+Answer palpate_says(const std::string& arguments) {
+  return answer_of(test::quoted(PALPATE) + " " + arguments);
+}
 
 void expect_mistake(const std::string& arguments, const std::string& words) {
   const Answer answer = palpate_says(arguments);
@@ -61,7 +63,8 @@ TEST(Command, AnswersAMistakeWithOneLineAndExitCodeTwo) {
 TEST(Command, RefusesTimesThatNeverEnd) {
   for (const char* seconds : {"nan", "inf", "1e300", "-1", "0"})
     for (const char* option : {"run a.toml --seconds=", "simulate a.toml --seconds=", "replay a.h5 --until="})
-      expect_mistake(option + std::string(seconds), "is out of range; write a number above 0 and at most 1000000");
+      expect_mistake(option + std::string(seconds),
+                     "is out of range; write a number above 0 and at most 1000000");
 }
 
 TEST(Command, HelpsWithExitCodeZero) {
@@ -73,10 +76,12 @@ TEST(Command, HelpsWithExitCodeZero) {
 }
 
 TEST(Command, SaysWhichVersionItIs) {
-  for (const char* program : {"palpate", "palpate-physics", "palpate-haptic", "palpate-render", "palpate-import"}) {
+  for (const char* program :
+       {"palpate", "palpate-physics", "palpate-haptic", "palpate-render", "palpate-import"}) {
     const Answer answer = answer_of(test::quoted(std::string(BIN) + "/" + program) + " --version");
     EXPECT_EQ(answer.exit_code, 0) << answer.text;
-    EXPECT_THAT(answer.text, testing::MatchesRegex(std::string(program) + " [0-9]+\\.[0-9]+\\.[0-9]+ \\(commit [^)]+\\)\n"));
+    EXPECT_THAT(answer.text, testing::MatchesRegex(std::string(program) +
+                                                   " [0-9]+\\.[0-9]+\\.[0-9]+ \\(commit [^)]+\\)\n"));
   }
 }
 
@@ -84,20 +89,24 @@ TEST(Command, SaysWhatWasProbablyMeant) {
   const std::string scene = test::quoted(std::string(SCENES) + "/box_press.toml");
   expect_mistake("rum " + scene + " --headless", "there is no command \"rum\"; did you mean \"run\"?");
   expect_mistake("frobnicate", "there is no command \"frobnicate\"; commands: \"run\"");
-  expect_mistake("run --headles " + scene, "there is no option --headles; did you mean --headless?; see palpate run --help");
+  expect_mistake("run --headles " + scene,
+                 "there is no option --headles; did you mean --headless?; see palpate run --help");
   expect_mistake("simulate " + scene + " --secnds=2", "there is no option --secnds; did you mean --seconds?");
   expect_mistake("--versoin", "there is no option --versoin; did you mean --version?");
   expect_mistake("info " + scene + " " + scene, "box_press.toml\" is one word too many");
   expect_mistake("run " + scene + " --deployment p9", "there is no \"p9\"; write \"all\", \"p2\" or \"p3\"");
-  expect_mistake("run " + scene + " --headless --device simulatd", "no driver \"simulatd\"; did you mean \"simulated\"?");
+  expect_mistake("run " + scene + " --headless --device simulatd",
+                 "no driver \"simulatd\"; did you mean \"simulated\"?");
   expect_mistake("simulate " + scene + " --device simulatd", "did you mean \"simulated\"?");
   expect_mistake("simulate " + scene + " --set device.hand.driver=simulatd", "did you mean \"simulated\"?");
   expect_mistake("simulate " + scene + " --set body.block.material=sft", "did you mean \"soft\"?");
   expect_mistake("simulate " + scene + " --set body.block.shape=sphre", "did you mean \"sphere\"?");
   expect_mistake("simulate " + scene + " --set tool.tip.shape=stik", "did you mean \"stick\"?");
-  expect_mistake("simulate " + scene + " --set physics.integrator=velocity_verlett", "did you mean \"velocity_verlet\"?");
+  expect_mistake("simulate " + scene + " --set physics.integrator=velocity_verlett",
+                 "did you mean \"velocity_verlet\"?");
   expect_mistake("import --phantom aneurism --out v.h5", "did you mean \"aneurysm\"?");
-  const Answer node = answer_of(test::quoted(std::string(BIN) + "/palpate-physics") + " " + scene + " --domian 3");
+  const Answer node =
+      answer_of(test::quoted(std::string(BIN) + "/palpate-physics") + " " + scene + " --domian 3");
   EXPECT_EQ(node.exit_code, 2);
   EXPECT_THAT(node.text, HasSubstr("there is no option --domian; did you mean --domain?"));
   EXPECT_EQ(node.text.find('\n'), node.text.size() - 1) << node.text;
@@ -127,7 +136,9 @@ class Folder : public testing::Test {
 
 TEST_F(Folder, PlotSaysWhereItWrote) {
   write("summary.json", R"({"tools": {"tip": {"trace": "tool_tip.csv"}}})");
-  write("tool_tip.csv", "t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm,contacts\n0,0,0,0,0,0,1,0,0,0,1\n1,0,0,0,0,0,2,0,0,0,1\n");
+  write("tool_tip.csv",
+        "t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm,contacts\n0,0,0,0,0,0,1,0,0,0,1\n1,0,0,0,0,0,2,0,0,"
+        "0,1\n");
   const Answer drawn = palpate_says("plot " + folder.string());
   EXPECT_EQ(drawn.exit_code, 0);
   EXPECT_EQ(drawn.text, "plot     " + (folder / "force.png").string() + "\n");
@@ -139,16 +150,20 @@ TEST_F(Folder, PlotSaysWhereItWrote) {
 
 /// A made Debian in which installing takes a while.
 TEST_F(Folder, InstallingPackagesShowsThatItGoesOn) {
-  write("apt-get", "#!/bin/bash\nfor n in 1 2 3 4 5 6 7 8; do echo \"Unpacking number $n\"; sleep 0.5; done\n", true);
+  write("apt-get",
+        "#!/bin/bash\nfor n in 1 2 3 4 5 6 7 8; do echo \"Unpacking number $n\"; sleep 0.5; done\n", true);
   write("dpkg-query", "#!/bin/bash\necho not-installed\n", true);
   write("sudo", "#!/bin/bash\nexec \"$@\"\n", true);
   write("list", "a-package  # of which nobody has heard\n");
   const std::string path = "PATH=" + folder.string() + ":$PATH ";
-  const Answer answer = answer_of(path + "PALPATE_LINE_EVERY_S=1 " + test::quoted(DEPLOY "/install_packages.sh") + " " + (folder / "list").string());
+  const Answer answer =
+      answer_of(path + "PALPATE_LINE_EVERY_S=1 " + test::quoted(DEPLOY "/install_packages.sh") + " " +
+                (folder / "list").string());
   EXPECT_EQ(answer.exit_code, 0) << answer.text;
   EXPECT_THAT(answer.text, testing::ContainsRegex("packages: [0-9]+ s  Unpacking number [0-9]"));
   write("apt-get", "#!/bin/bash\necho 'E: no network'; exit 100\n", true);
-  const Answer failed = answer_of(path + test::quoted(DEPLOY "/install_packages.sh") + " " + (folder / "list").string());
+  const Answer failed =
+      answer_of(path + test::quoted(DEPLOY "/install_packages.sh") + " " + (folder / "list").string());
   EXPECT_EQ(failed.exit_code, 2);
   EXPECT_THAT(failed.text, HasSubstr("apt-get update failed: E: no network"));
 }

@@ -31,8 +31,9 @@ class DriverRun : public testing::Test {
 
   /// `palpate WORDS scenes/box_press.toml --out folder/NAME MORE`. @return exit code
   int palpate(const std::string& words, const std::string& name, const std::string& more) const {
-    const std::string command = quoted(PALPATE) + " " + words + " " + quoted(SCENES "/box_press.toml") + " --out " +
-                                quoted(folder / name) + " " + more + " >" + quoted(folder / (name + ".log")) + " 2>&1";
+    const std::string command = quoted(PALPATE) + " " + words + " " + quoted(SCENES "/box_press.toml") +
+                                " --out " + quoted(folder / name) + " " + more + " >" +
+                                quoted(folder / (name + ".log")) + " 2>&1";
     const int status = std::system(command.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }

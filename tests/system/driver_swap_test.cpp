@@ -45,11 +45,11 @@ TEST_F(DriverSwap, PlaysTheTraceOfARunAndFeelsTheSame) {
 
 TEST_F(DriverSwap, PressesThroughThreeProcessesWithAVendorsLibrary) {
   setenv("STUB_HD_PRESSES", "5", 1);  // 5 mm, of which 3 are in the tissue
-  const int exit_code = palpate("run", "live",
-                                "--headless --seconds 3 --domain " + std::to_string(test::own_domain()) +
-                                    " --set device.hand.driver=openhaptics --set " +
-                                    test::quoted("device.hand.library=" STUB_HD) +
-                                    " --set 'device.hand.offset_mm=[0,0,22]'");
+  const int exit_code =
+      palpate("run", "live",
+              "--headless --seconds 3 --domain " + std::to_string(test::own_domain()) +
+                  " --set device.hand.driver=openhaptics --set " +
+                  test::quoted("device.hand.library=" STUB_HD) + " --set 'device.hand.offset_mm=[0,0,22]'");
   unsetenv("STUB_HD_PRESSES");
   ASSERT_EQ(exit_code, 0) << said("live");
   const auto summary = read_json((folder / "live" / "summary.json").string());
@@ -106,10 +106,11 @@ TEST_F(DriverSwap, LeavesTheKeysOfTheScenesOwnDriverOut) {
     to << line << (line == "driver    = \"simulated\"" ? "\nmodel = \"touch\"\n" : "\n");
   to.close();
   std::ofstream(folder / "path.csv") << "t_s,x_mm,y_mm,z_mm\n0,0,0,30\n9,0,0,30\n";
-  const std::string command =
-      test::quoted(PALPATE) + " simulate " + test::quoted(scene) + " --no-frames --seconds 0.05 --out " +
-      test::quoted(folder / "own") + " --set device.hand.driver=replay --set " +
-      test::quoted("device.hand.file=" + (folder / "path.csv").string()) + " >" + test::quoted(folder / "own.log") + " 2>&1";
+  const std::string command = test::quoted(PALPATE) + " simulate " + test::quoted(scene) +
+                              " --no-frames --seconds 0.05 --out " + test::quoted(folder / "own") +
+                              " --set device.hand.driver=replay --set " +
+                              test::quoted("device.hand.file=" + (folder / "path.csv").string()) + " >" +
+                              test::quoted(folder / "own.log") + " 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0) << said("own");
 }
 

@@ -33,9 +33,10 @@ class FullDisk : public CommandRun {
                     test::quoted(SCENES "/box_press.toml"), own_domain());
     const std::string line = fmt::format(
         "cd {} && unshare {}--mount sh -c {} >log 2>&1", test::quoted(folder), as_user,
-        test::quoted(fmt::format("mount -t tmpfs -o size={}k none disk && {}; code=$?; df disk; rm -f disk/out/record.h5; "
-                                 "cp -r disk/out kept; exit $code",
-                                 kB, run)));
+        test::quoted(fmt::format(
+            "mount -t tmpfs -o size={}k none disk && {}; code=$?; df disk; rm -f disk/out/record.h5; "
+            "cp -r disk/out kept; exit $code",
+            kB, run)));
     const int status = std::system(line.c_str());
     std::ifstream in(folder / "log");
     log.assign(std::istreambuf_iterator<char>(in), {});

@@ -163,8 +163,7 @@ TEST_F(HandFaults, AnEmergencyStopIsLatchedKeptAsAFlightAndEndedByAPerson) {
   EXPECT_TRUE(until([&] { return log().find("flight_tip.csv") != std::string::npos; })) << log();
   EXPECT_GT(std::filesystem::file_size(flight), 10'000u);
   device->estop = 0;
-  const std::string reset =
-      quoted(PALPATE) + " reset tip --domain " + std::to_string(domain) + " >/dev/null";
+  const std::string reset = quoted(PALPATE) + " reset tip --domain " + std::to_string(domain) + " >/dev/null";
   ASSERT_EQ(std::system(reset.c_str()), 0);
   ASSERT_TRUE(until([&] { return device->opened == 2; })) << log();
   EXPECT_EQ(device->closed, 1u);

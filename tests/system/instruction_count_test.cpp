@@ -43,10 +43,10 @@ struct Count {
 
 /// Runs kernel_steps under callgrind.
 Count count(const Kernel& kernel, int n_steps) {
-  const std::string command =
-      std::string("PALPATE_ISA=") + kernel.isa +
-      " " VALGRIND " --tool=callgrind --callgrind-out-file=/dev/null " + test::quoted(KERNEL_STEPS) + " " + kernel.lattice +
-      " " + kernel.precision + " " + kernel.work + " " + std::to_string(n_steps) + " 2>&1";
+  const std::string command = std::string("PALPATE_ISA=") + kernel.isa +
+                              " " VALGRIND " --tool=callgrind --callgrind-out-file=/dev/null " +
+                              test::quoted(KERNEL_STEPS) + " " + kernel.lattice + " " + kernel.precision +
+                              " " + kernel.work + " " + std::to_string(n_steps) + " 2>&1";
   std::string out;
   std::FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return {};

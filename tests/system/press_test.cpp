@@ -37,9 +37,9 @@ class PressTest : public testing::Test {
 
   /// `palpate WORDS scenes/box_press.toml --out folder/NAME MORE`. @return exit code
   int palpate(const std::string& words, const std::string& name, const std::string& more = "") const {
-    const std::string command = test::quoted(PALPATE) + " " + words + " " + test::quoted(SCENES "/box_press.toml") + " --out " +
-                                test::quoted(folder / name) + " " + more + " >" +
-                                test::quoted(folder / (name + ".log")) + " 2>&1";
+    const std::string command =
+        test::quoted(PALPATE) + " " + words + " " + test::quoted(SCENES "/box_press.toml") + " --out " +
+        test::quoted(folder / name) + " " + more + " >" + test::quoted(folder / (name + ".log")) + " 2>&1";
     const int status = std::system(command.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }

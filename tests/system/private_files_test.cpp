@@ -93,7 +93,9 @@ TEST_F(PrivateFiles, AreThoseMadeOfAPrivateImage) {
       << log;
   EXPECT_TRUE(fs::exists(folder / "out/again/record.h5"));
   fs::create_directories(folder / "out/shown");
-  ASSERT_EQ(palpate("export " + (folder / "out/record.h5").string() + " --out " + (folder / "out/shown").string()), 0)
+  ASSERT_EQ(
+      palpate("export " + (folder / "out/record.h5").string() + " --out " + (folder / "out/shown").string()),
+      0)
       << log;
   for (const auto& file : files()) EXPECT_EQ(mode_of(file), 0600u) << file;
 }

@@ -41,7 +41,8 @@ TEST_F(RemarksOfScenes, ThatComeAlongAreAsExpected) {
   ASSERT_EQ(palpate("import --phantom aneurysm --out " + test::quoted(data + "/aneurysm.h5")), 0) << log;
   ASSERT_EQ(palpate("import --phantom brain --out " + test::quoted(data + "/brain")), 0) << log;
   ASSERT_TRUE(fs::exists(head)) << "install the Debian package invesalius-examples";
-  ASSERT_EQ(palpate(std::string("import ") + head + " --out " + test::quoted(data + "/cranium.h5")), 0) << log;
+  ASSERT_EQ(palpate(std::string("import ") + head + " --out " + test::quoted(data + "/cranium.h5")), 0)
+      << log;
   int scenes = 0;
   for (const auto& entry : fs::directory_iterator(folder / "scenes")) {
     if (entry.path().extension() != ".toml") continue;
@@ -57,7 +58,10 @@ TEST_F(RemarksOfScenes, AreSaidByInfoAndSimulateAndKeptInTheSummary) {
   const std::string scene = (folder / "scenes" / "box_press.toml").string(), out = (folder / "out").string();
   const char* words = "tool \"tip\" begins inside tissue";
   const std::string inside = " --set 'device.hand.waypoints=[[0,0,0,15],[1,0,0,10]]'";
-  EXPECT_EQ(palpate("simulate " + test::quoted(scene) + inside + " --no-frames --seconds 0.05 --out " + test::quoted(out)), 0) << log;
+  EXPECT_EQ(palpate("simulate " + test::quoted(scene) + inside + " --no-frames --seconds 0.05 --out " +
+                    test::quoted(out)),
+            0)
+      << log;
   EXPECT_THAT(log, HasSubstr(words));
   const auto summary = read_json(out + "/summary.json");
   ASSERT_EQ(summary["warnings"].size(), 1u) << summary["warnings"];

@@ -128,7 +128,8 @@ class RenderNode : public testing::Test {
     NodeStatus status;
     const bool running = eventually([&] {
       while (statuses.take(status)) {
-        if (status.phase == NodePhase::running && status.ticks >= pictures && kill(static_cast<pid_t>(status.pid), 0) == 0)
+        if (status.phase == NodePhase::running && status.ticks >= pictures &&
+            kill(static_cast<pid_t>(status.pid), 0) == 0)
           return true;
       }
       return false;

@@ -63,7 +63,10 @@ TEST_F(ReplayTest, RunsALiveSessionWithBreaksAgain) {
   const std::string record = taken_away();
   fs::remove_all(out("live"));
   for (const char* threads : {"1", "2"}) {
-    ASSERT_EQ(palpate("replay " + test::quoted(record) + " --threads " + threads + " --out " + test::quoted(out("again"))), 0) << log;
+    ASSERT_EQ(palpate("replay " + test::quoted(record) + " --threads " + threads + " --out " +
+                      test::quoted(out("again"))),
+              0)
+        << log;
     EXPECT_NE(log.find("all as recorded"), std::string::npos) << log;
     EXPECT_NEAR(seconds_said(), live["simulated_s"], 1e-3);
     const auto again = read_json(out("again/summary.json"));
@@ -75,7 +78,8 @@ TEST_F(ReplayTest, RunsALiveSessionWithBreaksAgain) {
   }
   ASSERT_EQ(palpate("replay " + test::quoted(record) + " --until 0.1"), 0) << log;
   EXPECT_NEAR(seconds_said(), 0.1, 1e-9);
-  EXPECT_EQ(palpate("replay " + test::quoted(out("again/record.h5")) + " --out " + test::quoted(out("again"))), 2)
+  EXPECT_EQ(
+      palpate("replay " + test::quoted(out("again/record.h5")) + " --out " + test::quoted(out("again"))), 2)
       << "would write over what it reads";
   EXPECT_EQ(palpate("replay " + test::quoted(out("again/record.h5"))), 0)
       << "what is run again leaves a record of its own: " << log;

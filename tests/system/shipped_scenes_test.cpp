@@ -26,8 +26,8 @@ class ShippedScenes : public CommandRun {
  protected:
   nlohmann::json simulate(const std::string& scene, const std::string& more) {
     const fs::path out = folder / scene;
-    EXPECT_EQ(palpate("simulate " + test::quoted(SCENES "/" + std::string(scene) + ".toml") + " --no-frames --out " +
-                      out.string() + " " + more),
+    EXPECT_EQ(palpate("simulate " + test::quoted(SCENES "/" + std::string(scene) + ".toml") +
+                      " --no-frames --out " + out.string() + " " + more),
               0)
         << log;
     const auto summary = read_json((out / "summary.json").string());
@@ -114,8 +114,8 @@ TEST_F(ShippedScenes, ALumpIsFelt) {
 
 TEST_F(ShippedScenes, WithAStepFarTooLongEndWithADiagnosis) {
   const fs::path out = folder / "out";
-  EXPECT_EQ(palpate("simulate " + test::quoted(SCENES "/box_press.toml") + " --no-frames --out " + test::quoted(out) +
-                    " --set physics.step_ms=1 --set material.soft.modulus_kPa=1e8"),
+  EXPECT_EQ(palpate("simulate " + test::quoted(SCENES "/box_press.toml") + " --no-frames --out " +
+                    test::quoted(out) + " --set physics.step_ms=1 --set material.soft.modulus_kPa=1e8"),
             1);
   EXPECT_NE(log.find("expect the guard to act"), std::string::npos) << log;
   EXPECT_NE(log.find("body \"block\" cannot be stepped"), std::string::npos) << log;

@@ -118,7 +118,8 @@ TEST_F(Supervision, StaysOpenWithAWindowWhenTheScenesTimeIsOver) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     return run.text("stderr").find(words) != std::string::npos;
   };
-  ASSERT_TRUE(heard("the 0.2 s of the scene are over; close the window or press Ctrl-C to end")) << run.text("stderr");
+  ASSERT_TRUE(heard("the 0.2 s of the scene are over; close the window or press Ctrl-C to end"))
+      << run.text("stderr");
   std::this_thread::sleep_for(std::chrono::milliseconds(500));
   EXPECT_EQ(run.node_pids().size(), 3u) << "all nodes live on";
   kill(run.pid, SIGINT);

@@ -56,8 +56,8 @@ class ToolScenes : public CommandRun {
   /// Runs a scene for its own length, and looks after its books and whether tool and tissue stay out of each other.
   /// @return its summary
   nlohmann::json simulate(const std::string& scene, const std::string& more = "") {
-    EXPECT_EQ(palpate("simulate " + test::quoted(SCENES "/" + std::string(scene) + ".toml") + " --no-frames --out " +
-                      (folder / scene).string() + " " + more),
+    EXPECT_EQ(palpate("simulate " + test::quoted(SCENES "/" + std::string(scene) + ".toml") +
+                      " --no-frames --out " + (folder / scene).string() + " " + more),
               0)
         << log;
     const auto summary = read_json((folder / scene / "summary.json").string());
@@ -109,8 +109,8 @@ TEST_F(ToolScenes, InclinedKnivesTurnTheHandAboutTheAxisThatTheyAreInclinedTo) {
 
 TEST_F(ToolScenes, ABrainIsCutRapidlyAndATooHardBlockBreaksTheKnife) {
   ASSERT_EQ(palpate("import --phantom brain --out " + test::quoted(folder / "brain")), 0) << log;
-  const auto cut = simulate(
-      "brain_cut_rapid", " --set body.brain.files=" + (folder / "brain/slice_*.png").string());
+  const auto cut =
+      simulate("brain_cut_rapid", " --set body.brain.files=" + (folder / "brain/slice_*.png").string());
   EXPECT_GT(broken(cut, "brain"), 0.005);
   EXPECT_EQ(broken(cut, "knife"), 0);
   const auto hard = simulate("knife_breaks");

@@ -32,8 +32,8 @@ class TwoPcs : public testing::Test {
 
   /// @return exit code of the lab
   int lab(const std::string& words) const {
-    const std::string line = fmt::format("{} {} --bin-dir {} --out {} >{} 2>&1", quoted(LAB), words, quoted(BIN),
-                                         quoted(folder / "out"), quoted(folder / "said"));
+    const std::string line = fmt::format("{} {} --bin-dir {} --out {} >{} 2>&1", quoted(LAB), words,
+                                         quoted(BIN), quoted(folder / "out"), quoted(folder / "said"));
     const int status = std::system(line.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
@@ -47,7 +47,8 @@ class TwoPcs : public testing::Test {
     return read_json((folder / "out" / pc / "summary.json").string());
   }
   static std::string palpate(const std::string& scene, const std::string& words) {
-    return fmt::format("{} run {} --headless {}", quoted(BIN "/palpate"), quoted(fs::path(SCENES) / (scene + ".toml")), words);
+    return fmt::format("{} run {} --headless {}", quoted(BIN "/palpate"),
+                       quoted(fs::path(SCENES) / (scene + ".toml")), words);
   }
 
   fs::path folder = fs::temp_directory_path() / fmt::format("palpate_two_pcs_{}", getpid());

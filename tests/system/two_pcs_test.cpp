@@ -31,7 +31,8 @@ TEST_F(TwoPcs, RenderHereFeelThere) {
 }
 
 TEST_F(TwoPcs, DeformHereFeelThereOverABadCable) {
-  ASSERT_EQ(lab(fmt::format("run p3 {} --seconds 3 --delay 5 --jitter 5 --loss 10", quoted(SCENES "/box_press.toml"))),
+  ASSERT_EQ(lab(fmt::format("run p3 {} --seconds 3 --delay 5 --jitter 5 --loss 10",
+                            quoted(SCENES "/box_press.toml"))),
             0)
       << text("said");
   expect_a_felt_press(summary("pc2"), summary("pc1"), summary("pc1"));
@@ -39,23 +40,26 @@ TEST_F(TwoPcs, DeformHereFeelThereOverABadCable) {
 }
 
 TEST_F(TwoPcs, RefuseAnotherSceneInWords) {
-  const std::string first = palpate(
-      "box_press", "--nodes physics --peers 192.168.77.2 --seconds 1 --out " + quoted(folder / "a"));
-  const std::string second = palpate(
-      "inclusion", "--nodes haptic --peers 192.168.77.1 --seconds 1 --out " + quoted(folder / "b"));
-  EXPECT_NE(lab(fmt::format("try {} {}", quoted("timeout 7 " + first + "; true"), quoted("sleep 3; " + second))), 0);
+  const std::string first =
+      palpate("box_press", "--nodes physics --peers 192.168.77.2 --seconds 1 --out " + quoted(folder / "a"));
+  const std::string second =
+      palpate("inclusion", "--nodes haptic --peers 192.168.77.1 --seconds 1 --out " + quoted(folder / "b"));
+  EXPECT_NE(
+      lab(fmt::format("try {} {}", quoted("timeout 7 " + first + "; true"), quoted("sleep 3; " + second))),
+      0);
   EXPECT_THAT(text("said"), HasSubstr("runs the scene box_press, this PC inclusion"));
   EXPECT_THAT(text("said"), Not(HasSubstr("this PC box_press"))) << "who was there first stays";
   EXPECT_FALSE(fs::exists(folder / "b" / "summary.json"));
 }
 
 TEST_F(TwoPcs, RefuseANodeThatIsThereAlready) {
-  const std::string first =
-      palpate("box_press",
-              "--nodes physics,haptic --peers 192.168.77.2 --seconds 1 --out " + quoted(folder / "a"));
+  const std::string first = palpate(
+      "box_press", "--nodes physics,haptic --peers 192.168.77.2 --seconds 1 --out " + quoted(folder / "a"));
   const std::string second = palpate(
       "box_press", "--nodes haptic,render --peers 192.168.77.1 --seconds 1 --out " + quoted(folder / "b"));
-  EXPECT_NE(lab(fmt::format("try {} {}", quoted("timeout 7 " + first + "; true"), quoted("sleep 3; " + second))), 0);
+  EXPECT_NE(
+      lab(fmt::format("try {} {}", quoted("timeout 7 " + first + "; true"), quoted("sleep 3; " + second))),
+      0);
   EXPECT_THAT(text("said"), HasSubstr("haptic is in this session already"));
 }
 
@@ -76,7 +80,8 @@ TEST_F(TwoPcs, ASecondMachineIsNotHeardUnlessNamed) {
       palpate("box_press", "--nodes physics,render --peers 192.168.77.9 --out " + quoted(folder / "a"));
   const std::string second =
       palpate("box_press", "--nodes haptic --peers 192.168.77.1 --out " + quoted(folder / "b"));
-  lab(fmt::format("try {} {}", quoted("timeout 6 " + first + "; true"), quoted("timeout 6 " + second + "; true")));
+  lab(fmt::format("try {} {}", quoted("timeout 6 " + first + "; true"),
+                  quoted("timeout 6 " + second + "; true")));
   EXPECT_THAT(text("said"), HasSubstr("haptic awaited"));
   EXPECT_THAT(text("said"), Not(HasSubstr("is there")));
 }
@@ -85,7 +90,8 @@ TEST_F(TwoPcs, AloneASessionListensToItsOwnMachineOnly) {
   const std::string session = palpate("box_press", "--seconds 3 --out " + quoted(folder / "a"));
   const std::string list =
       "sleep 1.5; ss --no-header --udp --listening --numeric >" + quoted(folder / "sockets");
-  ASSERT_EQ(lab(fmt::format("try {} true", quoted(fmt::format("({}) & {}; wait", list, session)))), 0) << text("said");
+  ASSERT_EQ(lab(fmt::format("try {} true", quoted(fmt::format("({}) & {}; wait", list, session)))), 0)
+      << text("said");
   std::ifstream sockets(folder / "sockets");
   int n = 0;
   for (std::string line; std::getline(sockets, line); ++n)
@@ -97,8 +103,11 @@ TEST_F(TwoPcs, AloneASessionListensToItsOwnMachineOnly) {
 TEST_F(TwoPcs, MalformedDatagramsCrashNobody) {
   const unsigned seed = std::random_device()();
   const std::string session = palpate("box_press", "--domain 3 --seconds 4 --out " + quoted(folder / "a"));
-  const std::string storm = fmt::format("sleep 2; {} 3 3000 {} >{}", quoted(STORM), seed, quoted(folder / "storm"));
-  ASSERT_EQ(lab(fmt::format("try {} true", quoted(fmt::format("({}) & {}; code=$?; wait; exit $code", storm, session)))), 0)
+  const std::string storm =
+      fmt::format("sleep 2; {} 3 3000 {} >{}", quoted(STORM), seed, quoted(folder / "storm"));
+  ASSERT_EQ(lab(fmt::format("try {} true",
+                            quoted(fmt::format("({}) & {}; code=$?; wait; exit $code", storm, session)))),
+            0)
       << text("said") << "seed " << seed;
   EXPECT_THAT(text("storm"), HasSubstr("sent 3000")) << "seed " << seed;
   const auto summary = read_json((folder / "a" / "summary.json").string());

@@ -23,8 +23,8 @@ class VendorTrouble : public test::DriverRun {
     const int exit_code =
         palpate("run", "live",
                 "--nodes physics,haptic --seconds 6 --domain " + std::to_string(test::own_domain()) +
-                    " --set device.hand.driver=openhaptics --set " + test::quoted("device.hand.library=" STUB_HD) +
-                    " --set 'device.hand.offset_mm=[0,0,22]'");
+                    " --set device.hand.driver=openhaptics --set " +
+                    test::quoted("device.hand.library=" STUB_HD) + " --set 'device.hand.offset_mm=[0,0,22]'");
     for (const char* name : {"STUB_HD_PRESSES", "STUB_HD_TROUBLE", "STUB_HD_LOG"}) unsetenv(name);
     return exit_code;
   }

@@ -65,9 +65,9 @@ class DhdDevice final : public kit::OpenDevice {
   kit::Bell wake_, wake_braker_;
   std::atomic<bool> leaving_{false};
   std::atomic<bool> powered_{false};
-  std::atomic<bool> off_{true};      // and the device has been told so
+  std::atomic<bool> off_{true};            // and the device has been told so
   std::atomic<std::int64_t> force_ns_{0};  // when it was told a force last
-  std::atomic<bool> doomed_{false};  // the process is dying: motors stay off
+  std::atomic<bool> doomed_{false};        // the process is dying: motors stay off
   std::atomic<bool> lost_{false};
   std::atomic<bool> calibrated_{false};
   std::uint64_t seq_ = 0;

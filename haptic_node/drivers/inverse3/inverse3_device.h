@@ -80,10 +80,10 @@ class Inverse3Device final : public kit::OpenDevice {
   TripleBuffer<Sample> samples_;  // conversation -> host's thread
   TripleBuffer<Order> orders_;    // host's thread -> conversation
   std::atomic<bool> wanted_{false}, leaving_{false}, lost_{false};
-  std::atomic<bool> doomed_{false};   // the process is dying: no force any more
-  std::atomic<bool> forcing_{false};  // the last message held a force, perhaps none
-  std::string no_force_;              // the message that ends a force, ready to be sent
-  std::string lost_words_;  // written before lost_ is set, read after
+  std::atomic<bool> doomed_{false};           // the process is dying: no force any more
+  std::atomic<bool> forcing_{false};          // the last message held a force, perhaps none
+  std::string no_force_;                      // the message that ends a force, ready to be sent
+  std::string lost_words_;                    // written before lost_ is set, read after
   std::atomic<const char*> fault_words_{""};  // static text
   // Host's thread:
   std::uint64_t last_seq_ = 0;

@@ -38,8 +38,8 @@ class StubHd {
   virtual void raise(unsigned int i, unsigned int code) = 0;  // at the end of the device's next frame
   /// From now on no callback comes, and whoever waits for the scheduler waits until it speaks again.
   virtual void fall_silent(bool yes) = 0;
-  virtual std::vector<std::string> breaches() = 0;            // of the rules of use
-  virtual std::vector<std::string> calls() = 0;               // the rare ones, in order
+  virtual std::vector<std::string> breaches() = 0;  // of the rules of use
+  virtual std::vector<std::string> calls() = 0;     // the rare ones, in order
 };
 
 /// For tests that start whole programs, in the environment:

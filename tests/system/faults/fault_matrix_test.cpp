@@ -66,7 +66,8 @@ class FaultMatrix : public testing::Test {
   }
 
   /// Looks and listens until `done`. @return false after `patience_s`
-  bool until(const std::function<bool()>& done, double patience_s = std::chrono::duration<double>(patience).count()) {
+  bool until(const std::function<bool()>& done,
+             double patience_s = std::chrono::duration<double>(patience).count()) {
     for (const std::int64_t begin_ns = now_ns(); seconds_from_ns(now_ns() - begin_ns) < patience_s;) {
       ear->listen();
       hand.read();
@@ -235,7 +236,8 @@ TEST_F(FaultMatrix, NoKickNoCrashNoLeakAndAllFindEachOtherAgain) {
       growth_of_nodes.threads, growth_of_nodes.memory_kB);
 
   // A node that the last fault has only just started again is ended by the signal itself.
-  EXPECT_TRUE(until([&] { return hand.force() > 0.3 && ear->draws(crew.pid(NodeKind::render), 0); })) << crew.log();
+  EXPECT_TRUE(until([&] { return hand.force() > 0.3 && ear->draws(crew.pid(NodeKind::render), 0); }))
+      << crew.log();
   for (const NodeKind node : crew_nodes) {
     const int status = end(node, SIGTERM);
     EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << name_of(node) << " " << status << '\n'

@@ -24,15 +24,18 @@ std::string said_of(const std::string& text, const Range& range = run_seconds) {
 }
 
 TEST(CheckedOption, TakesNumbersOfTheRange) {
-  for (const char* text : {"1", "0.5", "1e-3", "1000000", "1e6", ".25", "5e-324"}) EXPECT_EQ(said_of(text), "") << text;
+  for (const char* text : {"1", "0.5", "1e-3", "1000000", "1e6", ".25", "5e-324"})
+    EXPECT_EQ(said_of(text), "") << text;
   EXPECT_EQ(said_of("0", {.lo = 0, .hi = 1}), "");
   EXPECT_EQ(said_of("-0", {.lo = 0, .hi = 1}), "");
 }
 
 TEST(CheckedOption, RefusesWhatLiesOutsideAndWhatIsNoNumber) {
-  for (const char* text : {"nan", "-nan", "NaN", "inf", "-inf", "infinity", "0", "-0", "-1", "1e7", "1e300", "1e999", "1e-999"}) {
+  for (const char* text : {"nan", "-nan", "NaN", "inf", "-inf", "infinity", "0", "-0", "-1", "1e7", "1e300",
+                           "1e999", "1e-999"}) {
     EXPECT_THAT(said_of(text), StartsWith("--seconds: ")) << text;
-    EXPECT_THAT(said_of(text), HasSubstr("is out of range; write a number above 0 and at most 1000000")) << text;
+    EXPECT_THAT(said_of(text), HasSubstr("is out of range; write a number above 0 and at most 1000000"))
+        << text;
   }
   for (const char* text : {"soon", "1s", "0x10", "1,5", "--", "1 2", " 1"}) {
     EXPECT_THAT(said_of(text), StartsWith("--seconds: ")) << text;

@@ -115,8 +115,7 @@ inline void randomise(Dice& dice, HapticTrace& m) {
     TraceSample& s = m.samples[i];
     s.tick = first + i;
     s.t = dice.real(0, 10);
-    dice.fill(s.p), dice.fill(s.proxy), dice.fill(s.force), dice.fill(s.torque),
-        dice.fill(s.energy);
+    dice.fill(s.p), dice.fill(s.proxy), dice.fill(s.force), dice.fill(s.torque), dice.fill(s.energy);
   }
 }
 inline void randomise(Dice& dice, Pointer& m) {
@@ -179,8 +178,8 @@ inline auto fields(const Command& m) { return std::tie(m.id, m.kind, m.value, m.
 inline auto fields(const NodeStatus& m) {
   return std::tie(m.node, m.phase, m.pid, m.scene_checksum, m.t, m.rate_Hz, m.real_time_factor,
                   m.loop_age_ms_p50, m.ticks, m.late, m.samples_received, m.samples_lost, m.rejected,
-                  m.foreign, m.refused, m.warnings, m.energy_J, m.surplus_J, m.stale_events, m.safe_events, m.faults, m.lateness,
-                  m.note);
+                  m.foreign, m.refused, m.warnings, m.energy_J, m.surplus_J, m.stale_events, m.safe_events,
+                  m.faults, m.lateness, m.note);
 }
 template <class M>
 bool same(const M& a, const M& b) {

@@ -296,16 +296,16 @@ TEST_P(ImportPlaces, ThatCannotBeUsedAreNamed) {
   EXPECT_EQ(file_bytes(folder / "a.nii"), nifti());
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ImportPlaces,
-                         testing::Values(Place{"ImageIsMissing", "none.nii", "v.h5", "no such file"},
-                                         Place{"OutputFoldersAreMissing", "a.nii", "none/none/v.h5", "no folder"},
-                                         Place{"OutputIsAFolder", "a.nii", "", "is a folder"},
-                                         Place{"OutputFolderIsAFile", "a.nii", "a.nii/v.h5", "no folder"},
-                                         Place{"OutputIsUnwritable", "a.nii", "/proc/v.h5",
-                                               "cannot be written"},
-                                         Place{"OutputIsTheImage", "a.nii", "a.nii", "the image itself"},
-                                         Place{"ImageIsADevice", "/dev/null", "v.h5", "neither a file"}),
-                         [](const auto& each) { return each.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    All, ImportPlaces,
+    testing::Values(Place{"ImageIsMissing", "none.nii", "v.h5", "no such file"},
+                    Place{"OutputFoldersAreMissing", "a.nii", "none/none/v.h5", "no folder"},
+                    Place{"OutputIsAFolder", "a.nii", "", "is a folder"},
+                    Place{"OutputFolderIsAFile", "a.nii", "a.nii/v.h5", "no folder"},
+                    Place{"OutputIsUnwritable", "a.nii", "/proc/v.h5", "cannot be written"},
+                    Place{"OutputIsTheImage", "a.nii", "a.nii", "the image itself"},
+                    Place{"ImageIsADevice", "/dev/null", "v.h5", "neither a file"}),
+    [](const auto& each) { return each.param.name; });
 
 TEST(ImportOutput, HasItsFolderMade) {
   const ScratchFolder folder;

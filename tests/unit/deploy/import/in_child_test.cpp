@@ -15,7 +15,9 @@ int nap() {
 
 TEST(RunInChild, SaysWhileItWaitsThatItStillDoes) {
   std::vector<int> said;
-  EXPECT_EQ(run_in_child(nap, [&](int seconds) { said.push_back(seconds); }, 1), 7);
+  EXPECT_EQ(run_in_child(
+                nap, [&](int seconds) { said.push_back(seconds); }, 1),
+            7);
   ASSERT_GE(said.size(), 2u);
   EXPECT_EQ(said[0], 1);
   EXPECT_EQ(said[1], 2);

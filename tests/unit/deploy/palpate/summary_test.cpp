@@ -1,5 +1,5 @@
-#include "deploy/palpate/hand_warnings.h"
 #include "deploy/palpate/summary.h"
+#include "deploy/palpate/hand_warnings.h"
 
 #include <gtest/gtest.h>
 
@@ -65,7 +65,8 @@ TEST_F(Summary, HoldsTheWarningsOfAllParts) {
 }
 
 TEST_F(Summary, SaysInWordsWhatTheCountsOfTheHandMean) {
-  folder.write("parts/haptic.json", R"({"haptic": {"stale_events": 3, "safe_events": 0, "faults": 1, "watchdog_stops": 0}})");
+  folder.write("parts/haptic.json",
+               R"({"haptic": {"stale_events": 3, "safe_events": 0, "faults": 1, "watchdog_stops": 0}})");
   const auto warnings = merged_summary(folder.path(), scene, result)["warnings"];
   ASSERT_EQ(warnings.size(), 2u) << warnings;
   EXPECT_EQ(warnings[0].get<std::string>().find("physics was silent for the hand 3 time(s)"), 0u);

@@ -161,7 +161,8 @@ TEST(Inverse3, NamesWhatTheServiceSaysOfTheDeviceAndForcesNoMore) {
                           Case{"limp", HDEV_FAULT_FORCE_OFF, "current_cursor_force is none"}}) {
     Service service(one.mood);
     DriverUnderTest driver("inverse3");
-    ASSERT_EQ(driver.open(service.options()), HDEV_OK) << one.mood << ": " << driver.api().last_error(nullptr);
+    ASSERT_EQ(driver.open(service.options()), HDEV_OK)
+        << one.mood << ": " << driver.api().last_error(nullptr);
     driver.power(true);
     read_until(driver, [&](hdev_status s) {
       driver.write(1, 0, 0);

@@ -164,7 +164,8 @@ World shot(const char* distance, double seconds) {
   recipe.material = "mass_g = 1\nk1_N_per_m = 2000\nviscosity_N_s_per_m = 0.2";
   recipe.world = "[contact]\ndistance = \"" + std::string(distance) +
                  "\"\n[[body]]\nname = \"ball\"\nspacing_mm = 10\nmaterial = \"m\"\nat_mm = [20, 20, 75]\n"
-                 "velocity_m_per_s = [0, 0, -6]\n" + Recipe::sphere(20);
+                 "velocity_m_per_s = [0, 0, -6]\n" +
+                 Recipe::sphere(20);
   World world(scene_of(recipe));
   while (world.t() < seconds) world.frame({});
   return world;
@@ -177,7 +178,8 @@ TEST(InsideOthers, AreCountedWhileAWorldRunsAndWarnedOf) {
   const auto summary = physics_summary(through, nullptr, 1);
   EXPECT_EQ(summary.at("bodies").at("ball").at("inside_others_max"), through.inside_others()->most(1));
   ASSERT_EQ(summary.at("warnings").size(), 1u) << summary.at("warnings");
-  EXPECT_NE(summary.at("warnings")[0].get<std::string>().find("contact.distance = \"swept\""), std::string::npos);
+  EXPECT_NE(summary.at("warnings")[0].get<std::string>().find("contact.distance = \"swept\""),
+            std::string::npos);
 
   const World apart = shot("swept", 0.03);
   const auto sound = physics_summary(apart, nullptr, 1);

@@ -37,7 +37,8 @@ TEST(Outcome, FollowsFromTheMeasures) {
   // Edges.
   EXPECT_EQ(classify(touched(0.5, 1, 0.88, 0.11, 1)), Outcome::disunion) << "a second part";
   EXPECT_EQ(classify(touched(0.5, 1, 0.7, 0.01, 1)), Outcome::disunion) << "a third has gone, in splinters";
-  EXPECT_EQ(classify(touched(0.03, 0.1, 0.86, 0.07, 0.1)), Outcome::disunion) << "a bar in three pieces, its ends short";
+  EXPECT_EQ(classify(touched(0.03, 0.1, 0.86, 0.07, 0.1)), Outcome::disunion)
+      << "a bar in three pieces, its ends short";
   EXPECT_EQ(classify(touched(0.6, 1, 0.3, 0.28, 1)), Outcome::disunion) << "three parts and splinters";
   EXPECT_EQ(classify(touched(0.9, 1, 0.09, 0.08, 1)), Outcome::smash);
   EXPECT_EQ(classify(touched(0, 0, 1, 0, 0.3)), Outcome::crush) << "turned over, though nothing has yielded";
@@ -91,7 +92,8 @@ TEST(Outcome, OfABarInPiecesIsDisunionHoweverFineItIs) {
     const OutcomeMeasures three = cut_bar(spacing_mm, gaps({-0.101, 0.101}));  // the ends hold 8 % each
     EXPECT_EQ(three.fragments, 3);
     EXPECT_GT(three.largest, 0.75);
-    EXPECT_EQ(classify(three), Outcome::disunion) << spacing_mm << " mm: " << three.largest << " " << three.second;
+    EXPECT_EQ(classify(three), Outcome::disunion)
+        << spacing_mm << " mm: " << three.largest << " " << three.second;
     EXPECT_NEAR(three.cut, 2, 0.35) << "two cuts";
     EXPECT_EQ(classify(cut_bar(spacing_mm, gaps({0.003}))), Outcome::disunion);
   }

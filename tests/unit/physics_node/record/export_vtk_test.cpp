@@ -99,7 +99,8 @@ TEST_F(Export, FollowsWhatYieldsAndBreaks) {
   Recipe recipe;
   recipe.shape = Recipe::box(40, 40, 40);
   recipe.spacing_mm = 8;
-  recipe.material = "density_kg_per_m3 = 1000\nmodulus_kPa = 20\nk2_ratio = 0.3\nyield_ratio = 1.05\nbreak_ratio = 1.2";
+  recipe.material =
+      "density_kg_per_m3 = 1000\nmodulus_kPa = 20\nk2_ratio = 0.3\nyield_ratio = 1.05\nbreak_ratio = 1.2";
   recipe.gravity = "[0, 0, -9.81]";
   recipe.world = floor_at(-60) + all_kept;
   record(scene_of(recipe), 300);
@@ -114,7 +115,8 @@ TEST_F(Export, FollowsWhatYieldsAndBreaks) {
   EXPECT_GT(last["cells"].get<int>(), first["cells"].get<int>()) << "cracks are open";
   // As many facets as the surface of the world has now: the last time is the last state.
   const Surface now = make_surface(world_->body(0), scene_.render.threshold, 0);
-  EXPECT_NEAR(last["cells"].get<double>(), static_cast<double>(now.facets.size()), 0.2 * static_cast<double>(now.facets.size()));
+  EXPECT_NEAR(last["cells"].get<double>(), static_cast<double>(now.facets.size()),
+              0.2 * static_cast<double>(now.facets.size()));
 }
 
 TEST_F(Export, KeepsToItsBudget) {
@@ -139,10 +141,12 @@ TEST_F(Export, IsAsPrivateAsTheRecordAndTouchesNothingElse) {
   recipe.world += all_kept;
   record(scene_of(recipe), 30, steady_hand({0, 0, 1.5}));
   fs::create_directories(folder_ / "vtk");
-  for (const char* mine : {"vtk/mine.vtp", "vtk/body_notes.txt", "notes.pvd"}) std::ofstream(folder_ / mine) << "mine";
+  for (const char* mine : {"vtk/mine.vtp", "vtk/body_notes.txt", "notes.pvd"})
+    std::ofstream(folder_ / mine) << "mine";
   chmod((folder_ / "record.h5").c_str(), 0600);
   const VtkExport done = run();
-  for (const char* mine : {"vtk/mine.vtp", "vtk/body_notes.txt", "notes.pvd"}) EXPECT_TRUE(fs::exists(folder_ / mine));
+  for (const char* mine : {"vtk/mine.vtp", "vtk/body_notes.txt", "notes.pvd"})
+    EXPECT_TRUE(fs::exists(folder_ / mine));
   EXPECT_EQ(rights(done.collection), fs::perms{0600});
   EXPECT_EQ(rights(folder_ / "vtk"), fs::perms{0700});
   EXPECT_EQ(rights(folder_ / "vtk/body_body_00001.vtp"), fs::perms{0600});

@@ -256,8 +256,7 @@ TEST(SessionRecord, OfAKilledWriterIsWholeUpToItsLastFlush) {
       leave_record(folder, 10'000'000);
       _exit(0);
     }
-    while (!was_flushed(folder / "record.h5"))
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    while (!was_flushed(folder / "record.h5")) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     std::this_thread::sleep_for(std::chrono::milliseconds(static_cast<int>(dice.between(50, 1500))));
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);
@@ -270,7 +269,8 @@ TEST(SessionRecord, OfAKilledWriterIsWholeUpToItsLastFlush) {
     EXPECT_FALSE(SessionRecord(folder / "record.h5").cut_short()) << "others can open it now";
     EXPECT_EQ(run_again(folder / "record.h5").hash, again.hash);
     EXPECT_FALSE(mend_record(folder / "record.h5"));
-    const VtkExport shown = export_vtk(folder / "record.h5", load_scene(folder / "scene.toml"), {.folder = folder.path()});
+    const VtkExport shown =
+        export_vtk(folder / "record.h5", load_scene(folder / "scene.toml"), {.folder = folder.path()});
     EXPECT_GT(shown.times, 0u);
     const auto seen = test::seen_by_vtk(shown.collection);
     ASSERT_EQ(seen.size(), shown.times);

@@ -15,7 +15,8 @@ inline nlohmann::json seen_by_vtk(const std::string& pvd) {
       std::string(source == nullptr ? "." : source) + "/tests/unit/physics_node/record/open_export.py";
   std::FILE* pipe = popen(("/usr/bin/python3 '" + script + "' '" + pvd + "'").c_str(), "r");
   std::string said;
-  for (int letter = std::fgetc(pipe); letter != EOF; letter = std::fgetc(pipe)) said += static_cast<char>(letter);
+  for (int letter = std::fgetc(pipe); letter != EOF; letter = std::fgetc(pipe))
+    said += static_cast<char>(letter);
   if (pclose(pipe) != 0) return nullptr;
   return nlohmann::json::parse(said, nullptr, false);
 }

@@ -81,34 +81,49 @@ const std::string ball = "body.block.";
 INSTANTIATE_TEST_SUITE_P(
     , MistakeOfANewcomer,
     testing::Values(
-        Mistake{"ModulusInPa", {"material.soft.modulus_kPa=3e8", "physics.integrator=backward_euler"}, "as stiff as bone"},
+        Mistake{"ModulusInPa",
+                {"material.soft.modulus_kPa=3e8", "physics.integrator=backward_euler"},
+                "as stiff as bone"},
         Mistake{"ModulusInMPa", {"material.soft.modulus_kPa=0.01"}, "softer than jelly"},
         Mistake{"DensityInGramsPerCm3", {"material.soft.density_kg_per_m3=1.06"}, "has a density of 1.06"},
         Mistake{"SizesInMetres",
-                {"body.block.size_mm=[0.06,0.06,0.03]", "body.block.spacing_mm=0.005", path + "[[0,0,0,0.025],[1,0,0,0.012]]",
-                 "render.camera={distance_mm=0.3}", "physics.integrator=backward_euler"},
+                {"body.block.size_mm=[0.06,0.06,0.03]", "body.block.spacing_mm=0.005",
+                 path + "[[0,0,0,0.025],[1,0,0,0.012]]", "render.camera={distance_mm=0.3}",
+                 "physics.integrator=backward_euler"},
                 "measures 0.06 mm"},
         Mistake{"GravityInMillimetres", {"gravity_m_per_s2=[0,0,-9810]"}, "gravity is 9810"},
         Mistake{"GravityUpwards", {"gravity_m_per_s2=[0,0,9.81]"}, "gravity points up"},
         Mistake{"TooFewFrames", {"physics.frame_Hz=25"}, "at 25 frames a second"},
         Mistake{"TooManySteps", {"physics.step_ms=0.0005"}, "2000 steps a frame are too many"},
         Mistake{"NothingHeld", {"body.block.fixed=[]"}, "falls: nothing holds it"},
-        Mistake{"NothingHeldWithoutGravity", {"body.block.fixed=[]", "gravity_m_per_s2=[0,0,0]"}, "drifts away once it is touched"},
-        Mistake{"AllHeld", {"body.block.fixed=[{min_mm=[-99,-99,-99],max_mm=[99,99,99]}]"}, "nothing of it moves"},
+        Mistake{"NothingHeldWithoutGravity",
+                {"body.block.fixed=[]", "gravity_m_per_s2=[0,0,0]"},
+                "drifts away once it is touched"},
+        Mistake{"AllHeld",
+                {"body.block.fixed=[{min_mm=[-99,-99,-99],max_mm=[99,99,99]}]"},
+                "nothing of it moves"},
         Mistake{"HoldOfNothing",
                 {"body.block.fixed=[\"-z\",{min_mm=[-0.1,-0.1,0.001],max_mm=[-0.05,0.1,0.1]}]"},
                 "holds none of its masses"},
         Mistake{"BelowTheFloor", {"floor.height_mm=0"}, "mm below the floor"},
         Mistake{"ToolBeginsInside", {path + "[[0,0,0,3],[1,0,0,0]]"}, "begins inside tissue"},
-        Mistake{"PathNeverTouches", {path + "[[0,0,0,45],[1,0,0,25],[2,0,0,45]]"}, "never touches a body and stays 10"},
+        Mistake{"PathNeverTouches",
+                {path + "[[0,0,0,45],[1,0,0,25],[2,0,0,45]]"},
+                "never touches a body and stays 10"},
         Mistake{"PathBesideTheBody", {path + "[[0,0,0.2,25],[1,200,0,12]]"}, "never touches"},
-        Mistake{"PathInMetresForMillimetres", {path + "[[0,0,0,25000],[4,0,0,24000]]", "scene.seconds=5"}, "begins 25 m away"},
+        Mistake{"PathInMetresForMillimetres",
+                {path + "[[0,0,0,25000],[4,0,0,24000]]", "scene.seconds=5"},
+                "begins 25 m away"},
         Mistake{"FasterThanAHand", {path + "[[0,0,0,25],[0.001,0,0,12],[1,0,0,25]]"}, "is led at 13 m/s"},
-        Mistake{"SceneEndsBeforeThePath", {"scene.seconds=1.5"}, "its path takes 2 s, the scene ends after 1.5"},
+        Mistake{
+            "SceneEndsBeforeThePath", {"scene.seconds=1.5"}, "its path takes 2 s, the scene ends after 1.5"},
         Mistake{"StickThatBeginsInside",
-                {"tool.tip.shape=stick", "tool.tip.length_mm=60", "tool.tip.radius_mm=4", path + "[[0,0,0,30],[1,0,0,12]]"},
+                {"tool.tip.shape=stick", "tool.tip.length_mm=60", "tool.tip.radius_mm=4",
+                 path + "[[0,0,0,30],[1,0,0,12]]"},
                 "begins inside tissue"},
-        Mistake{"CameraLooksAway", {"render.camera={distance_mm=300,target_mm=[0,0,900]}"}, "looks past all bodies"},
+        Mistake{"CameraLooksAway",
+                {"render.camera={distance_mm=300,target_mm=[0,0,900]}"},
+                "looks past all bodies"},
         Mistake{"CameraFarAway", {"render.camera={distance_mm=300000}"}, "are a dot in the picture"}),
     [](const auto& which) { return which.param.name; });
 
@@ -139,7 +154,8 @@ modulus_kPa = 10
 [[body]]
 name = "image"
 shape = "volume"
-file = ")" + (folder / "v.h5") + R"("
+file = ")" + (folder / "v.h5") +
+                           R"("
 keep = [50, 400]
 material = "soft"
 deformable = { center_voxel = [10, 10, 5], radius_voxels = 4 }
@@ -148,9 +164,12 @@ deformable = { center_voxel = [10, 10, 5], radius_voxels = 4 }
   const Remarks air = remarks_of(text, {"body.image.keep=[0,400]"});
   ASSERT_EQ(air.size(), 1u) << all(air);
   EXPECT_NE(air[0].find("\"keep\" takes 100 % of the image"), std::string::npos) << air[0];
-  const Remarks outside = remarks_of(text, {"body.image.deformable={center_voxel=[10,21,5],radius_voxels=4}"});
+  const Remarks outside =
+      remarks_of(text, {"body.image.deformable={center_voxel=[10,21,5],radius_voxels=4}"});
   ASSERT_EQ(outside.size(), 1u) << all(outside);
-  EXPECT_NE(outside[0].find("center_voxel = [10, 21, 5] lies outside its 20 x 20 x 10 cells"), std::string::npos) << outside[0];
+  EXPECT_NE(outside[0].find("center_voxel = [10, 21, 5] lies outside its 20 x 20 x 10 cells"),
+            std::string::npos)
+      << outside[0];
 }
 
 }  // namespace

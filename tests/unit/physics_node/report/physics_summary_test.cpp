@@ -61,7 +61,8 @@ TEST(PhysicsSummary, HasTheKeysPromised) {
                "tool_work", "exchanged", "balance_error"},
               "energy");
   expect_keys(summary.at("momentum"), {"linear", "angular"}, "momentum");
-  expect_keys(summary.at("guard"), {"nonfinite", "grown", "restored", "halved", "unsolved", "warnings"}, "guard");
+  expect_keys(summary.at("guard"), {"nonfinite", "grown", "restored", "halved", "unsolved", "warnings"},
+              "guard");
   EXPECT_EQ(summary.at("guard").at("warnings"), 0);
   EXPECT_FALSE(summary.at("guard").contains("stopped"));
   EXPECT_EQ(summary.at("warnings"), json::array()) << "nothing is wrong with it";
@@ -164,7 +165,9 @@ TEST(PhysicsSummary, WarnsWhereEnergyDoesNotBalance) {
 /// Brittle tissue breaks on the floor faster than its step follows.
 json warnings_of_a_smash(double step_ms) {
   Recipe recipe;
-  recipe.material = "density_kg_per_m3 = 1000\nmodulus_kPa = 100\nviscosity_Pa_s = 1\nyield_ratio = 1.05\nbreak_ratio = 1.1";
+  recipe.material =
+      "density_kg_per_m3 = 1000\nmodulus_kPa = 100\nviscosity_Pa_s = 1\nyield_ratio = 1.05\nbreak_ratio = "
+      "1.1";
   recipe.shape = Recipe::box(40, 40, 40);
   recipe.spacing_mm = 8;
   recipe.physics = fmt::format("step_ms = {}", step_ms);

@@ -32,7 +32,8 @@ Machine of_share(double share) {
 double loss(const Machine& machine, double seconds, double best_step) {
   TeamChoice choice = TeamChoice::up_to(2);
   int steps = 0;
-  const double t = run(choice, [&](int threads, double now) { return ++steps, machine(threads, now); }, seconds);
+  const double t = run(
+      choice, [&](int threads, double now) { return ++steps, machine(threads, now); }, seconds);
   return t / (steps * best_step) - 1;
 }
 
@@ -103,7 +104,11 @@ TEST(TeamChoice, IsNotLedByChance) {
 /// Work that grows or shrinks (rows wake, bodies break) is no reason to try again every quarter of a second.
 TEST(TeamChoice, LooksSparinglyWhereTheWorkSwings) {
   TeamChoice choice = TeamChoice::up_to(2);
-  run(choice, [](int threads, double t) { return (static_cast<long>(t * 2) % 2 == 0 ? 2e-3 : 0.5e-3) * (threads > 1 ? 1.2 : 1); },
+  run(
+      choice,
+      [](int threads, double t) {
+        return (static_cast<long>(t * 2) % 2 == 0 ? 2e-3 : 0.5e-3) * (threads > 1 ? 1.2 : 1);
+      },
       120);
   EXPECT_EQ(choice.changes(), 0);
   EXPECT_LT(choice.trials(), 66);
@@ -120,7 +125,8 @@ TEST(TeamChoice, ClimbsToTheNumberThatPays) {
   EXPECT_EQ(choice.threads(), 4);
   EXPECT_EQ(choice.changes(), 2);
   TeamChoice odd = TeamChoice::up_to(6);
-  run(odd, [](int threads, double) { return 1e-3 / threads; }, 10);
+  run(
+      odd, [](int threads, double) { return 1e-3 / threads; }, 10);
   EXPECT_EQ(odd.threads(), 6);
 }
 
@@ -143,7 +149,9 @@ TEST(TeamChoice, StaysWithinWhatItMayUse) {
       ASSERT_GE(choice.threads(), 1);
       ASSERT_LE(choice.threads(), most);
       const auto dice = engine();
-      choice.took(dice % 7 == 0 ? 0 : dice % 97 == 0 ? 3'600'000'000'000 : static_cast<std::int64_t>(dice % 4'000'000));
+      choice.took(dice % 7 == 0    ? 0
+                  : dice % 97 == 0 ? 3'600'000'000'000
+                                   : static_cast<std::int64_t>(dice % 4'000'000));
     }
   }
 }

@@ -22,7 +22,9 @@ namespace {
 double cpu_seconds() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
@@ -34,7 +36,8 @@ TEST(Team, DoesEveryPieceOnce) {
       const auto count = static_cast<std::size_t>(call % 41);
       std::array<std::atomic<int>, 41> done{};
       team.each(count, threads, [&](std::size_t n) { ++done.at(n); });
-      for (std::size_t n = 0; n < done.size(); ++n) ASSERT_EQ(done[n], n < count ? 1 : 0) << threads << " " << call;
+      for (std::size_t n = 0; n < done.size(); ++n)
+        ASSERT_EQ(done[n], n < count ? 1 : 0) << threads << " " << call;
     }
   }
 }

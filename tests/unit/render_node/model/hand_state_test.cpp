@@ -15,14 +15,16 @@ namespace palpate::render {
 namespace {
 
 TEST(HandState, IsReadFromTheNoteOfTheHapticNode) {
-  const std::string note = "no real-time rights; tip: run; finger: ready (inside the tissue, move out); end: fault";
+  const std::string note =
+      "no real-time rights; tip: run; finger: ready (inside the tissue, move out); end: fault";
   EXPECT_EQ(hand_state(note, "tip").state, "run");
   EXPECT_EQ(hand_state(note, "tip").reason, "");
   EXPECT_EQ(hand_state(note, "finger").state, "ready");
   EXPECT_EQ(hand_state(note, "finger").reason, "inside the tissue, move out");
   EXPECT_EQ(hand_state(note, "end").state, "fault");
   EXPECT_EQ(hand_state(note, "thumb").state, "");
-  EXPECT_EQ(hand_state("x; finger: ready (nobody ho", "finger").reason, "nobody ho") << "cut off by its field";
+  EXPECT_EQ(hand_state("x; finger: ready (nobody ho", "finger").reason, "nobody ho")
+      << "cut off by its field";
   EXPECT_EQ(hand_state("", "finger").state, "");
 }
 
@@ -46,7 +48,8 @@ TEST(Hindrances, SayWhyThereIsNoForce) {
   for (const auto& chunk : test::chunks_of(test::cube_surface(2, 0.1, 0xffffffffU), 0, 1)) model.take(chunk);
   EXPECT_EQ(all_of(hindrances(scene, model, false, nullptr)), "");
   hear_note(model, "rights; finger: ready (inside the tissue, move out)");
-  EXPECT_EQ(all_of(hindrances(scene, model, false, nullptr)), "finger: no force yet: inside the tissue, move out\n");
+  EXPECT_EQ(all_of(hindrances(scene, model, false, nullptr)),
+            "finger: no force yet: inside the tissue, move out\n");
   ToolPointer pointer(0, Vec3::Zero());
   EXPECT_EQ(all_of(hindrances(scene, model, true, &pointer)),
             "paused: Resume goes on\nfinger: press T to take it, over the place to touch\n");

@@ -124,7 +124,8 @@ struct Shown {
     model.emplace(scene);
     window.emplace(scene, *model, pointed ? std::vector<std::uint32_t>{0} : std::vector<std::uint32_t>{});
     facts.interactive = true;
-    for (const auto& chunk : test::chunks_of(test::cube_surface(12, 0.1, 0xff96b4e6U), 0, 1)) model->take(chunk);
+    for (const auto& chunk : test::chunks_of(test::cube_surface(12, 0.1, 0xff96b4e6U), 0, 1))
+      model->take(chunk);
     draw();
     draw();
     hand.emplace(title);
@@ -241,7 +242,8 @@ TEST(Window, PanelFitsAnyWindowOrScrolls) {
       wrench.moment = {0.01, 0.02, 0};
       shown.model->take(wrench);
     }
-    say(*shown.model, NodeKind::haptic, "no real-time rights, ticks may come late; finger: ready (nobody holds it)");
+    say(*shown.model, NodeKind::haptic,
+        "no real-time rights, ticks may come late; finger: ready (nobody holds it)");
     say(*shown.model, NodeKind::physics, "the time step is above the stable one; expect the guard to act");
     say(*shown.model, NodeKind::render, "");
     shown.hand->move(60, height / 2);
@@ -254,7 +256,8 @@ TEST(Window, PanelFitsAnyWindowOrScrolls) {
     // The last row is "arrow: 1 N is": its ink ends above the lower edge, and nothing is laid out below it.
     const int line = static_cast<int>(25.0 * height / 720) + 8;
     EXPECT_GT(ink(image, 4, static_cast<int>(0.3 * width), height - 3 * line, height), 15) << height;
-    EXPECT_EQ(ink(image, 4, static_cast<int>(0.2 * width), height - 3, height), 0) << height << ": a row is cut";
+    EXPECT_EQ(ink(image, 4, static_cast<int>(0.2 * width), height - 3, height), 0)
+        << height << ": a row is cut";
     // Back to the top.
     for (int i = 0; i < 15; ++i) {
       shown.hand->wheel(true);
@@ -269,7 +272,8 @@ TEST(Window, PanelFitsAnyWindowOrScrolls) {
       shown.draw(&after);
       int n = 0;
       for (int y = 0; y < height; ++y)
-        for (int x = 0; x < panel; ++x) n += std::equal(before.at(x, y), before.at(x, y) + 3, after.at(x, y)) ? 0 : 1;
+        for (int x = 0; x < panel; ++x)
+          n += std::equal(before.at(x, y), before.at(x, y) + 3, after.at(x, y)) ? 0 : 1;
       return n;
     };
     EXPECT_GT(changes([&] { say(*shown.model, NodeKind::physics, "frames take longer than they may"); }), 50)

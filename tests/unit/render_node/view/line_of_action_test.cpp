@@ -44,8 +44,9 @@ TEST(LineOfAction, MeetsABodyWhereItIsPushedFromOutside) {
   struct Push {
     Vec3 at, force;
   };
-  for (const auto& [at, force] : {Push{{0.013, -0.027, -0.05}, {0, 0, 2}}, Push{{0.05, 0.021, 0.033}, {-3, 0, 0}},
-                                  Push{{-0.011, 0.05, 0.04}, {0.2, -1, 0.1}}}) {
+  for (const auto& [at, force] :
+       {Push{{0.013, -0.027, -0.05}, {0, 0, 2}}, Push{{0.05, 0.021, 0.033}, {-3, 0, 0}},
+        Push{{-0.011, 0.05, 0.04}, {0.2, -1, 0.1}}}) {
     const auto line = line_of_action(force, (at - about).cross(force), about);
     const auto pushed = pushed_point(*line, cube);
     ASSERT_TRUE(pushed);
