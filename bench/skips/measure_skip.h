@@ -1,6 +1,7 @@
 #pragma once
 // A scene in a process of its own: CPU time of its frames, and memory.
 
+#include <cstdint>
 #include "common/scene/scene_fwd.h"
 
 namespace palpate::bench {
