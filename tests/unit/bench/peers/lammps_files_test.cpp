@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "bench/peers/scratch_folder.h"
+#include "common/file/scratch_folder.h"
 
 namespace palpate::bench {
 namespace {
