@@ -274,7 +274,8 @@ TEST(SessionRecord, OfAKilledWriterIsWholeUpToItsLastFlush) {
     EXPECT_GT(shown.times, 0u);
     const auto seen = test::seen_by_vtk(shown.collection);
     ASSERT_EQ(seen.size(), shown.times);
-    EXPECT_GT(seen.back()["parts"][0]["points"], 100);
+    EXPECT_GE(seen.back()["parts"][0]["points"], 7 * 7)
+        << "the tip tears much away, but not the layer that is held";
   }
 }
 
