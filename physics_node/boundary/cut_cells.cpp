@@ -9,10 +9,6 @@ Vec3i corner_of(unsigned bits) {
   return {static_cast<int>(bits & 1), static_cast<int>(bits >> 1 & 1), static_cast<int>(bits >> 2 & 1)};
 }
 
-unsigned bits_of(const Vec3i& corner) {
-  return static_cast<unsigned>(corner.x() + 2 * corner.y() + 4 * corner.z());
-}
-
 }  // namespace
 
 CellsNow::CellsNow(const Body& body, std::span<const Mask> masks)
@@ -42,21 +38,26 @@ unsigned CellsNow::left_of(const Vec3i& cell) const noexcept {
   return filled ? left | 1U << middle : left;
 }
 
-bool CellsNow::is_cut(const Vec3i& cell) const noexcept {
-  if (!cells_.is_deformable(cell.x(), cell.y(), cell.z())) return false;
+unsigned CellsNow::left_of_any(const Vec3i& cell) const noexcept {
+  if (!cells_.is_deformable(cell.x(), cell.y(), cell.z())) return whole;
   for (unsigned n = 0; n < 8; ++n)
-    if (const Index at = mass(cell + corner_of(n)); at >= 0 && net_.has_lost(at))
-      return left_of(cell) != whole;
-  return false;
-}
-
-bool CellsNow::corner_filled(const Vec3i& cell, const Vec3i& corner) const noexcept {
-  return (left_of(cell) >> bits_of(corner - cell) & 1) != 0;
+    if (const Index at = mass(cell + corner_of(n)); at >= 0 && net_.has_lost(at)) return left_of(cell);
+  return whole;
 }
 
 bool CellsNow::is_triangle(const Vec3i& a, const Vec3i& b, const Vec3i& c) const noexcept {
   return net_.joined(a - shift_, b - shift_) && net_.joined(b - shift_, c - shift_) &&
          net_.joined(a - shift_, c - shift_);
+}
+
+CellAndNeighbours::CellAndNeighbours(const CellsNow& now, const Vec3i& cell) noexcept
+    : now_(now), cell_(cell) {
+  left_[13] = now.left_of_any(cell);
+  for (int axis = 0; axis < 3; ++axis)
+    for (const int sign : {-1, 1}) {
+      const Vec3i by = sign * Vec3i::Unit(axis);
+      left_[static_cast<std::size_t>(13 + by.dot(Vec3i(1, 3, 9)))] = now.left_of_any(cell + by);
+    }
 }
 
 CutCells::CutCells(const Body& body, const LiveElements& live)
@@ -90,11 +91,11 @@ bool CutCells::is_cut(const Vec3i& cell) const {
 }
 
 bool CutCells::corner_filled(const Vec3i& cell, const Vec3i& corner) const {
-  return (left_.at(cells_.index(cell.x(), cell.y(), cell.z())) >> bits_of(corner - cell) & 1) != 0;
+  return CellsNow::has_corner(left_.at(cells_.index(cell.x(), cell.y(), cell.z())), corner - cell);
 }
 
 bool CutCells::middle_filled(const Vec3i& cell) const {
-  return (left_.at(cells_.index(cell.x(), cell.y(), cell.z())) >> CellsNow::middle & 1) != 0;
+  return CellsNow::has_middle(left_.at(cells_.index(cell.x(), cell.y(), cell.z())));
 }
 
 }  // namespace palpate::physics

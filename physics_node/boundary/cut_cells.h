@@ -5,6 +5,7 @@
 // the middle tetrahedron; each of the four odd corners and the three even ones next to it span a corner tetrahedron
 // (EQUATIONS C-38). A tetrahedron is filled while its six elements live (C-8).
 
+#include <array>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
@@ -25,11 +26,13 @@ class CellsNow {
   /// Bits of the tetrahedra that are left of a deformable cell, or `whole`.
   unsigned left_of(const Vec3i& cell) const noexcept;
 
-  /// Has this cell lost an element? Cells outside and rigid ones have not.
-  bool is_cut(const Vec3i& cell) const noexcept;
-  /// Of a cut cell: is the tetrahedron filled at this corner, which is odd?
-  bool corner_filled(const Vec3i& cell, const Vec3i& corner) const noexcept;
-  bool middle_filled(const Vec3i& cell) const noexcept { return (left_of(cell) >> middle & 1) != 0; }
+  /// The same of any cell: `whole`, too, outside and of a rigid one.
+  unsigned left_of_any(const Vec3i& cell) const noexcept;
+  /// Is the tetrahedron at an odd corner among those left? @param corner  from the cell's first, of 0 and 1
+  static bool has_corner(unsigned left, const Vec3i& corner) noexcept {
+    return (left >> static_cast<unsigned>(corner.x() + 2 * corner.y() + 4 * corner.z()) & 1) != 0;
+  }
+  static bool has_middle(unsigned left) noexcept { return (left >> middle & 1) != 0; }
   /// Do three live elements join these corners of cells?
   bool is_triangle(const Vec3i& a, const Vec3i& b, const Vec3i& c) const noexcept;
   bool is_odd(const Vec3i& corner) const noexcept { return ((corner - shift_).sum() & 1) != 0; }
@@ -43,7 +46,33 @@ class CellsNow {
   Vec3i shift_;
 };
 
-/// The same at one moment, found once for all cells.
+/// One cell and the six that share a face with it, each looked at once: what VoxelFacets asks of a cell.
+class CellAndNeighbours {
+ public:
+  /// @param now  outlives it, and must not change meanwhile
+  CellAndNeighbours(const CellsNow& now, const Vec3i& cell) noexcept;
+
+  bool is_cut(const Vec3i& cell) const noexcept { return left(cell) != CellsNow::whole; }
+  bool corner_filled(const Vec3i& cell, const Vec3i& corner) const noexcept {
+    return CellsNow::has_corner(left(cell), corner - cell);
+  }
+  bool middle_filled(const Vec3i& cell) const noexcept { return CellsNow::has_middle(left(cell)); }
+  bool is_triangle(const Vec3i& a, const Vec3i& b, const Vec3i& c) const noexcept {
+    return now_.is_triangle(a, b, c);
+  }
+  bool is_odd(const Vec3i& corner) const noexcept { return now_.is_odd(corner); }
+
+ private:
+  /// By the difference: 13 is the cell itself, and its neighbours differ by 1, 3 and 9.
+  unsigned left(const Vec3i& cell) const noexcept {
+    return left_[static_cast<std::size_t>(13 + (cell - cell_).dot(Vec3i(1, 3, 9)))];
+  }
+  const CellsNow& now_;
+  Vec3i cell_;
+  std::array<unsigned, 27> left_;  // only seven are used
+};
+
+/// All cells at one moment.
 class CutCells {
  public:
   /// @param body  of voxels. Cost: eight cells for each mass that has lost an element.

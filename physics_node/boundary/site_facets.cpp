@@ -42,10 +42,11 @@ class VoxelSites final : public SiteFacets {
       if (std::all_of(masses.begin(), masses.end(), [](Index mass) { return mass >= 0; })) out[n++] = masses;
     };
     const auto shown = [this](const Vec3i& c) { return cells_.is_filled(c.x(), c.y(), c.z()); };
-    const VoxelFacets facets(now_, shown);
+    const CellAndNeighbours cut(now_, cell);
+    const VoxelFacets facets(cut, shown);
     for (const VoxelFace& face : voxel_faces)
       if (!rigid || is_deformable(cell + face.outward)) facets.on_face(cell, face, take);
-    if (now_.is_cut(cell)) facets.inside(cell, take);
+    if (cut.is_cut(cell)) facets.inside(cell, take);
     return n;
   }
 

@@ -28,7 +28,7 @@ inline const std::array<VoxelFace, 6> voxel_faces{{
 /// Corners of cells, anticlockwise from outside; a triangle repeats its last.
 using FacetCorners = std::array<Vec3i, 4>;
 
-/// @tparam Cut    CutCells or CellsNow
+/// @tparam Cut    CutCells or CellAndNeighbours
 /// @tparam Shown  bool(cell)
 template <class Cut, class Shown>
 class VoxelFacets {
