@@ -38,6 +38,15 @@ Recipe pair_of_masses(const std::string& material);
 std::string floor_at(double height_mm);
 std::string point_tool(double radius_mm);
 
+/// A body of tissue that breaks soon.
+inline Recipe fragile(const std::string& lattice, const std::string& shape) {
+  Recipe recipe;
+  recipe.lattice = lattice;
+  recipe.shape = shape;
+  recipe.material += "\nyield_ratio = 1.1\nbreak_ratio = 1.2";
+  return recipe;
+}
+
 /// Numbers that are the same on every machine.
 class Dice {
  public:

@@ -59,10 +59,9 @@ TEST(Info, RefusesAFileThatIsNotHdf5) {
   EXPECT_THROW(info_record((folder / "v.h5").string()), InputError);
 }
 
-TEST(Info, SaysWhatASceneHolds) {
-  const test::TemporaryFolder folder;
-  folder.write("cube.toml", R"(title = "A cube"
-[material.gel]
+/// A cube of gel and one tool. @param tool  its keys
+std::string cube_with(const std::string& tool) {
+  return R"([material.gel]
 density_kg_per_m3 = 1000.0
 modulus_kPa = 10
 [[body]]
@@ -73,12 +72,18 @@ lattice = "voxel"
 spacing_mm = 5
 material = "gel"
 [[tool]]
-name = "finger"
 device = "hand"
+)" + tool +
+         R"(
 [device.hand]
 driver = "simulated"
 waypoints = [[0, 0, 0, 30], [3, 0, 0, 8]]
-)");
+)";
+}
+
+TEST(Info, SaysWhatASceneHolds) {
+  const test::TemporaryFolder folder;
+  folder.write("cube.toml", "title = \"A cube\"\n" + cube_with("name = \"finger\""));
   const std::string text = info_scene((folder / "cube.toml").string());
   for (const char* words :
        {"A cube", "cube: box of 20 x 20 x 20 mm, voxel lattice of 5 mm, material gel",
@@ -91,28 +96,9 @@ waypoints = [[0, 0, 0, 30], [3, 0, 0, 8]]
 /// What physics would refuse is refused, and not a remark below figures of a scene that cannot run.
 TEST(Info, RefusesASceneThatPhysicsCouldNotLoad) {
   const test::TemporaryFolder folder;
-  folder.write("stick.toml", R"([physics]
-integrator = "backward_euler"
-[material.gel]
-density_kg_per_m3 = 1000.0
-modulus_kPa = 10
-[[body]]
-name = "cube"
-shape = "box"
-size_mm = [20, 20, 20]
-lattice = "voxel"
-spacing_mm = 5
-material = "gel"
-[[tool]]
-name = "rod"
-shape = "stick"
-radius_mm = 4
-length_mm = 40
-device = "hand"
-[device.hand]
-driver = "simulated"
-waypoints = [[0, 0, 0, 30], [3, 0, 0, 8]]
-)");
+  folder.write("stick.toml",
+               "[physics]\nintegrator = \"backward_euler\"\n" +
+                   cube_with("name = \"rod\"\nshape = \"stick\"\nradius_mm = 4\nlength_mm = 40"));
   try {
     ADD_FAILURE() << info_scene((folder / "stick.toml").string());
   } catch (const InputError& error) {

@@ -15,14 +15,6 @@ namespace {
 
 using namespace test;
 
-Recipe fragile(const std::string& lattice, const std::string& shape) {
-  Recipe recipe;
-  recipe.lattice = lattice;
-  recipe.shape = shape;
-  recipe.material += "\nyield_ratio = 1.1\nbreak_ratio = 1.2";
-  return recipe;
-}
-
 using Corners = std::array<Index, 4>;
 
 /// The same facet, whichever of its corners is named first.

@@ -7,6 +7,7 @@
 #include "physics_node/boundary/loose_parts.h"
 #include "physics_node/step/body_model.h"
 #include "tests/support/physics/small_worlds.h"
+#include "tests/support/physics/surface_volume.h"
 
 namespace palpate::physics {
 namespace {
@@ -15,27 +16,10 @@ using namespace test;
 
 constexpr double cell_m3 = 1e-6;  // 10 mm
 
-Recipe fragile(const std::string& lattice, const std::string& shape) {
-  Recipe recipe;
-  recipe.lattice = lattice;
-  recipe.shape = shape;
-  recipe.material += "\nyield_ratio = 1.1\nbreak_ratio = 1.2";
-  return recipe;
-}
-
 /// Pulls these masses a metre away, all by the same, so that they lose every element to the others.
 void pull(BodyModel& moving, const std::vector<Index>& masses) {
   for (const Index mass : masses) moving.place(mass, Vec3(0, 0, 1), Vec3::Zero());
   moving.advance({.dt = 1e-9, .watch = true}, {});
-}
-
-double volume_inside(const Surface& surface) {
-  double six = 0;
-  for (const auto& f : surface.facets) {
-    six += surface.rest[f[0]].dot(surface.rest[f[1]].cross(surface.rest[f[2]]));
-    six += surface.rest[f[0]].dot(surface.rest[f[2]].cross(surface.rest[f[3]]));
-  }
-  return six / 6;
 }
 
 /// What the tetrahedra at a mass deep inside hold: at an odd one a sixth of each of eight cells, at an even one that of

@@ -10,6 +10,7 @@
 #include "tests/support/image/scratch_folder.h"
 #include "tests/support/physics/made_volume.h"
 #include "tests/support/physics/small_worlds.h"
+#include "tests/support/physics/surface_volume.h"
 
 namespace palpate::physics {
 namespace {
@@ -38,16 +39,6 @@ std::map<Edge, int> directed_edges(const Surface& surface) {
     for (std::size_t n = 0; n < 4; ++n)
       if (facet[n] != facet[(n + 1) % 4]) ++edges[{facet[n], facet[(n + 1) % 4]}];
   return edges;
-}
-
-/// Volume inside by the divergence theorem: sum over triangles of a . (b x c) / 6.
-double volume_inside(const Surface& surface) {
-  double six = 0;
-  for (const auto& f : surface.facets) {
-    six += surface.rest[f[0]].dot(surface.rest[f[1]].cross(surface.rest[f[2]]));
-    six += surface.rest[f[0]].dot(surface.rest[f[2]].cross(surface.rest[f[3]]));
-  }
-  return six / 6;
 }
 
 void expect_closed(const Surface& surface) {
