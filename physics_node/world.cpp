@@ -43,8 +43,7 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
   Index n_masses = 0;
   std::size_t n_chunks = 0;
   stable_dt_ = std::numeric_limits<double>::infinity();
-  const bool feels = std::any_of(scene.tools.begin(), scene.tools.end(),
-                                 [](const ToolSpec& tool) { return tool.shape != ToolShape::body; });
+  const bool feels = std::any_of(scene.tools.begin(), scene.tools.end(), meets_facets);
   for (const BodySpec& spec : scene.bodies) {
     Body body = build_body(spec, scene.materials);
     stable_dt_ = std::min(stable_dt_, stable_step(stiffest_mode(body), integrator));

@@ -34,6 +34,8 @@ struct ToolSpec {
   Eigen::Matrix3d attitude = Eigen::Matrix3d::Identity();
   Place place;
 };
+/// Does it meet the facets of bodies? One that is a body has masses of its own, which collide.
+inline bool meets_facets(const ToolSpec& tool) { return tool.shape != ToolShape::body; }
 /// A point feels planes, all others a wrench.
 inline ForceModel force_model_of(const ToolSpec& tool) {
   return tool.force_model.value_or(tool.shape == ToolShape::point ? ForceModel::norton : ForceModel::tangent);

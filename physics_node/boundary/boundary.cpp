@@ -104,6 +104,10 @@ Index Boundary::mass(std::uint32_t facet, std::size_t corner) const noexcept {
   return vertex < surface_.n_moving() ? surface_.cell[vertex] : -1;
 }
 
+bool Boundary::has_mass(std::uint32_t facet) const noexcept {
+  return mass(facet, 0) >= 0 || mass(facet, 1) >= 0 || mass(facet, 2) >= 0 || mass(facet, 3) >= 0;
+}
+
 Vec3 Boundary::position(std::uint32_t facet, std::size_t corner, const NodeMotion& moving) const noexcept {
   if (is_loaded(facet)) return surface_.position(surface_.facets[facet][corner], moving);
   return moving.position(open_at(facet).masses[corner]);

@@ -53,6 +53,7 @@ class Boundary {
   bool is_triangle(std::uint32_t facet) const noexcept;
   /// The mass at a corner, -1: rigid scenery.
   Index mass(std::uint32_t facet, std::size_t corner) const noexcept;
+  bool has_mass(std::uint32_t facet) const noexcept;  // at a corner; else it is scenery
   Vec3 position(std::uint32_t facet, std::size_t corner, const NodeMotion& moving) const noexcept;
   Vec3 centroid(std::uint32_t facet, const NodeMotion& moving) const noexcept;
   Vec3 rest_centroid(std::uint32_t facet) const noexcept;
@@ -63,7 +64,8 @@ class Boundary {
   };
   CentroidAndArea centroid_and_area(std::uint32_t facet, const NodeMotion& moving) const noexcept;
 
-  /// Why: 2 ms at 0.5 us a site, half of a frame at 240 Hz.
+  /// Why: a bound for frames in which hundreds of elements break. Measured on bodies torn all over (one core, gcc 12 -O2): 0.2 us a
+  /// site of fcc, 1.4 us of voxels, so 0.8 and 6 ms at the most.
   static constexpr std::size_t most_sites_a_frame = 4096;
 
  private:

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "physics_node/collision/point_triangle.h"
+#include "physics_node/contact/stick_search.h"
 
 namespace palpate::physics {
 namespace {
@@ -81,17 +82,9 @@ StickFaces::StickFaces(const Boundary& surface, BodyModel& model, double radius)
 }
 
 void StickFaces::list(const Stick& stick, double reach) noexcept {
-  near_.clear();
-  const double size =
-      2 *
-      model_->body().lattice.spacing();  // Why: from the middle of a facet to its corners, stretched twice
-  surface_->facets_near(stick.axis_point(0.5), 0.5 * stick.D.norm() + reach + size, *model_, near_);
-  std::erase_if(near_, [&](std::uint32_t facet) {
-    bool moves = false;
-    for (std::size_t c = 0; c < 4; ++c) moves = moves || surface_->mass(facet, c) >= 0;
-    const Vec3 centre = surface_->centroid(facet, *model_);
-    return !moves || (centre - stick.axis_point(stick.nearest(centre))).norm() > reach + size;
-  });
+  const double spacing = model_->body().lattice.spacing();
+  // Why: from the middle of a facet to its corners, stretched twice.
+  facets_around(stick, reach + 2 * spacing, *surface_, *model_, near_);
 }
 
 LeadWork StickFaces::give_way(std::uint32_t facet, const Corners& corner, const FaceHit& hit,

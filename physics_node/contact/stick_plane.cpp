@@ -27,16 +27,7 @@ void StickSurface::look(const Stick& stick, double t) noexcept {
                                             searched_revision_, moving_);
   searched_revision_ = surface_.revision();
   if (!search_.due(stick, t) && !opened) return;
-  near_.clear();
-  surface_.facets_near(stick.axis_point(0.5), 0.5 * stick.D.norm() + around, moving_, near_);
-  std::erase_if(near_, [&](std::uint32_t id) {
-    // A stick meets masses, not scenery.
-    if (surface_.mass(id, 0) < 0 && surface_.mass(id, 1) < 0 && surface_.mass(id, 2) < 0 &&
-        surface_.mass(id, 3) < 0)
-      return true;
-    const Vec3 c = surface_.centroid(id, moving_);
-    return (c - stick.axis_point(stick.nearest(c))).squaredNorm() > around * around;
-  });
+  facets_around(stick, around, surface_, moving_, near_);
 }
 
 /// Does a mass at its corners move?

@@ -2,7 +2,9 @@
 // When a stick has to look again for what is near it.
 
 #include <algorithm>
+#include <vector>
 
+#include "physics_node/boundary/boundary.h"
 #include "physics_node/contact/stick.h"
 
 namespace palpate::physics {
@@ -30,5 +32,18 @@ class StickSearch {
   Vec3 A_ = Vec3::Constant(1e9), D_ = Vec3::Zero();
   double when_ = -1e9;
 };
+
+/// The facets whose centroid lies within `around` of the axis and that have a mass at a corner: a stick meets no scenery.
+/// Allocates only while `out` grows.
+inline void facets_around(const Stick& stick, double around, const Boundary& boundary,
+                          const NodeMotion& moving, std::vector<std::uint32_t>& out) {
+  out.clear();
+  boundary.facets_near(stick.axis_point(0.5), 0.5 * stick.D.norm() + around, moving, out);
+  std::erase_if(out, [&](std::uint32_t facet) {
+    if (!boundary.has_mass(facet)) return true;
+    const Vec3 c = boundary.centroid(facet, moving);
+    return (c - stick.axis_point(stick.nearest(c))).squaredNorm() > around * around;
+  });
+}
 
 }  // namespace palpate::physics

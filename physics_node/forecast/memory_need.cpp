@@ -127,8 +127,7 @@ double bytes_of_masses(double masses, const BodySpec& body, const Scene& scene) 
   for (const RegionSpec& region : body.regions)
     plastic = plastic || (!region.material.empty() && yields(region.material, scene));
   const bool doubled = scene.physics.precision == Precision::double_;
-  const bool felt = std::any_of(scene.tools.begin(), scene.tools.end(),
-                                [](const ToolSpec& tool) { return tool.shape != ToolShape::body; });
+  const bool felt = std::any_of(scene.tools.begin(), scene.tools.end(), meets_facets);
   return masses * (plastic ? (doubled ? plastic_double_bytes : plastic_bytes) + (felt ? felt_bytes : 0.0)
                            : (doubled ? elastic_double_bytes : elastic_bytes));
 }
