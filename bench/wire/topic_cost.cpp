@@ -35,6 +35,11 @@ void fill(BodySurface& chunk) {
   chunk.total_vertices = chunk.n_vertices = max_surface_vertices;
   chunk.total_facets = chunk.n_facets = max_surface_facets;
 }
+void fill(SurfaceChange& page) {
+  page.revision = page.change = 1;
+  page.total_vertices = page.n_vertices = max_change_vertices;
+  page.total_facets = page.total_changes = page.n_changes = max_change_facets;
+}
 void fill(VertexBlock& block) {
   block.revision = 1;
   block.n_vertices = max_block_vertices;
@@ -114,6 +119,7 @@ std::vector<TopicCost> measure_topics(Path path, int samples) {
   measure<ToolWrench>(path, samples, costs, "ToolWrench");
   measure<VertexBlock>(path, samples, costs, "VertexBlock");
   measure<BodySurface>(path, samples, costs, "BodySurface");
+  measure<SurfaceChange>(path, samples, costs, "SurfaceChange");
   measure<HapticTrace>(path, samples, costs, "HapticTrace");
   measure<NodeStatus>(path, samples, costs, "NodeStatus");
   return costs;

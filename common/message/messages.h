@@ -14,7 +14,7 @@ using Array3 = std::array<double, 3>;
 using Array4 = std::array<double, 4>;
 using Array3f = std::array<float, 3>;
 
-inline constexpr std::uint32_t wire_version = 5;  // a reader rejects every other version
+inline constexpr std::uint32_t wire_version = 6;  // a reader rejects every other version
 
 inline constexpr std::uint32_t max_tools = 8;
 inline constexpr std::uint32_t max_bodies = 64;
@@ -22,7 +22,12 @@ inline constexpr std::uint32_t max_patch_facets = 16;
 inline constexpr std::uint32_t max_surface_vertices = 2048;  // in one BodySurface chunk
 inline constexpr std::uint32_t max_surface_facets = 2048;    // in one BodySurface chunk
 inline constexpr std::uint32_t max_surface_chunks = 16384;   // of one body: 33 million vertices
-inline constexpr std::uint32_t max_block_vertices = 2048;    // in one VertexBlock
+// In one page of a SurfaceChange. Why: 1,348 bytes with what RTPS, UDP and IP add fit into one frame of Ethernet. A cut through the
+// brain of scenes/ changes 1 to 220 facets a picture and shows a seventh as many new vertices.
+inline constexpr std::uint32_t max_change_vertices = 12;
+inline constexpr std::uint32_t max_change_facets = 48;
+inline constexpr std::uint32_t max_change_pages = 16384;   // of one surface
+inline constexpr std::uint32_t max_block_vertices = 2048;  // in one VertexBlock
 inline constexpr std::uint32_t max_trace_samples = 64;
 inline constexpr std::uint32_t histogram_bins = 24;  // bin b counts [2^b, 2^(b+1)) microseconds; bin 0 also 0
 inline constexpr std::uint32_t n_tallies = 8;        // counters of rejected samples, by RejectReason
@@ -113,8 +118,9 @@ struct ToolWrench {
 /// corner; a facet without an area is an element (a, b, b, b) or a mass (a, a, a, a) that belongs to no other facet.
 struct BodySurface {
   std::uint32_t body = 0;
-  std::uint32_t revision = 0;  // grows with every cut, break or change of threshold; starts at 1
-  std::uint32_t chunk = 0;     // < n_chunks <= max_surface_chunks
+  std::uint32_t revision =
+      0;                    // numbers vertices and facets; grows with every surface sent whole; starts at 1
+  std::uint32_t chunk = 0;  // < n_chunks <= max_surface_chunks
   std::uint32_t n_chunks = 1;
   std::uint32_t total_vertices = 0;
   std::uint32_t total_facets = 0;
@@ -129,6 +135,35 @@ struct BodySurface {
   std::array<std::uint32_t, max_surface_facets> rgba{};                    // 0xAABBGGRR
 };
 
+/// physics -> render. What breaks, cuts and new thresholds have changed in a BodySurface, as a list that only grows: a page is
+/// written again until it is full, a full one never. Pages from 0 on therefore change the surface to what it is, for a reader
+/// that has seen all as for one that comes late, and in whatever order they arrive. The list is complete up to some change when all
+/// pages up to `total_changes` and `total_vertices` of its page are there. New vertices come behind all others and keep their numbers.
+struct FacetChange {
+  std::uint32_t facet = 0;                 // one that is there, or the next one behind the last
+  std::array<std::uint32_t, 4> corners{};  // as in BodySurface
+  std::uint32_t rgba = 0;
+};
+struct SurfaceChange {
+  std::uint32_t body = 0;
+  std::uint32_t revision = 0;  // of the BodySurface that is changed
+  std::uint32_t page =
+      0;  // < max_change_pages; a page begins where the one before it was full of vertices or facets
+  std::uint32_t change = 0;  // grows with every new surface of this revision; starts at 1
+  // All after this change.
+  std::uint32_t total_vertices = 0;
+  std::uint32_t total_facets = 0;   // what is behind them is gone
+  std::uint32_t total_changes = 0;  // of facets, in all pages
+  std::uint32_t facets_hidden = 0;
+  // What is in this page.
+  std::uint32_t first_vertex = 0;
+  std::uint32_t n_vertices = 0;                         // <= max_change_vertices
+  std::uint32_t first_change = 0;                       // of facets, counted through all pages
+  std::uint32_t n_changes = 0;                          // <= max_change_facets
+  std::array<Array3f, max_change_vertices> position{};  // when they were new [m]
+  std::array<FacetChange, max_change_facets> facets{};  // one after the other
+};
+
 /// State of a vertex.
 inline constexpr std::uint8_t vertex_yielded = 1;  // an element at this vertex has yielded
 inline constexpr std::uint8_t vertex_broken = 2;   // an element at this vertex has broken
@@ -136,7 +171,7 @@ inline constexpr std::uint8_t vertex_share_one =
     4;  // the other six bits: how many 63rds of its live elements have yielded,
         // which is how dark it is drawn; 0 unless vertex_yielded
 
-/// physics -> render. Where some vertices of a BodySurface revision are now. Only blocks that changed are sent.
+/// physics -> render. Where some vertices of a BodySurface revision and of its changes are now. Only blocks that changed are sent.
 struct VertexBlock {
   std::uint32_t body = 0;
   std::uint32_t revision = 0;  // of the BodySurface that numbers these vertices

@@ -37,6 +37,11 @@ bool zero(const double (&values)[N]) noexcept {
   return std::all_of(values, values + N, [](double value) { return value == 0; });
 }
 
+/// `n` things from `first` on lie within `total`, whatever the 32-bit sums would do.
+inline bool ends_by(std::uint64_t first, std::uint64_t n, std::uint64_t total) noexcept {
+  return first + n <= total;
+}
+
 /// A zero stands somewhere in the array.
 template <std::size_t N>
 bool ends(const std::uint8_t (&text)[N]) noexcept {

@@ -7,11 +7,6 @@ using namespace wire_parts;
 
 namespace {
 
-/// `n` things from `first` on lie within `total`, whatever the 32-bit sums would do.
-bool ends_by(std::uint64_t first, std::uint64_t n, std::uint64_t total) noexcept {
-  return first + n <= total;
-}
-
 bool corners_exist(const palpate_wire_BodySurface& wire) noexcept {
   return std::all_of(wire.corners, wire.corners + wire.n_facets, [&](const auto& facet) {
     return std::all_of(facet, facet + 4, [&](std::uint32_t corner) { return corner < wire.total_vertices; });

@@ -217,6 +217,7 @@ template class Reader<ToolState>;
 template class Reader<ContactPatch>;
 template class Reader<ToolWrench>;
 template class Reader<BodySurface>;
+template class Reader<SurfaceChange>;
 template class Reader<VertexBlock>;
 template class Reader<HapticTrace>;
 template class Reader<Pointer>;

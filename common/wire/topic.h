@@ -36,6 +36,7 @@ PALPATE_TOPIC(ToolWrench, Service::newest);
 PALPATE_TOPIC(Pointer, Service::newest);
 PALPATE_TOPIC(VertexBlock, Service::blocks);
 PALPATE_TOPIC(BodySurface, Service::state);
+PALPATE_TOPIC(SurfaceChange, Service::state);
 PALPATE_TOPIC(NodeStatus, Service::state);
 PALPATE_TOPIC(HapticTrace, Service::batches);
 PALPATE_TOPIC(Command, Service::everything);

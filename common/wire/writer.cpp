@@ -78,6 +78,7 @@ template class Writer<ToolState>;
 template class Writer<ContactPatch>;
 template class Writer<ToolWrench>;
 template class Writer<BodySurface>;
+template class Writer<SurfaceChange>;
 template class Writer<VertexBlock>;
 template class Writer<HapticTrace>;
 template class Writer<Pointer>;

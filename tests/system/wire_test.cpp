@@ -36,8 +36,8 @@ bool eventually(Done done) {
 
 template <class M>
 class Wire : public testing::Test {};
-using AllMessages = testing::Types<ToolState, ContactPatch, ToolWrench, BodySurface, VertexBlock, HapticTrace,
-                                   Pointer, Command, NodeStatus>;
+using AllMessages = testing::Types<ToolState, ContactPatch, ToolWrench, BodySurface, SurfaceChange,
+                                   VertexBlock, HapticTrace, Pointer, Command, NodeStatus>;
 TYPED_TEST_SUITE(Wire, AllMessages);
 
 TEST(WireWriter, CountsAReaderThatComesAsAnotherLeaves) {

@@ -13,8 +13,8 @@ using test::same;
 
 template <class M>
 class Conversion : public testing::Test {};
-using AllMessages = testing::Types<ToolState, ContactPatch, ToolWrench, BodySurface, VertexBlock, HapticTrace,
-                                   Pointer, Command, NodeStatus>;
+using AllMessages = testing::Types<ToolState, ContactPatch, ToolWrench, BodySurface, SurfaceChange,
+                                   VertexBlock, HapticTrace, Pointer, Command, NodeStatus>;
 TYPED_TEST_SUITE(Conversion, AllMessages);
 
 TYPED_TEST(Conversion, BringsEveryFieldBack) {

@@ -185,6 +185,34 @@ TEST(MalformedBodySurface, IsRejectedForItsReason) {
   });
 }
 
+TEST(MalformedSurfaceChange, IsRejectedForItsReason) {
+  expect_all_rejected<SurfaceChange>({
+      {"other version", R::version, [](auto& w) { w.version = 5; }},
+      {"body beyond the last", R::unknown_id, [](auto& w) { w.body = max_bodies; }},
+      {"too many vertices", R::count, [](auto& w) { w.n_vertices = max_change_vertices + 1; }},
+      {"too many changes", R::count, [](auto& w) { w.n_changes = 0x80000000U; }},
+      {"page beyond the last", R::count, [](auto& w) { w.page = max_change_pages; }},
+      {"more vertices than any surface has", R::count, [](auto& w) { w.total_vertices = 0xffffffffU; }},
+      {"more facets than any surface has", R::count,
+       [](auto& w) { w.total_facets = max_surface_chunks * max_surface_facets + 1; }},
+      {"more changes than the pages can hold", R::count,
+       [](auto& w) { w.total_changes = max_change_pages * max_change_facets + 1; }},
+      {"vertices beyond the total", R::out_of_range, [](auto& w) { w.first_vertex = w.total_vertices; }},
+      {"vertices whose sum wraps round", R::out_of_range, [](auto& w) { w.first_vertex = 0xffffffffU; }},
+      {"changes beyond the total", R::out_of_range,
+       [](auto& w) { w.first_change = w.total_changes - w.n_changes + 1; }},
+      {"revision zero", R::out_of_range, [](auto& w) { w.revision = 0; }},
+      {"change zero", R::out_of_range, [](auto& w) { w.change = 0; }},
+      {"NaN position", R::not_finite, [](auto& w) { w.position[w.n_vertices - 1][2] = nan_f; }},
+      {"vertex that no float may square", R::out_of_range,
+       [](auto& w) { w.position[w.n_vertices - 1][1] = 1e30F; }},
+      {"facet of no surface", R::unknown_id,
+       [](auto& w) { w.facets[w.n_changes - 1].facet = max_surface_chunks * max_surface_facets; }},
+      {"corner that is no vertex", R::unknown_id,
+       [](auto& w) { w.facets[w.n_changes - 1].corners[3] = w.total_vertices; }},
+  });
+}
+
 TEST(MalformedVertexBlock, IsRejectedForItsReason) {
   expect_all_rejected<VertexBlock>({
       {"other version", R::version, [](auto& w) { w.version = 7; }},

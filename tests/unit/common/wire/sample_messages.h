@@ -92,6 +92,26 @@ inline void randomise(Dice& dice, BodySurface& m) {
     dice.fill(m.rgba[i]);
   }
 }
+inline void randomise(Dice& dice, SurfaceChange& m) {
+  m.body = dice.below(max_bodies);
+  m.revision = 1 + dice.below(1000);
+  m.change = 1 + dice.below(1000);
+  m.page = dice.below(max_change_pages);
+  m.n_vertices = 1 + dice.below(max_change_vertices), m.n_changes = 1 + dice.below(max_change_facets);
+  m.first_vertex = dice.below(1'000'000), m.first_change = m.page * max_change_facets;
+  m.total_vertices = m.first_vertex + m.n_vertices + dice.below(1000);
+  m.total_changes =
+      std::min(m.first_change + m.n_changes + dice.below(1000), max_change_pages * max_change_facets);
+  m.total_facets = dice.below(1'000'000);
+  dice.fill(m.facets_hidden);
+  for (std::uint32_t i = 0; i < m.n_vertices; ++i) dice.fill(m.position[i]);
+  for (std::uint32_t i = 0; i < m.n_changes; ++i) {
+    FacetChange& f = m.facets[i];
+    f.facet = dice.below(1'000'000);
+    for (std::uint32_t& corner : f.corners) corner = dice.below(m.total_vertices);
+    dice.fill(f.rgba);
+  }
+}
 inline void randomise(Dice& dice, VertexBlock& m) {
   m.body = dice.below(max_bodies);
   m.revision = 1 + dice.below(1000);
@@ -164,6 +184,7 @@ inline auto fields(const BodySurface& m) {
                   m.rigid, m.first_vertex, m.n_vertices, m.first_facet, m.n_facets, m.position, m.corners,
                   m.rgba);
 }
+inline auto fields(const FacetChange& m) { return std::tie(m.facet, m.corners, m.rgba); }
 inline auto fields(const VertexBlock& m) {
   return std::tie(m.body, m.revision, m.block, m.tick, m.t, m.first_vertex, m.n_vertices, m.position,
                   m.flags);
@@ -188,6 +209,15 @@ bool same(const M& a, const M& b) {
 inline bool same(const ContactPatch& a, const ContactPatch& b) {
   const auto head = [](const ContactPatch& m) {
     return std::tie(m.tool, m.tick, m.stamp_ns, m.answers, m.answers_ns, m.contact_set, m.n_facets);
+  };
+  return head(a) == head(b) &&
+         std::equal(a.facets.begin(), a.facets.end(), b.facets.begin(),
+                    [](const auto& x, const auto& y) { return fields(x) == fields(y); });
+}
+inline bool same(const SurfaceChange& a, const SurfaceChange& b) {
+  const auto head = [](const SurfaceChange& m) {
+    return std::tie(m.body, m.revision, m.page, m.change, m.total_vertices, m.total_facets, m.total_changes,
+                    m.facets_hidden, m.first_vertex, m.n_vertices, m.first_change, m.n_changes, m.position);
   };
   return head(a) == head(b) &&
          std::equal(a.facets.begin(), a.facets.end(), b.facets.begin(),
