@@ -9,6 +9,7 @@
 #include "common/error/error.h"
 #include "common/message/vec3.h"
 #include "common/scene/device_spec.h"
+#include "common/scene/force_model.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
 #include "common/time/clock.h"
@@ -41,7 +42,6 @@ ControllerSettings settings_of(const Scene& scene, std::uint32_t tool_index, con
   settings.period = 1.0 / spec.rate_Hz;
   settings.stiffness = tool.stiffness;
   settings.damping = tool.damping;
-  settings.model = force_model_of(tool);
   settings.friction = tool.friction;
   if (info.max_stiffness > 0)
     settings.stiffness = std::min(tool.stiffness, info.max_stiffness / calibration.stiffness_gain());
@@ -55,8 +55,7 @@ ControllerSettings settings_of(const Scene& scene, std::uint32_t tool_index, con
       torque = std::min(torque, info.cont_torque * calibration.scale() / calibration.force_scale());
     settings.torque_limit = std::min(tool.torque_limit, torque);
   }
-  if (tool.shape == ToolShape::stick && settings.model == ForceModel::tangent && settings.torque_limit <= 0)
-    settings.model = ForceModel::norton;  // nothing to turn with: the plane under the stick says all
+  settings.model = felt_force_model(tool, settings.torque_limit).model;
   if ((info.caps & HDEV_CAP_HW_WATCHDOG) != 0) settings.hold = info.hw_watchdog_s;
   settings.resolution = info.pos_resolution * calibration.scale();
   return settings;
@@ -89,7 +88,8 @@ HapticSession::HapticSession(const Scene& scene, std::uint32_t tool_index, const
                              driver_of(spec_of(scene, tool_index), driver_override),
                              DriverPlace{scene.seed, tool_index, domain}),
               now_ns, user, place_of(spec_of(scene, tool_index))),
-      controller_(settings_of(scene, tool_index, calibration_, device_.info())) {
+      controller_(settings_of(scene, tool_index, calibration_, device_.info())),
+      force_model_(felt_force_model(scene.tools[tool_index], controller_.torque_limit())) {
   controller_.set_state(HapticState::ready);
   tool_state_.tool = tool_index;
   raw_.size = sizeof(hdev_state);

@@ -8,6 +8,7 @@
 
 #include "common/math/vec3.h"
 #include "common/message/messages.h"
+#include "common/scene/force_model.h"
 #include "common/scene/scene_fwd.h"
 #include "haptic_node/control/controller.h"
 #include "haptic_node/device/calibration.h"
@@ -124,6 +125,8 @@ class HapticSession {
   double patch_age() const noexcept;
   const Controller& controller() const noexcept { return controller_; }
   double rate_Hz() const noexcept { return rate_Hz_; }
+  /// What this hand feels of this tool.
+  const ForceModelChoice& force_model() const noexcept { return force_model_; }
   /// When forces were first on [ns of the clock]; 0: not yet. The simulated hand's path starts then.
   std::int64_t first_run_ns() const noexcept { return first_run_ns_; }
 
@@ -142,6 +145,7 @@ class HapticSession {
   Calibration calibration_;
   Device device_;
   Controller controller_;
+  ForceModelChoice force_model_;
 
   hdev_state raw_{};
   std::uint64_t seq_ = 0;

@@ -4,15 +4,16 @@
 #include <cmath>
 
 #include "common/message/vec3.h"
+#include "common/scene/force_model.h"
 
 namespace palpate::bench {
 namespace {
 
-/// How physics answers a hand that feels in this way.
-ForceModel model_of(const Case& c) {
-  if (c.mode == RenderMode::raw_planes) return ForceModel::raw_planes;
-  if (c.mode == RenderMode::direct) return ForceModel::direct;
-  return c.slab->stick && c.torque_limit > 0 ? ForceModel::tangent : ForceModel::norton;
+/// What a scene would name for a hand that feels in this way.
+std::optional<ForceModel> asked_by(RenderMode mode) {
+  if (mode == RenderMode::raw_planes) return ForceModel::raw_planes;
+  if (mode == RenderMode::direct) return ForceModel::direct;
+  return std::nullopt;
 }
 
 haptic::ControllerSettings settings_of(const Case& c) {
@@ -22,7 +23,12 @@ haptic::ControllerSettings settings_of(const Case& c) {
   settings.force_limit = c.device.force_limit;
   settings.resolution = c.device.resolution;
   settings.torque_limit = c.torque_limit;
-  if (c.slab != nullptr) settings.model = model_of(c);
+  if (c.slab != nullptr) {
+    ToolSpec tool;
+    tool.shape = c.slab->stick ? ToolShape::stick : ToolShape::point;
+    tool.force_model = asked_by(c.mode);
+    settings.model = felt_force_model(tool, c.torque_limit).model;
+  }
   return settings;
 }
 
@@ -44,8 +50,8 @@ Trial::Trial(const Case& c, Path path)
       next_frame_ns_(now_ns_) {
   controller_.set_state(haptic::HapticState::ready);
   if (c.slab != nullptr)
-    world_ =
-        std::make_unique<WorldObject>(slab_scene(*c.slab, model_of(c), c.rate_Hz, c.stiffness, c.damping));
+    world_ = std::make_unique<WorldObject>(
+        slab_scene(*c.slab, asked_by(c.mode), c.rate_Hz, c.stiffness, c.damping));
 }
 
 Trial::HandReport Trial::report() {

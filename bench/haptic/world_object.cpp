@@ -8,8 +8,8 @@
 
 namespace palpate::bench {
 
-Scene slab_scene(const SlabModel& slab, ForceModel model, double rate_Hz, double hand_stiffness,
-                 double hand_damping) {
+Scene slab_scene(const SlabModel& slab, std::optional<ForceModel> model, double rate_Hz,
+                 double hand_stiffness, double hand_damping) {
   constexpr double thick_mm = 16, radius_mm = 5, stick_radius_mm = 3;
   const double top_mm = slab.stick ? -stick_radius_mm : 0.0;
   const std::string tool =

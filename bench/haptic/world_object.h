@@ -30,9 +30,9 @@ inline constexpr SlabModel held_slab{"held slab", "modulus_kPa = 100", false, ri
 inline constexpr SlabModel stick_slab{"slab 100 kPa, stick", "modulus_kPa = 100\nviscosity_Pa_s = 20", true,
                                       1500};
 
-/// The slab's scene; a point, or a stick that lies on it, touches at z = 0.
-Scene slab_scene(const SlabModel& slab, ForceModel model, double rate_Hz, double hand_stiffness,
-                 double hand_damping);
+/// The slab's scene, with the force model as one may name it; a point, or a stick that lies on it, touches at z = 0.
+Scene slab_scene(const SlabModel& slab, std::optional<ForceModel> model, double rate_Hz,
+                 double hand_stiffness, double hand_damping);
 
 class WorldObject {
  public:

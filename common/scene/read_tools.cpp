@@ -8,6 +8,7 @@
 #include "common/message/messages.h"
 #include "common/scene/body_spec.h"
 #include "common/scene/device_spec.h"
+#include "common/scene/force_model.h"
 #include "common/scene/near_miss.h"
 #include "common/scene/read_parts.h"
 #include "common/scene/scene.h"
@@ -17,7 +18,8 @@ namespace palpate {
 namespace {
 
 const std::vector<std::string> tool_shapes = {"point", "stick", "knife", "needle"};
-const std::vector<std::string> force_models = {"norton", "tangent", "raw_planes", "direct"};
+const std::vector<std::string> force_models = {word_of(ForceModel::norton), word_of(ForceModel::tangent),
+                                               word_of(ForceModel::raw_planes), word_of(ForceModel::direct)};
 
 /// A knife or needle in the table of its tool, under the name of the tool.
 void read_own_body(TableReader& reader, ReadContext& context, ToolSpec& spec) {
@@ -106,7 +108,6 @@ void read_stick(TableReader& reader, ToolSpec& spec) {
 
 /// What the hand feels between two answers of physics.
 void read_force_model(TableReader& reader, ToolSpec& spec) {
-  const bool point = spec.shape == ToolShape::point;
   const auto word = reader.read_word("force_model", force_models);
   if (!word) return;
   const auto model = static_cast<ForceModel>(*word);
@@ -114,12 +115,11 @@ void read_force_model(TableReader& reader, ToolSpec& spec) {
   if (spec.friction > 0 && model != ForceModel::norton)
     reader.complain("friction",
                     "friction is felt with force_model = \"norton\" only; leave one of the two out");
-  const bool planes = model == ForceModel::norton || model == ForceModel::raw_planes;
-  if (point && model == ForceModel::tangent)
-    reader.complain("force_model", "a point feels planes; write \"norton\", \"raw_planes\" or \"direct\"");
-  if (!point && planes)
-    reader.complain("force_model",
-                    "this tool is more than a point and feels a wrench; write \"tangent\" or \"direct\"");
+  if (can_feel(spec.shape, model)) return;
+  reader.complain("force_model",
+                  spec.shape == ToolShape::point
+                      ? "a point feels planes; write \"norton\", \"raw_planes\" or \"direct\""
+                      : "this tool is more than a point and feels a wrench; write \"tangent\" or \"direct\"");
 }
 
 ToolSpec read_tool(TableReader& reader, ReadContext& context) {

@@ -27,7 +27,7 @@ struct ToolSpec {
   double damping = 1.0;           // [N s/m]
   double friction = 0;            // Coulomb's coefficient between tip and surface
   double torque_limit = 0.1;      // [N m]
-  /// Of the hand between two answers of physics; absent: force_model_of().
+  /// Of the hand between two answers of physics, as the scene has it; who goes by it asks force_model.h.
   std::optional<ForceModel> force_model;
   double length = 0.1;  // from tip to end [m]; only ToolShape::stick
   /// Where the handle is not turned; only ToolShape::stick.
@@ -36,9 +36,5 @@ struct ToolSpec {
 };
 /// Does it meet the facets of bodies? One that is a body has masses of its own, which collide.
 inline bool meets_facets(const ToolSpec& tool) { return tool.shape != ToolShape::body; }
-/// A point feels planes, all others a wrench.
-inline ForceModel force_model_of(const ToolSpec& tool) {
-  return tool.force_model.value_or(tool.shape == ToolShape::point ? ForceModel::norton : ForceModel::tangent);
-}
 
 }  // namespace palpate

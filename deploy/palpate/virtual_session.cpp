@@ -87,17 +87,21 @@ nlohmann::json VirtualSession::finish() {
                          {"force_max_N", counts.force_max},      {"torque_max_N_m", counts.torque_max},
                          {"stale_events", counts.stale_events},  {"faults", counts.faults}};
   }
-  std::vector<std::string> faults;
+  std::vector<std::string> hand;
   for (std::size_t n = 0; n < hands_.size(); ++n) {
+    const ForceModelChoice& felt = hands_[n]->force_model();
+    summary["haptic"]["force_models"][scene_.tools[n].name] = word_of(felt.model);
+    if (const auto line = warning_of(felt); !line.empty())
+      hand.push_back(fmt::format("{}: {}", scene_.tools[n].name, line));
     const haptic::FaultCause cause = hands_[n]->fault_cause();
     if (cause == haptic::FaultCause::none) continue;
-    faults.push_back(
+    hand.push_back(
         fmt::format("{}: fault: {}; no force since then", scene_.tools[n].name, haptic::text_of(cause)));
     summary["haptic"]["fault_causes"].push_back({{"tool", scene_.tools[n].name},
                                                  {"cause", haptic::name_of(cause)},
                                                  {"text", haptic::text_of(cause)}});
   }
-  add_warnings(summary, faults);
+  add_warnings(summary, hand);
   if (eye_) summary["render"] = eye_->summary(wall_s_);
   add_warnings(summary, hand_warnings(summary, Faults::named));
   count_warnings(summary);

@@ -59,8 +59,8 @@ HapticNode::HapticNode(const NodeOptions& options, const Scene& scene)
     channels_.push_back(std::make_unique<ToolChannel>(scene, tool, options.device, options.domain));
     const HapticSession& session = *channels_.back()->session.get();
     const hdev_info& info = session.device_info();
-    log_info("{}: {} ({}), up to {:.1f} N", scene.tools[tool].name, info.model, info.vendor,
-             session.controller().force_limit());
+    log_info("{}: {} ({}), up to {:.1f} N, force model {}", scene.tools[tool].name, info.model, info.vendor,
+             session.controller().force_limit(), words_of(session.force_model()));
     resets_.emplace_back(*channels_.back(), [this, tool] {
       return open_session(scene_, tool, options_.device, options_.domain);
     });

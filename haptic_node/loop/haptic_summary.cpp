@@ -90,6 +90,9 @@ void write_haptic_summary(const std::string& out, const LoopStats& stats, const 
     faults.insert(faults.end(), tool.records().begin(), tool.records().end());
   }
   auto part = haptic_summary(stats, reports, wire.trace_lost(), faults);
+  for (const auto& tool : tools)  // one that has not ticked has said nothing yet
+    if (tool.report().counts.ticks > 0)
+      part["haptic"]["force_models"][tool.tool()] = word_of(tool.report().force_model.model);
   add_warnings(part, warnings);
   part.update(wire_report("haptic", wire.participant(), wire.states(), wire.traces(), wire.status()));
   const Wire::HeardCounts heard = wire.heard();

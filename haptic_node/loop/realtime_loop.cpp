@@ -76,7 +76,7 @@ void RealtimeLoop::tick_tool(ToolChannel& channel, HapticSession& session, std::
     channel.flight.trigger();
   channel.reports.write({session.state(), session.controller().refusal(), session.counts(),
                          session.first_run_ns(), session.fault_cause(), session.temperature(),
-                         session.controller().thermal_gain(), session.sample_age()});
+                         session.controller().thermal_gain(), session.sample_age(), session.force_model()});
 }
 
 void RealtimeLoop::tick_tools(std::int64_t woke_ns) noexcept {

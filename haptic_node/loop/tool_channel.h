@@ -25,6 +25,7 @@ struct SessionReport {
   double temperature = -1;              // of the motors, 1 = their limit; below 0: unknown
   double thermal_gain = 1;              // what that leaves of the force
   double sample_age = 0;                // of the newest sample [s]
+  ForceModelChoice force_model;
 };
 
 /// A session in real time whose motors are switched on by a slow thread. @throws InputError as HapticSession does

@@ -98,6 +98,7 @@ void ToolWatch::look(double t) {
   const bool first = newest->first_run_ns > 0 && report_.first_run_ns == 0;
   report_ = *newest;
   if (first) log_info("{}: forces are on", channel_.name);
+  say_force_model();
   if (report_.counts.late_calls > 0 && !said_late_ && !fault) {
     said_late_ = true;
     said_.warn(fmt::format(
@@ -111,6 +112,13 @@ void ToolWatch::look(double t) {
     say_heat();
     say_silence();
   }
+}
+
+/// A device that is opened anew may be another one.
+void ToolWatch::say_force_model() {
+  const std::string line = warning_of(report_.force_model);
+  if (!line.empty() && !said_model_) said_.warn(fmt::format("{}: {}", channel_.name, line));
+  said_model_ = !line.empty();
 }
 
 void ToolWatch::look_at_call(std::int64_t ns, double t) {

@@ -43,6 +43,7 @@ class ToolWatch {
   /// The loop is in this tool's driver and has not come back for `ns`; 0: it has, or is elsewhere.
   void look_at_call(std::int64_t ns, double t);
 
+  const std::string& tool() const noexcept { return channel_.name; }
   const SessionReport& report() const noexcept { return report_; }
   bool stuck() const noexcept { return stuck_; }
   /// The fault that there is has been said, with what is known of the motors.
@@ -59,6 +60,7 @@ class ToolWatch {
   void look_at_motors();
   void say_fault(bool off);
   bool motors_off() const;
+  void say_force_model();
   void say_heat();
   void say_silence();
   std::string words() const;
@@ -71,7 +73,7 @@ class ToolWatch {
   std::optional<FaultRecord> open_fault_;  // not said yet: its motors are being switched off
   FaultRecord fault_;                      // the newest one
   Clock::time_point fault_since_;
-  bool said_late_ = false, said_warm_ = false, said_hot_ = false;
+  bool said_model_ = false, said_late_ = false, said_warm_ = false, said_hot_ = false;
   bool silent_ = false, power_refused_ = false;
   std::string silence_words_;
   std::vector<FaultRecord> records_;

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "common/message/vec3.h"
+#include "common/scene/force_model.h"
 #include "common/scene/tool_spec.h"
 
 namespace palpate::physics {

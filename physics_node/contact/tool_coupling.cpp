@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/message/vec3.h"
+#include "common/scene/force_model.h"
 #include "common/scene/tool_spec.h"
 
 namespace palpate::physics {

@@ -6,6 +6,7 @@
 
 #include "common/scene/body_spec.h"
 #include "common/scene/device_spec.h"
+#include "common/scene/force_model.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
 #include "render_node/view/arrow_scale.h"

@@ -172,6 +172,7 @@ TEST_F(HandTorque, TurnsAHandThatPressesAStickBesideItsMiddle) {
   // 4. In the summary.
   EXPECT_NEAR(haptic_summary()["torque_max_N_m"].get<double>(), most, 1e-6);
   EXPECT_GT(haptic_summary()["force_max_N"].get<double>(), F);
+  EXPECT_EQ(haptic_summary()["force_models"]["stick"], "tangent");
 }
 
 }  // namespace

@@ -190,5 +190,21 @@ TEST(HapticSession, NamesTheSceneWhenADriverDislikesAnOption) {
   }
 }
 
+/// The device of the tests gives no torques unless it is told to.
+TEST(HapticSession, FeelsThePlaneUnderAStickWhereItsDeviceHasNoTorquesAndSaysSo) {
+  Scene scene = scene_with(HandModel::rigid, press(0.002));
+  scene.tools[0].shape = ToolShape::stick;
+  scene.tools[0].force_model = ForceModel::tangent;
+  const VirtualWorld without(scene);
+  EXPECT_FALSE(without.session.controller().needs_wrench());
+  EXPECT_EQ(without.session.force_model().model, ForceModel::norton);
+  EXPECT_FALSE(warning_of(without.session.force_model()).empty());
+  scene.devices[0].options = {{"max_torque", "0.02"}, {"turn_stiffness", "0.2"}};
+  const VirtualWorld with(scene);
+  EXPECT_TRUE(with.session.controller().needs_wrench());
+  EXPECT_EQ(with.session.force_model().model, ForceModel::tangent);
+  EXPECT_TRUE(warning_of(with.session.force_model()).empty());
+}
+
 }  // namespace
 }  // namespace palpate::haptic::test

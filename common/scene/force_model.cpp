@@ -1,0 +1,47 @@
+#include "common/scene/force_model.h"
+
+namespace palpate {
+
+const char* word_of(ForceModel model) noexcept {
+  switch (model) {
+    case ForceModel::norton:
+      return "norton";
+    case ForceModel::tangent:
+      return "tangent";
+    case ForceModel::raw_planes:
+      return "raw_planes";
+    case ForceModel::direct:
+      return "direct";
+  }
+  return "";
+}
+
+bool can_feel(ToolShape shape, ForceModel model) noexcept {
+  if (model == ForceModel::direct) return true;
+  return (shape == ToolShape::point) == (model != ForceModel::tangent);
+}
+
+ForceModel force_model_of(const ToolSpec& tool) noexcept {
+  return tool.force_model.value_or(tool.shape == ToolShape::point ? ForceModel::norton : ForceModel::tangent);
+}
+
+ForceModelChoice felt_force_model(const ToolSpec& tool, double torque_limit) noexcept {
+  const ForceModel asked = force_model_of(tool);
+  // A stick offers its surface as a plane, too, and that says all to a hand that cannot be turned. A body offers none.
+  if (tool.shape != ToolShape::stick || asked != ForceModel::tangent || torque_limit > 0) return {asked};
+  return {.model = ForceModel::norton, .lacks_torques = true, .was_asked = tool.force_model.has_value()};
+}
+
+std::string words_of(const ForceModelChoice& choice) {
+  const std::string word = word_of(choice.model);
+  return choice.lacks_torques ? word + ": the plane under the stick, as the device gives no torques" : word;
+}
+
+std::string warning_of(const ForceModelChoice& choice) {
+  if (!choice.was_asked) return {};
+  return "force_model = \"tangent\" needs torques, which this device does not give; the hand feels the plane "
+         "under "
+         "the stick (norton); leave force_model out, or take a device with torques";
+}
+
+}  // namespace palpate

@@ -1,0 +1,68 @@
+// Every shape, every word that a scene may or may not have, with and without torques.
+#include "common/scene/force_model.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace palpate::test {
+namespace {
+
+using enum ForceModel;
+
+struct Row {
+  ToolShape shape;
+  std::optional<ForceModel> asked;  // by the scene
+  bool allowed;                     // there
+  ForceModel physics;               // answers by it
+  ForceModel with_torques, without;
+  bool warns = false;  // without torques
+};
+
+constexpr std::array<Row, 15> table{{
+    {ToolShape::point, std::nullopt, true, norton, norton, norton},
+    {ToolShape::point, norton, true, norton, norton, norton},
+    {ToolShape::point, tangent, false, tangent, tangent, tangent},
+    {ToolShape::point, raw_planes, true, raw_planes, raw_planes, raw_planes},
+    {ToolShape::point, direct, true, direct, direct, direct},
+    {ToolShape::stick, std::nullopt, true, tangent, tangent, norton},
+    {ToolShape::stick, norton, false, norton, norton, norton},
+    {ToolShape::stick, tangent, true, tangent, tangent, norton, true},
+    {ToolShape::stick, raw_planes, false, raw_planes, raw_planes, raw_planes},
+    {ToolShape::stick, direct, true, direct, direct, direct},
+    {ToolShape::body, std::nullopt, true, tangent, tangent, tangent},
+    {ToolShape::body, norton, false, norton, norton, norton},
+    {ToolShape::body, tangent, true, tangent, tangent, tangent},
+    {ToolShape::body, raw_planes, false, raw_planes, raw_planes, raw_planes},
+    {ToolShape::body, direct, true, direct, direct, direct},
+}};
+
+TEST(ForceModel, IsDecidedByShapeSceneAndTorques) {
+  for (std::size_t n = 0; n < table.size(); ++n) {
+    SCOPED_TRACE(n);
+    const Row& row = table[n];
+    ToolSpec tool;
+    tool.shape = row.shape;
+    tool.force_model = row.asked;
+    const ForceModel word = row.asked.value_or(row.physics);
+    EXPECT_EQ(can_feel(row.shape, word), row.allowed);
+    EXPECT_EQ(force_model_of(tool), row.physics);
+    const ForceModelChoice with = felt_force_model(tool, 0.02), without = felt_force_model(tool, 0);
+    EXPECT_EQ(with.model, row.with_torques);
+    EXPECT_EQ(without.model, row.without);
+    EXPECT_EQ(felt_force_model(tool, -1).model, row.without) << "no torque is less than none";
+    // No change is silent: the words say that torques lack, and a scene that names the model is warned.
+    EXPECT_FALSE(with.lacks_torques);
+    EXPECT_EQ(without.lacks_torques, row.without != row.with_torques);
+    EXPECT_EQ(words_of(without).find("torques") != std::string::npos, without.lacks_torques);
+    EXPECT_EQ(words_of(without).rfind(word_of(row.without), 0), 0U);
+    EXPECT_TRUE(warning_of(with).empty());
+    EXPECT_EQ(!warning_of(without).empty(), row.warns);
+    // Physics does not know the device. It may not have to: `direct` and `raw_planes` are never put in place of another.
+    for (const ForceModel felt : {with.model, without.model})
+      for (const ForceModel own : {direct, raw_planes}) EXPECT_EQ(felt == own, row.physics == own);
+  }
+}
+
+}  // namespace
+}  // namespace palpate::test
