@@ -75,7 +75,7 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
   for (const WallSpec& wall : scene.walls) planes_.push_back({wall.normal, wall.normal.dot(wall.point)});
   choice_ = choose_threads(scene, spare_cores, n_masses, n_chunks);
   if (choice_.most() > 1) team_ = std::make_unique<Team>(choice_.most());
-  gathered_.reserve(toolbox_.tools.size() * ToolCoupling::most_forces);
+  gathered_.reserve(toolbox_.pressing.size() * ToolCoupling::most_forces);
 
   frame_dt_ = 1.0 / scene.physics.frame_Hz;
   n_substeps_ = static_cast<int>(steps_a_frame(scene, stable_dt_));
@@ -137,7 +137,7 @@ void World::follow_breaks() noexcept {
 
 std::span<const NodalForce> World::gathered(std::size_t body) noexcept {
   gathered_.clear();
-  for (const auto& tool : toolbox_.tools)
+  for (const PressingTool* tool : toolbox_.pressing)
     if (tool->touched_body() == body)
       gathered_.insert(gathered_.end(), tool->forces().begin(), tool->forces().end());
   return gathered_;
@@ -190,11 +190,11 @@ void World::touch(double dt, double done) noexcept {
       report_.contact_lost += body->bounce_off(plane, scene_.contact.restitution, dt).lost;
 }
 
-/// Of the forces of tools that give any, where no step has solved for them. [W]
+/// Of the forces of tools that press, where no step has solved for them. [W]
 double World::tools_power() const noexcept {
   double sum = 0;
   if (is_implicit()) return sum;
-  for (const auto& tool : toolbox_.tools)
+  for (const PressingTool* tool : toolbox_.pressing)
     if (!tool->forces().empty()) sum += bodies_[tool->touched_body()]->power(tool->forces());
   return sum;
 }
@@ -272,8 +272,8 @@ void World::take_tools(std::span<const std::optional<ToolState>> tools) noexcept
 }
 
 bool World::is_pressed() const noexcept {
-  return std::any_of(toolbox_.tools.begin(), toolbox_.tools.end(),
-                     [](const auto& tool) { return !tool->forces().empty(); });
+  return std::any_of(toolbox_.pressing.begin(), toolbox_.pressing.end(),
+                     [](const PressingTool* tool) { return !tool->forces().empty(); });
 }
 
 void World::find_contacts() noexcept {

@@ -64,4 +64,10 @@ void BodyTool::write_patch(ContactPatch& patch, std::uint64_t frame, std::int64_
   begin_patch(patch, frame, now_ns);
 }
 
+void BodyTool::write_wrench(ToolWrench& out, std::uint64_t frame, std::int64_t now_ns,
+                            double t) const noexcept {
+  begin_wrench(out, felt_by(tangent_), frame, now_ns, t);
+  Eigen::Map<Mat6>(out.stiffness.data()) = tangent_.stiffness();  // symmetric
+}
+
 }  // namespace palpate::physics

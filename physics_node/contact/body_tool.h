@@ -21,10 +21,12 @@ class BodyTool final : public LedTool {
   /// What the body took from others in the frame. Force and moment are the impulses over the time, so that they do not
   /// depend on the step; then low-passed twice at low_pass_Hz.
   void end_frame(Collisions* collisions, double frame_seconds) noexcept override;
-  const TangentEstimate* tangent() const noexcept override { return &tangent_; }
+  bool is_near() const noexcept override { return false; }  // its masses collide: Collisions knows
 
   /// No facets: the hand feels the wrench.
   void write_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) noexcept override;
+  void write_wrench(ToolWrench& wrench, std::uint64_t frame, std::int64_t now_ns,
+                    double t) const noexcept override;
 
   std::size_t body() const { return body_; }
   Vec3 tip() const noexcept override { return to_.p; }

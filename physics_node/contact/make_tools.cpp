@@ -11,7 +11,9 @@ namespace {
 
 void add_point(const ToolSpec& spec, std::uint32_t n, const BodyModels& bodies,
                const std::vector<TouchableBody>& touchable, Toolbox& box) {
-  box.tools.push_back(std::make_unique<ToolCoupling>(spec, n, touchable));
+  auto point = std::make_unique<ToolCoupling>(spec, n, touchable);
+  box.pressing.push_back(point.get());
+  box.tools.push_back(std::move(point));
   for (const auto& body : bodies) body->prepare_books();
 }
 

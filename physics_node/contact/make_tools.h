@@ -12,7 +12,8 @@ namespace palpate::physics {
 
 struct Toolbox {
   std::vector<std::unique_ptr<Tool>> tools;  // one for each of the scene
-  std::vector<LedTool*> led;                 // those of them that move tissue themselves: bodies and sticks
+  std::vector<PressingTool*> pressing;       // those of them that press tissue with forces: points
+  std::vector<LedTool*> led;                 // those that move masses themselves: bodies and sticks
   std::vector<std::size_t> felt;             // bodies whose impulses somebody feels
 };
 

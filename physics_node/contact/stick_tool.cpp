@@ -1,5 +1,6 @@
 #include "physics_node/contact/stick_tool.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,6 +14,13 @@ namespace palpate::physics {
 namespace {
 
 constexpr double patch_half = 0.020;  // side of the plane's square about the tip [m]
+
+/// Stiffness of what a hand feels through a spring K that only ways stretch: K_t - K_t E (K + E^T K_t E)^-1 E^T K_t.
+Mat6 through_spring(const Mat6& K_t, double K) noexcept {
+  const Eigen::Matrix3d both = K_t.topLeftCorner<3, 3>() + K * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix<double, 6, 3> ways = K_t.leftCols<3>();
+  return K_t - ways * both.ldlt().solve(ways.transpose());
+}
 
 }  // namespace
 
@@ -180,6 +188,20 @@ void StickTool::write_patch(ContactPatch& patch, std::uint64_t frame, std::int64
     facet.stiffness = plane->stiffness;
     facet.body = static_cast<std::uint32_t>(surface_.body());
   }
+}
+
+void StickTool::write_wrench(ToolWrench& out, std::uint64_t frame, std::int64_t now_ns,
+                             double t) const noexcept {
+  const Wrench now = felt_by(tangent_);
+  begin_wrench(out, now, frame, now_ns, t);
+  const double K = hand_spring_;
+  if (std::isfinite(K)) out.p_WT = array(to_.p - now.force / K);
+  const NortonSpring* surface = spring();
+  const Mat6 K_t = surface != nullptr ? surface->tangent() : tangent_.stiffness();
+  Eigen::Map<Mat6>(out.stiffness.data()) = std::isfinite(K) ? through_spring(K_t, K) : K_t;  // symmetric
+  if (surface == nullptr) return;
+  out.normal = array(surface->normal);
+  out.stretch = surface->normal.dot(to_.p - vec(out.p_WT)) - surface->gap;
 }
 
 }  // namespace palpate::physics

@@ -34,23 +34,23 @@ class StickTool final : public LedTool {
   void find_contact(double t) noexcept override;
   void reset() noexcept override;
 
+  void begin_step() noexcept override {}  // it remembers where it was
   LeadWork lead(double done, double dt) noexcept override;
   void end_frame(Collisions* collisions, double frame_seconds) noexcept override;
   bool is_near() const noexcept override { return n_near_ > 0; }
-  const TangentEstimate* tangent() const noexcept override { return &tangent_; }
-  const NortonSpring* spring() const noexcept override {
-    return surface_.spring() ? &*surface_.spring() : nullptr;
-  }
 
   /// The plane under the stick as two triangles about the tip. A device that gives torques feels the spring instead.
   void write_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) noexcept override;
-  double spring_to_hand() const noexcept override { return hand_spring_; }
+  /// The spring of the surface beside the stick, touched or not, else the tangent; both through the hand's spring.
+  void write_wrench(ToolWrench& wrench, std::uint64_t frame, std::int64_t now_ns,
+                    double t) const noexcept override;
 
   Vec3 tip() const noexcept override { return to_.p; }
   Wrench wrench() const noexcept override { return felt_.value(); }
   Wrench raw_wrench() const noexcept override { return raw_; }
   std::uint32_t contacts() const noexcept override { return contacts_; }  // collided masses in the last frame
   Stick stick_at(const Pose& pose) const noexcept;
+  const TangentEstimate& tangent() const noexcept { return tangent_; }
 
  private:
   /// Masses of one body near the stick; arrays of one length.
@@ -65,6 +65,8 @@ class StickTool final : public LedTool {
   };
   void list(Near& near) noexcept;
   LeadWork lead_body(Near& near, const Stick& before, const Stick& now, double dt) noexcept;
+  /// The surface beside it, touched or not; null: none is known.
+  const NortonSpring* spring() const noexcept { return surface_.spring() ? &*surface_.spring() : nullptr; }
   Pose pose_at(double done) const noexcept {
     return {from_.p + done * (to_.p - from_.p), from_.q.slerp(done, to_.q)};
   }

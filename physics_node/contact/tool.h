@@ -1,13 +1,9 @@
 #pragma once
-// What the frame, the wire and the record ask of a tool, whatever it is.
-
-#include <limits>
-#include <span>
+// What the frame, the wire and the record ask of every tool. How it acts on tissue is asked of one that presses it with
+// forces (pressing_tool.h) or of one that leads masses itself (led_tool.h): nothing here has a default.
 
 #include "common/message/messages.h"
 #include "physics_node/contact/low_pass.h"
-#include "physics_node/contact/norton_spring.h"
-#include "physics_node/contact/tangent_estimate.h"
 #include "physics_node/step/body_model.h"
 
 namespace palpate::physics {
@@ -39,20 +35,12 @@ class Tool {
   virtual void take(const ToolState* state, double dt) noexcept = 0;
   /// Before the steps of a frame: looks for what it touches.
   virtual void find_contact(double t) noexcept = 0;
-  /// Forces on masses of the touched body during the coming frame; a tool that is a body has none, it collides.
-  virtual std::span<const NodalForce> forces() const noexcept { return {}; }
-  virtual std::size_t touched_body() const noexcept { return 0; }  // meaningful while forces() is not empty
-  virtual void reset() noexcept {}
+  /// With the bodies back at the start: as one that has not met its hand yet.
+  virtual void reset() noexcept = 0;
 
   virtual void write_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) noexcept = 0;
-  void write_wrench(ToolWrench& wrench, std::uint64_t frame, std::int64_t now_ns, double t) const noexcept;
-  /// How the wrench changes with the pose of the hand; null: the hand feels planes instead.
-  virtual const TangentEstimate* tangent() const noexcept { return nullptr; }
-  /// The surface beside the tool, touched or not, which then takes the place of the tangent; null: none is known.
-  virtual const NortonSpring* spring() const noexcept { return nullptr; }
-
-  /// Of the spring between hand and tool [N/m]; infinite: the tool is where the hand has it.
-  virtual double spring_to_hand() const noexcept { return std::numeric_limits<double>::infinity(); }
+  virtual void write_wrench(ToolWrench& wrench, std::uint64_t frame, std::int64_t now_ns,
+                            double t) const noexcept = 0;
 
   virtual Vec3 tip() const noexcept = 0;                // where the hand holds it [m]
   virtual Wrench wrench() const noexcept = 0;           // low-passed
@@ -66,6 +54,9 @@ class Tool {
   void note(const ToolState& state) noexcept;
   /// A patch without facets that answers that state.
   void begin_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) const noexcept;
+  /// A wrench without stiffness that answers it.
+  void begin_wrench(ToolWrench& wrench, const Wrench& now, std::uint64_t frame, std::int64_t now_ns,
+                    double t) const noexcept;
 
   std::uint32_t index_;
   Vec3 set_point_;

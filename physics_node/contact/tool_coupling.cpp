@@ -18,13 +18,22 @@ constexpr double negligible_force = 1e-6;  // [N]; below this the tissue is let 
 
 ToolCoupling::ToolCoupling(const ToolSpec& tool, std::uint32_t index,
                            const std::vector<TouchableBody>& bodies)
-    : Tool(index, tool.set_point), model_(force_model_of(tool)), stiffness_(tool.stiffness) {
+    : PressingTool(index, tool.set_point), model_(force_model_of(tool)), stiffness_(tool.stiffness) {
   contacts_.reserve(bodies.size());
   for (const auto& body : bodies) {
     contacts_.emplace_back(*body.surface, *body.moving, tool.radius);
     moving_.push_back(body.moving);
   }
   forces_.reserve(most_forces);
+}
+
+void ToolCoupling::reset() noexcept {
+  seen_ = engaged_ = false;
+  force_.setZero();
+  raw_force_.setZero();
+  acted_.setZero();
+  forces_.clear();
+  K_o_ = {};
 }
 
 void ToolCoupling::take(const ToolState* state, double dt) noexcept {

@@ -20,8 +20,8 @@
 #include "common/message/messages.h"
 #include "common/scene/kinds.h"
 #include "common/scene/scene_fwd.h"
+#include "physics_node/contact/pressing_tool.h"
 #include "physics_node/contact/secant_stiffness.h"
-#include "physics_node/contact/tool.h"
 #include "physics_node/contact/tool_contact.h"
 
 namespace palpate::physics {
@@ -31,7 +31,7 @@ struct TouchableBody {
   std::unique_ptr<Boundary> surface;
 };
 
-class ToolCoupling final : public Tool {
+class ToolCoupling final : public PressingTool {
  public:
   static constexpr std::size_t most_forces = 16384;
 
@@ -43,11 +43,17 @@ class ToolCoupling final : public Tool {
 
   /// Finds the body, the plane and the masses under the tool.
   void find_contact(double t) noexcept override;
+  void reset() noexcept override;
 
   std::span<const NodalForce> forces() const noexcept override { return forces_; }
   std::size_t touched_body() const noexcept override { return touched_; }
 
   void write_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) noexcept override;
+  /// For the record: the hand feels planes.
+  void write_wrench(ToolWrench& wrench, std::uint64_t frame, std::int64_t now_ns,
+                    double t) const noexcept override {
+    begin_wrench(wrench, this->wrench(), frame, now_ns, t);
+  }
 
   Vec3 tip() const noexcept override { return tip_; }
   Wrench wrench() const noexcept override { return {force_, (tip_ - set_point_).cross(force_)}; }

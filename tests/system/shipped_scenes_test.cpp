@@ -90,7 +90,8 @@ double quasi_static_stiffness(const Scene& scene, const Vec3& x, double F) {
     world.frame(std::span(&hand, 1));
   }
   double work = 0;
-  for (const auto& f : world.tool(0).forces()) work += f.force.dot(world.body(0).displacement(f.cell));
+  for (const auto& f : dynamic_cast<const physics::PressingTool&>(world.tool(0)).forces())
+    work += f.force.dot(world.body(0).displacement(f.cell));
   return 1 / (work / (F * F) + 1 / K);
 }
 

@@ -38,6 +38,11 @@ inline void run(World& world, const std::optional<ToolState>& hand, int frames) 
   for (int n = 0; n < frames; ++n) world.frame(std::span(&hand, 1));
 }
 
+/// What the point presses with.
+inline std::span<const NodalForce> forces_of_tool(const World& world, std::size_t n = 0) {
+  return dynamic_cast<const PressingTool&>(world.tool(n)).forces();
+}
+
 inline Vec3 total(std::span<const NodalForce> forces) {
   Vec3 sum = Vec3::Zero();
   for (const NodalForce& nodal : forces) sum += nodal.force;

@@ -132,7 +132,7 @@ TEST(StickTool, TellsATangentThatPredictsTheForce) {
   tick = lead(world, {-0.04, 0, z - 0.0015}, {-0.04, 0, z - 0.0015}, 500, tick);
   ToolWrench wrench;
   world.tool(0).write_wrench(wrench, 1, 1, world.t());
-  const double K_t = world.tool(0).tangent()->stiffness()(2, 2);
+  const double K_t = dynamic_cast<const StickTool&>(world.tool(0)).tangent().stiffness()(2, 2);
   const double predicted = wrench.force[2] + K_t * 0.001;
   tick = lead(world, {-0.04, 0, z - 0.0015}, {-0.04, 0, z - 0.0025}, 400, tick);
   lead(world, {-0.04, 0, z - 0.0025}, {-0.04, 0, z - 0.0025}, 500, tick);

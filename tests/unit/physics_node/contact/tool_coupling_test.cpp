@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "common/message/vec3.h"
 #include "common/scene/scene.h"
@@ -22,8 +23,8 @@ TEST(ToolCoupling, CarriesASteadyForceIntoTheMasses) {
   run(world, hand, 700);
   const Tool& tool = world.tool(0);
   EXPECT_LT((tool.force() - Vec3(0, 0, 1.5)).norm(), 1e-6);
-  EXPECT_LT((total(tool.forces()) + Vec3(0, 0, 1.5)).norm(), 1e-6);
-  EXPECT_GT(tool.forces().size(), 4u);
+  EXPECT_LT((total(forces_of_tool(world)) + Vec3(0, 0, 1.5)).norm(), 1e-6);
+  EXPECT_GT(forces_of_tool(world).size(), 4u);
 }
 
 TEST(ToolCoupling, LetsGoWhenTheHandFallsSilent) {
@@ -35,7 +36,7 @@ TEST(ToolCoupling, LetsGoWhenTheHandFallsSilent) {
   EXPECT_GT(fading, 0);
   run(world, std::nullopt, 1000);
   EXPECT_EQ(world.tool(0).force(), Vec3(Vec3::Zero()));
-  EXPECT_TRUE(world.tool(0).forces().empty());
+  EXPECT_TRUE(forces_of_tool(world).empty());
 }
 
 TEST(ToolCoupling, IgnoresTheForceOfAHandThatIsNotEngaged) {
@@ -141,16 +142,32 @@ TEST(ToolCoupling, OffersWhatHasOpened) {
   for (std::uint32_t f = 0; f < patch.n_facets; ++f)
     for (const Array3& corner : patch.facets[f].corners) EXPECT_LT(corner[2], slab_top - 0.006) << f;
   EXPECT_GT(patch.facets[0].normal[2], 0.9);
-  ASSERT_FALSE(world.tool(0).forces().empty());
-  for (const NodalForce& nodal : world.tool(0).forces())
+  ASSERT_FALSE(forces_of_tool(world).empty());
+  for (const NodalForce& nodal : forces_of_tool(world))
     EXPECT_EQ(std::count(torn.begin(), torn.end(), nodal.cell), 0) << "crumbs bear nothing";
-  EXPECT_NEAR(total(world.tool(0).forces()).z(), -world.tool(0).force().z(), 1e-9);
+  EXPECT_NEAR(total(forces_of_tool(world)).z(), -world.tool(0).force().z(), 1e-9);
 
   world.reset();
   run(world, steady_hand({0, 0, 0.01}), 2);
   world.tool(0).write_patch(patch, 3, 1);
   ASSERT_GT(patch.n_facets, 4u);
   EXPECT_NEAR(patch.facets[0].corners[0][2], slab_top, 0.0005);
+}
+
+TEST(ToolCoupling, PressesAfterAResetAsItDidAtFirst) {
+  World world(pressed_slab());
+  const auto press = [&world] {
+    run(world, steady_hand({0, 0, 1.5}), 150);
+    ContactPatch patch;
+    world.tool(0).write_patch(patch, 1, 1);
+    EXPECT_GT(patch.n_facets, 0u);
+    return std::make_tuple(world.state_hash(), world.tool(0).force(), patch.facets[0].stiffness);
+  };
+  const auto first = press();
+  world.reset();
+  EXPECT_EQ(world.tool(0).force(), Vec3(Vec3::Zero()));
+  EXPECT_TRUE(forces_of_tool(world).empty());
+  EXPECT_EQ(press(), first);
 }
 
 }  // namespace
