@@ -41,6 +41,7 @@ Picture::Picture(const Scene& scene, Edges edges) : parts_(std::make_unique<Part
 Picture::~Picture() = default;
 
 void Picture::take(const BodySurface& chunk) { parts_->model.take(chunk); }
+void Picture::take(const SurfaceChange& page) { parts_->model.take(page); }
 void Picture::take(const VertexBlock& block) { parts_->model.take(block); }
 void Picture::take(const ToolWrench& wrench) { parts_->model.take(wrench); }
 void Picture::take(const HapticTrace& trace) { parts_->model.take(trace); }

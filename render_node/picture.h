@@ -26,6 +26,7 @@ class Picture {
   Picture& operator=(const Picture&) = delete;
 
   void take(const BodySurface& chunk);
+  void take(const SurfaceChange& page);
   void take(const VertexBlock& block);
   void take(const ToolWrench& wrench);
   void take(const HapticTrace& trace);

@@ -26,8 +26,10 @@ void Wire::follow_physics(ViewModel& model) {
   if (!another) return;
   model.begin_anew();
   surfaces_before_ = sum(surfaces_before_, surfaces_->counts());
+  changes_before_ = sum(changes_before_, changes_->counts());
   blocks_before_ = sum(blocks_before_, blocks_->counts());
   surfaces_ = std::make_unique<Reader<BodySurface>>(participant_, &physics_);
+  changes_ = std::make_unique<Reader<SurfaceChange>>(participant_, &physics_);
   blocks_ = std::make_unique<Reader<VertexBlock>>(participant_, &physics_);
 }
 
@@ -50,6 +52,7 @@ Wire::News Wire::take_into(ViewModel& model) {
   news.anything |= drain(wrenches_, buffers_->wrench, model);
   follow_physics(model);
   news.anything |= drain(*surfaces_, buffers_->surface, model);
+  news.anything |= drain(*changes_, buffers_->change, model);
   news.anything |= drain(*blocks_, buffers_->block, model);
   news.anything |= drain(traces_, buffers_->trace, model);
   follow_physics(model);
@@ -90,6 +93,7 @@ void Wire::command(CommandKind kind, double value) {
 
 std::vector<Heard> Wire::heard() {
   return {{"BodySurface", sum(surfaces_before_, surfaces_->counts())},
+          {"SurfaceChange", sum(changes_before_, changes_->counts())},
           {"VertexBlock", sum(blocks_before_, blocks_->counts())},
           {"ToolWrench", wrenches_.counts()},
           {"HapticTrace", traces_.counts()},

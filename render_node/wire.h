@@ -54,9 +54,11 @@ class Wire {
   Speaker physics_{participant_, "physics", silence};
   Speaker hand_{participant_, "haptic", silence};
   Speaker people_{participant_, {"render", "supervisor"}};
-  // Both anew when another physics speaks: it then sends all that it has told so far.
+  // All three anew when another physics speaks: it then sends all that it has told so far.
   std::unique_ptr<Reader<BodySurface>> surfaces_ =
       std::make_unique<Reader<BodySurface>>(participant_, &physics_);
+  std::unique_ptr<Reader<SurfaceChange>> changes_ =
+      std::make_unique<Reader<SurfaceChange>>(participant_, &physics_);
   std::unique_ptr<Reader<VertexBlock>> blocks_ =
       std::make_unique<Reader<VertexBlock>>(participant_, &physics_);
   Reader<ToolWrench> wrenches_{participant_, &physics_};
@@ -67,7 +69,7 @@ class Wire {
   Writer<Command> command_{participant_};
   Writer<Pointer> pointer_{participant_};
   std::uint64_t physics_changes_ = 0;  // how often another physics had taken over, at the last look
-  ReaderCounts surfaces_before_, blocks_before_;  // of the readers before those
+  ReaderCounts surfaces_before_, changes_before_, blocks_before_;  // of the readers before those
   std::uint64_t last_command_ = 0;
   bool memory_told_ = false;
   bool paused_ = false;
@@ -75,6 +77,7 @@ class Wire {
 
   struct Buffers {
     BodySurface surface;
+    SurfaceChange change;
     VertexBlock block;
     ToolWrench wrench;
     HapticTrace trace;

@@ -7,9 +7,10 @@
 namespace palpate::render {
 namespace {
 
-bool well_formed(const VertexBlock& block, std::size_t n_vertices) {
+std::size_t end_of(const VertexBlock& block) { return std::size_t{block.first_vertex} + block.n_vertices; }
+
+bool well_formed(const VertexBlock& block) {
   if (block.n_vertices > max_block_vertices) return false;
-  if (std::size_t{block.first_vertex} + block.n_vertices > n_vertices) return false;
   const auto finite = [](const Array3f& p) {
     return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
   };
@@ -60,8 +61,17 @@ ChunkFate BodyPicture::take(const BodySurface& chunk) {
   return fate;
 }
 
+ChunkFate BodyPicture::take(const SurfaceChange& page) {
+  const auto fate = changes_.take(page);
+  if (fate != ChunkFate::kept || revision_ == 0) return fate;
+  const auto carried = changes_.carry_out(surface_, shown_memory_);
+  if (carried == ChunkFate::completed) follow_surface();
+  return carried;
+}
+
 void BodyPicture::begin_anew() noexcept {
   assembly_.begin_anew();
+  changes_.begin_anew();
   let_go_of_held();
   held_revision_ = revision_ = 0;
 }
@@ -73,32 +83,49 @@ void BodyPicture::show(Surface surface) {
   shown_memory_.clear();
   shown_memory_.add(n * sizeof(Array3f) +
                     surface_.corners.size() * (sizeof(Corners) + sizeof(std::uint32_t)));
-  flags_.assign(n, 0);
+  flags_.clear();
+  packed_.clear();
   is_moved_.assign(n, 0);
-  packed_.assign(n, {});
-  page_dirty_.assign((n + page_vertices - 1) / page_vertices, 0);
   moved_.clear();
-  vertex_rgba_ = mean_colours(surface_);
-  rebuild_ = all_dirty_ = true;
-  n_facets_ = static_cast<std::size_t>(std::count_if(surface_.corners.begin(), surface_.corners.end(),
-                                                     [](const Corners& c) { return !is_loose(c); }));
   if (first_box_.isEmpty()) {
     for (const auto& p : surface_.position) first_box_.extend(Eigen::Vector3f(p[0], p[1], p[2]));
     edge_length_ = mean_edge_length(surface_);
   }
-  if (held_revision_ == surface_.revision) {
-    for (const auto& [number, block] : held_) {
-      if (well_formed(block, n)) apply(block);
-    }
-  }
-  if (held_revision_ <= surface_.revision) let_go_of_held();
+  changes_.carry_out(surface_, shown_memory_);
+  follow_surface();
+}
+
+/// Facets or the number of vertices have changed.
+void BodyPicture::follow_surface() {
+  const auto n = surface_.position.size();
+  flags_.resize(n, 0);
+  is_moved_.resize(n, 0);
+  packed_.resize(n);
+  page_dirty_.assign((n + page_vertices - 1) / page_vertices, 0);
+  vertex_rgba_ = mean_colours(surface_);
+  rebuild_ = all_dirty_ = true;
+  n_facets_ = static_cast<std::size_t>(std::count_if(surface_.corners.begin(), surface_.corners.end(),
+                                                     [](const Corners& c) { return !is_loose(c); }));
+  take_held();
+}
+
+void BodyPicture::take_held() {
+  if (held_revision_ > revision_) return;
+  std::erase_if(held_, [this](const auto& held) {
+    const VertexBlock& block = held.second;
+    if (held_revision_ == revision_ && end_of(block) > surface_.position.size()) return false;
+    if (held_revision_ == revision_) apply(block);
+    return true;
+  });
+  held_memory_.clear();
+  held_memory_.add(held_.size() * sizeof(VertexBlock));
 }
 
 bool BodyPicture::take(const VertexBlock& block) {
-  if (block.revision < revision_) return false;
+  if (!well_formed(block) || block.revision < revision_) return false;
   if (block.revision > revision_) return hold(block);
   if (empty()) return false;
-  if (!well_formed(block, surface_.position.size())) return false;
+  if (end_of(block) > surface_.position.size()) return hold(block);
   apply(block);
   return true;
 }

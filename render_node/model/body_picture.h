@@ -11,6 +11,7 @@
 #include "render_node/model/memory_budget.h"
 #include "render_node/model/surface.h"
 #include "render_node/model/surface_assembly.h"
+#include "render_node/model/surface_changes.h"
 #include "render_node/model/surface_normals.h"
 
 namespace palpate::render {
@@ -29,13 +30,16 @@ struct VertexRange {
 class BodyPicture {
  public:
   explicit BodyPicture(std::shared_ptr<MemoryBudget> budget = std::make_shared<MemoryBudget>())
-      : assembly_(budget), held_memory_(budget), shown_memory_(budget) {}
+      : assembly_(budget), changes_(budget), held_memory_(budget), shown_memory_(budget) {}
 
   /// Takes a chunk; when it completes a newer revision, that becomes the picture.
   ChunkFate take(const BodySurface& chunk);
 
-  /// Moves vertices of the revision shown. A block of a newer revision is held until that is whole (only changed blocks
-  /// are sent, so it may not come again); blocks may overtake surfaces.
+  /// Takes a page of changes; when they are complete up to some change, they are made to the picture.
+  ChunkFate take(const SurfaceChange& page);
+
+  /// Moves vertices of the revision shown. A block of a newer revision, or of vertices that are still to come, is held until those
+  /// are there (only changed blocks are sent, so it may not come again); blocks may overtake surfaces.
   /// @return false: of another revision or not finite, or no room is left to hold it: ignored
   bool take(const VertexBlock& block);
 
@@ -68,13 +72,16 @@ class BodyPicture {
  private:
   static constexpr std::size_t page_vertices = 512;  // granularity of dirty ranges
   bool hold(const VertexBlock& block);
+  void take_held();
   void let_go_of_held() noexcept;
   void show(Surface surface);
+  void follow_surface();
   void apply(const VertexBlock& block);
   void touch(std::size_t vertex) { page_dirty_[vertex / page_vertices] = 1; }
   void pack(std::size_t vertex);
 
   SurfaceAssembly assembly_;
+  SurfaceChanges changes_;
   std::map<std::uint32_t, VertexBlock> held_;  // newest of each block of held_revision_
   std::uint32_t held_revision_ = 0;
   MemoryHold held_memory_, shown_memory_;

@@ -26,14 +26,18 @@ void ViewModel::begin_anew() noexcept {
   for (auto& body : bodies_) body.begin_anew();
 }
 
-void ViewModel::take(const BodySurface& chunk) {
-  if (chunk.body >= bodies_.size()) {
+template <class M>
+void ViewModel::take_part(const M& part) {
+  if (part.body >= bodies_.size()) {
     ++ignored_;
     return;
   }
-  const auto fate = bodies_[chunk.body].take(chunk);
+  const auto fate = bodies_[part.body].take(part);
   if (fate != ChunkFate::kept && fate != ChunkFate::completed) ++ignored_;
 }
+
+void ViewModel::take(const BodySurface& chunk) { take_part(chunk); }
+void ViewModel::take(const SurfaceChange& page) { take_part(page); }
 
 void ViewModel::take(const VertexBlock& block) {
   if (block.body >= bodies_.size() || !bodies_[block.body].take(block)) {

@@ -45,6 +45,7 @@ class ViewModel {
   explicit ViewModel(const Scene& scene);
 
   void take(const BodySurface& chunk);
+  void take(const SurfaceChange& page);
   void take(const VertexBlock& block);
   void take(const ToolWrench& wrench);
   void take(const HapticTrace& trace);
@@ -79,6 +80,9 @@ class ViewModel {
   std::uint64_t memory_refused() const noexcept { return budget_->refused; }
 
  private:
+  template <class M>
+  void take_part(const M& part);
+
   std::shared_ptr<MemoryBudget> budget_ = std::make_shared<MemoryBudget>();
   std::vector<BodyPicture> bodies_;  // as in the scene
   std::vector<ToolView> tools_;      // as in the scene

@@ -63,6 +63,12 @@ void aim(Dice& dice, BodySurface& m) {
   for (std::uint32_t i = 0; i < m.n_facets; ++i)
     for (std::uint32_t& corner : m.corners[i]) corner %= m.n_vertices;
 }
+/// About a body that is there; half of them are whole with one page.
+void aim(Dice& dice, SurfaceChange& m) {
+  m.body = dice.below(2);
+  m.revision = 1 + static_cast<std::uint32_t>(dice.integer() % 1'000'000);
+  if (dice.below(2) == 0) test::make_whole(m);
+}
 void aim(Dice& dice, VertexBlock& m) {
   m.body = dice.below(2);
   m.revision = 1 + dice.below(1'000'000);
@@ -76,7 +82,7 @@ void aim(Dice& dice, M& m) {
 
 template <class M>
 class AnyMessage : public testing::Test {};
-using Seen = testing::Types<BodySurface, VertexBlock, ToolWrench, HapticTrace, NodeStatus>;
+using Seen = testing::Types<BodySurface, SurfaceChange, VertexBlock, ToolWrench, HapticTrace, NodeStatus>;
 TYPED_TEST_SUITE(AnyMessage, Seen);
 
 TYPED_TEST(AnyMessage, LeavesThePictureFiniteAndSmall) {

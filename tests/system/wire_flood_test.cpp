@@ -63,6 +63,12 @@ void aim(Dice& dice, BodySurface& m) {
   for (std::uint32_t i = 0; i < m.n_facets; ++i)
     for (std::uint32_t& corner : m.corners[i]) corner %= m.n_vertices;
 }
+/// Also changes that are whole with one page.
+void aim(Dice& dice, SurfaceChange& m) {
+  m.body = 0;
+  m.revision = 1 + static_cast<std::uint32_t>(dice.integer() % 1'000'000);
+  if (dice.below(2) == 0) make_whole(m);
+}
 void aim(Dice& dice, VertexBlock& m) {
   m.body = 0;
   m.block = dice.below(64);
@@ -241,6 +247,7 @@ TEST_P(WireFlood, LeavesTheNodeAliveAndSmall) {
     flood<Pointer>(who("render"), 7);
     flood<Command>(who("render"), 8);
     flood<NodeStatus>(who("supervisor"), 9);
+    flood<SurfaceChange>(who("physics"), 10);
     if (HasFatalFailure()) return;
   }
   std::uint64_t rejected = 0;

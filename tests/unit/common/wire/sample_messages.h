@@ -112,6 +112,14 @@ inline void randomise(Dice& dice, SurfaceChange& m) {
     dice.fill(f.rgba);
   }
 }
+/// Changes that are complete with one page.
+inline void make_whole(SurfaceChange& m) {
+  m.page = m.first_change = 0;
+  m.total_changes = m.n_changes;
+  m.total_vertices = m.first_vertex + m.n_vertices;
+  for (FacetChange& facet : m.facets)
+    for (std::uint32_t& corner : facet.corners) corner %= m.total_vertices;
+}
 inline void randomise(Dice& dice, VertexBlock& m) {
   m.body = dice.below(max_bodies);
   m.revision = 1 + dice.below(1000);

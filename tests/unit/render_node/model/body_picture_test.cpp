@@ -109,13 +109,61 @@ TEST(BodyPicture, DoesNotCountElementsAndMassesAsFacets) {
   EXPECT_NEAR(picture.edge_length(), 0.05, 1e-7);
 }
 
-TEST(BodyPicture, RefusesABlockBeyondItsVertices) {
+/// One facet that is new, at three new vertices.
+SurfaceChange growth_of(std::uint32_t revision) {
+  SurfaceChange page;
+  page.revision = revision;
+  page.change = 1;
+  page.first_vertex = static_cast<std::uint32_t>(cube.position.size());
+  page.n_vertices = 3;
+  page.total_vertices = page.first_vertex + 3;
+  page.position = {Array3f{0, 0, 1}, Array3f{0.1F, 0, 1}, Array3f{0, 0.1F, 1}};
+  const auto n = static_cast<std::uint32_t>(cube.corners.size());
+  page.n_changes = page.total_changes = 1;
+  page.facets[0] = {
+      n, {page.first_vertex, page.first_vertex + 1, page.first_vertex + 2, page.first_vertex + 2}, 0};
+  page.total_facets = n + 1;
+  return page;
+}
+
+TEST(BodyPicture, HoldsABlockOfVerticesThatAreStillToCome) {
   BodyPicture picture = picture_of(1);
   auto block = block_of(cube, 0, 1, 1);
-  block.first_vertex += 10;
-  EXPECT_FALSE(picture.take(block));
-  block.first_vertex = 0xffffffffU;
-  EXPECT_FALSE(picture.take(block));
+  block.n_vertices += 3;
+  const std::size_t last = block.n_vertices - 1;
+  block.position[last] = {7, 8, 9};
+  block.flags[last] = vertex_broken;
+  block.position[0] = {1, 2, 3};
+  EXPECT_TRUE(picture.take(block));
+  EXPECT_EQ(picture.surface().position[max_block_vertices], cube.position[max_block_vertices]);
+  EXPECT_EQ(picture.take(growth_of(1)), ChunkFate::completed);
+  picture.refresh();
+  EXPECT_EQ(picture.surface().position.back(), block.position[last]);
+  EXPECT_EQ(picture.surface().position[max_block_vertices], block.position[0]);
+  EXPECT_EQ(picture.packed().back().flags, vertex_broken);
+  EXPECT_EQ(picture.facets_visible(), cube.corners.size() + 1);
+}
+
+TEST(BodyPicture, KeepsWhereVerticesAreWhenFacetsChange) {
+  BodyPicture picture = picture_of(1);
+  auto block = block_of(cube, 0, 1, 0);
+  block.position[5] = {1, 2, 3};
+  block.flags[5] = vertex_yielded;
+  picture.take(block);
+  picture.take(growth_of(1));
+  picture.refresh();
+  EXPECT_EQ(picture.surface().position[5], block.position[5]);
+  EXPECT_EQ(picture.packed()[5].flags, vertex_yielded);
+  EXPECT_TRUE(picture.all_dirty());
+}
+
+TEST(BodyPicture, MakesNoChangeToTheSurfaceOfAPhysicsThatIsGone) {
+  BodyPicture picture = picture_of(1);
+  picture.begin_anew();
+  EXPECT_EQ(picture.take(growth_of(1)), ChunkFate::kept);
+  EXPECT_EQ(picture.surface().corners, cube.corners);
+  for (const auto& chunk : chunks_of(cube, 0, 1)) picture.take(chunk);
+  EXPECT_EQ(picture.facets_visible(), cube.corners.size() + 1) << "but to that of the one that sent it";
 }
 
 TEST(BodyPicture, MarksOnlyTheNeighbourhoodOfWhatMoved) {
