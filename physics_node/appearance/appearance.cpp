@@ -2,31 +2,19 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
 #include "common/scene/scene.h"
-#include "physics_node/appearance/colours.h"
 #include "physics_node/boundary/loose_parts.h"
 
 namespace palpate::physics {
 namespace {
 
-constexpr float visible_motion = 1e-5F;  // [m]
-Array3f float_of(const Vec3& p) {
-  return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
-}
-
-std::uint8_t vertex_flags(const Condition& condition) {
-  unsigned flags = (condition.flags & mass_broken) != 0 ? vertex_broken : 0;
-  if ((condition.flags & mass_yielded) != 0) {
-    const auto share = static_cast<unsigned>(std::lround(63 * condition.yielded_share));
-    flags |= vertex_yielded | share * vertex_share_one;
-  }
-  return static_cast<std::uint8_t>(flags);
-}
-
-std::uint32_t chunks_for(std::size_t n, std::uint32_t per_chunk) {
-  return static_cast<std::uint32_t>((n + per_chunk - 1) / per_chunk);
+/// Of a whole surface.
+std::uint32_t n_chunks(std::size_t vertices, std::size_t facets) {
+  const auto chunks_for = [](std::size_t n, std::size_t per_chunk) {
+    return static_cast<std::uint32_t>((n + per_chunk - 1) / per_chunk);
+  };
+  return std::max({1U, chunks_for(vertices, max_surface_vertices), chunks_for(facets, max_surface_facets)});
 }
 
 }  // namespace
@@ -35,33 +23,77 @@ Appearance::Appearance(const World& world, std::optional<double> threshold, Rema
     : world_(world), views_(world.n_bodies()), threshold_(threshold), how_(how) {
   restored_ = world.report().restored;
   for (std::size_t b = 0; b < views_.size(); ++b) {
-    views_[b].live = std::make_unique<LiveElements>(world.body(b));
+    copy(b);
     views_[b].breaks = world.body(b).losses().breaks;
-    show(b, make(b));
+    views_[b].shown = NumberedSurface(surface_of(b));
+    begin_whole(views_[b]);
   }
 }
 
-/// From the copy of the live elements and what is constant: safe in another thread.
-Surface Appearance::make(std::size_t body) const {
+/// What a surface is made from, so that the body may move on.
+void Appearance::copy(std::size_t body) {
+  View& view = views_[body];
+  const BodyModel& moving = world_.body(body);
+  if (view.live == nullptr)
+    view.live = std::make_unique<LiveElements>(moving);
+  else
+    view.live->copy(moving);
+  const Fragments* fragments = world_.fragments(body);
+  if (fragments != nullptr && world_.scene().render.show_fragments)
+    view.colours = std::make_unique<FragmentColours>(*fragments, moving.body().lattice);
+}
+
+/// From copies and what is constant: safe in another thread.
+Surface Appearance::surface_of(std::size_t body) const {
   const Body& constant = world_.body(body).body();
-  const LiveElements& live = *views_[body].live;
+  const View& view = views_[body];
   const std::uint32_t rgba = body_colour(world_.scene(), body);
-  Surface surface = make_surface(constant, live, threshold_, rgba);
-  add_loose_parts(constant, live, threshold_, rgba, surface);
+  Surface surface = make_surface(constant, *view.live, threshold_, rgba);
+  add_loose_parts(constant, *view.live, threshold_, rgba, surface);
+  if (view.colours != nullptr) view.colours->paint(surface);
   return surface;
 }
 
-void Appearance::show(std::size_t body, Surface surface) {
-  View& view = views_[body];
-  view.surface = std::move(surface);
-  const Fragments* fragments = world_.fragments(body);
-  if (fragments != nullptr && world_.scene().render.show_fragments)
-    colour_fragments(*fragments, view.surface);
-  ++view.revision;
-  view.published = false;
-  view.sent.assign(view.surface.n_moving(), Array3f{NAN, NAN, NAN});
-  view.sent_flags.assign(view.surface.n_moving(), 0);
+/// Safe in another thread as long as nothing is shown meanwhile.
+Appearance::Made Appearance::make(const Job& job) const {
+  const NumberedSurface& shown = views_[job.body].shown;
+  Surface surface = surface_of(job.body);
+  Made made{job.body, std::nullopt, shown.delta_to(surface)};
+  const std::size_t pages = ChangePages::most_pages(job.listed.vertices + made.delta.vertices.size(),
+                                                    job.listed.facets + made.delta.facets.size());
+  const std::size_t chunks = n_chunks(surface.n_vertices(), surface.facets.size());
+  const bool begins_to_move = shown.is_rigid() && surface.n_moving() > 0;
+  if (pages > max_change_pages || pages * page_bytes > chunks * chunk_bytes || begins_to_move)
+    made.whole.emplace(std::move(surface));
+  return made;
 }
+
+void Appearance::show(Made made) {
+  View& view = views_[made.body];
+  if (made.whole) {
+    view.shown = std::move(*made.whole);
+    return begin_whole(view);
+  }
+  const SurfaceDelta& delta = made.delta;
+  if (delta.vertices.empty() && delta.facets.empty() && delta.hidden == view.shown.hidden()) return;
+  view.shown.apply(delta);
+  view.blocks.grow(view.shown.n_vertices());
+  if (view.due == Due::whole) return;
+  view.due = Due::change;
+  view.due_facets.insert(view.due_facets.end(), delta.facets.begin(), delta.facets.end());
+  view.listed.vertices += delta.vertices.size();
+  view.listed.facets += delta.facets.size();
+}
+
+void Appearance::begin_whole(View& view) {
+  ++view.revision;
+  view.due = Due::whole;
+  view.listed = {};
+  view.due_facets.clear();
+  view.blocks.begin(view.shown.n_vertices());
+}
+
+void Appearance::publish_anew(std::size_t body) { begin_whole(views_[body]); }
 
 void Appearance::set_threshold(double threshold) {
   wanted_ = threshold;
@@ -69,8 +101,8 @@ void Appearance::set_threshold(double threshold) {
 }
 
 /// Bodies whose surface is not that of their live elements and the threshold any more; takes note of both.
-std::vector<std::size_t> Appearance::outdated() {
-  std::vector<std::size_t> bodies;
+std::vector<Appearance::Job> Appearance::outdated() {
+  std::vector<Job> jobs;
   const bool went_back = world_.report().restored != restored_;
   restored_ = world_.report().restored;
   for (std::size_t b = 0; b < views_.size(); ++b) {
@@ -82,128 +114,127 @@ std::vector<std::size_t> Appearance::outdated() {
       const std::int64_t breaks = moving.losses().breaks;  // fewer after a reset
       by_breaks = went_back || breaks != views_[b].breaks;
       views_[b].breaks = breaks;
-      if (by_breaks) views_[b].live->copy(moving);
+      if (by_breaks) copy(b);
     }
-    if (by_threshold || by_breaks) bodies.push_back(b);
+    if (by_threshold || by_breaks) jobs.push_back({b, views_[b].listed});
   }
   if (wanted_) threshold_ = wanted_;
   wanted_.reset();
-  return bodies;
+  return jobs;
 }
 
 bool Appearance::poll() {
   if (pending_.valid() && pending_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
-    for (auto& [body, surface] : pending_.get()) show(body, std::move(surface));
+    for (Made& made : pending_.get()) show(std::move(made));
   if (!pending_.valid()) {
-    const auto bodies = outdated();
-    if (!bodies.empty() && how_ == Remake::at_once) {
-      for (const std::size_t b : bodies) show(b, make(b));
-    } else if (!bodies.empty()) {
-      pending_ = std::async(std::launch::async, [this, bodies] {
-        Made made;
-        for (const std::size_t b : bodies) made.emplace_back(b, make(b));
+    const auto jobs = outdated();
+    if (!jobs.empty() && how_ == Remake::at_once) {
+      for (const Job& job : jobs) show(make(job));
+    } else if (!jobs.empty()) {
+      pending_ = std::async(std::launch::async, [this, jobs] {
+        std::vector<Made> made;
+        for (const Job& job : jobs) made.push_back(make(job));
         return made;
       });
     }
   }
-  return std::any_of(views_.begin(), views_.end(), [](const View& view) { return !view.published; });
+  return std::any_of(views_.begin(), views_.end(), [](const View& view) { return view.due != Due::nothing; });
 }
 
-int Appearance::write_surfaces(const std::function<void(const BodySurface&)>& sink) {
-  int chunks = 0;
+int Appearance::write_surfaces(const SurfaceSinks& sinks) {
+  int samples = 0;
   for (std::size_t b = 0; b < views_.size(); ++b) {
     View& view = views_[b];
-    if (view.published) continue;
-    view.published = true;
-    const std::uint32_t n_chunks = std::max({1U, chunks_for(view.surface.n_vertices(), max_surface_vertices),
-                                             chunks_for(view.surface.facets.size(), max_surface_facets)});
-    chunk_->n_chunks = n_chunks;
-    for (std::uint32_t c = 0; c < n_chunks; ++c) write_chunk(b, c, sink);
-    chunks += static_cast<int>(n_chunks);
+    if (view.due == Due::nothing) continue;
+    const bool whole = view.due == Due::whole;
+    const int written = whole ? write_whole(b, sinks.whole) : write_change(b, sinks.change);
+    samples += written;
+    view.due = Due::nothing;
+    const std::size_t bytes = static_cast<std::size_t>(written) * (whole ? chunk_bytes : page_bytes);
+    if (whole && view.revision == 1) {
+      bytes_.first += bytes;
+      continue;
+    }
+    bytes_.sent += bytes;
+    bytes_.whole += chunk_bytes * n_chunks(view.shown.n_vertices(), view.shown.facets().size());
   }
-  return chunks;
+  return samples;
 }
 
-void Appearance::write_chunk(std::size_t body, std::uint32_t chunk,
-                             const std::function<void(const BodySurface&)>& sink) {
-  const View& view = views_[body];
-  const Surface& surface = view.surface;
+/// @return pages
+int Appearance::write_change(std::size_t body, const std::function<void(const SurfaceChange&)>& sink) {
+  View& view = views_[body];
+  new_vertices_.clear();
+  for (std::size_t v = view.n_told; v < view.shown.n_vertices(); ++v) {
+    new_vertices_.push_back(float_of(view.shown.position(v, world_.body(body))));
+    view.blocks.told(v, new_vertices_.back());
+  }
+  const int pages = view.pages.add(new_vertices_, view.due_facets,
+                                   {static_cast<std::uint32_t>(view.shown.facets().size()),
+                                    static_cast<std::uint32_t>(view.shown.hidden())},
+                                   sink);
+  view.n_told = view.shown.n_vertices();
+  view.due_facets.clear();
+  return pages;
+}
+
+/// @return chunks
+int Appearance::write_whole(std::size_t body, const std::function<void(const BodySurface&)>& sink) {
+  View& view = views_[body];
+  const NumberedSurface& surface = view.shown;
   const BodyModel& moving = world_.body(body);
   BodySurface& out = *chunk_;
   out.body = static_cast<std::uint32_t>(body);
   out.revision = view.revision;
-  out.chunk = chunk;
   out.total_vertices = static_cast<std::uint32_t>(surface.n_vertices());
-  out.total_facets = static_cast<std::uint32_t>(surface.facets.size());
-  out.facets_hidden = static_cast<std::uint32_t>(surface.hidden);
-  out.rigid = surface.n_moving() == 0 ? 1 : 0;
-  out.first_vertex = std::min(chunk * max_surface_vertices, out.total_vertices);
-  out.n_vertices = std::min(max_surface_vertices, out.total_vertices - out.first_vertex);
-  out.first_facet = std::min(chunk * max_surface_facets, out.total_facets);
-  out.n_facets = std::min(max_surface_facets, out.total_facets - out.first_facet);
-  for (std::uint32_t n = 0; n < out.n_vertices; ++n)
-    out.position[n] = float_of(surface.position(out.first_vertex + n, moving));
-  for (std::uint32_t n = 0; n < out.n_facets; ++n) {
-    out.corners[n] = surface.facets[out.first_facet + n];
-    out.rgba[n] = surface.rgba[out.first_facet + n];
+  out.total_facets = static_cast<std::uint32_t>(surface.facets().size());
+  out.facets_hidden = static_cast<std::uint32_t>(surface.hidden());
+  out.rigid = surface.is_rigid() ? 1 : 0;
+  out.n_chunks = n_chunks(surface.n_vertices(), surface.facets().size());
+  for (out.chunk = 0; out.chunk < out.n_chunks; ++out.chunk) {
+    out.first_vertex = std::min(out.chunk * max_surface_vertices, out.total_vertices);
+    out.n_vertices = std::min(max_surface_vertices, out.total_vertices - out.first_vertex);
+    out.first_facet = std::min(out.chunk * max_surface_facets, out.total_facets);
+    out.n_facets = std::min(max_surface_facets, out.total_facets - out.first_facet);
+    for (std::uint32_t n = 0; n < out.n_vertices; ++n)
+      out.position[n] = float_of(surface.position(out.first_vertex + n, moving));
+    std::copy_n(surface.facets().begin() + out.first_facet, out.n_facets, out.corners.begin());
+    std::copy_n(surface.rgba().begin() + out.first_facet, out.n_facets, out.rgba.begin());
+    sink(out);
   }
-  sink(out);
-}
-
-bool Appearance::block_changed(const View& view, const NodeMotion& moving, std::size_t first,
-                               std::size_t last) const {
-  for (std::size_t n = first; n < last; ++n) {
-    const Index cell = view.surface.cell[n];
-    if (vertex_flags(conditions_[n - first]) != view.sent_flags[n]) return true;
-    const Array3f p = float_of(moving.position(cell));
-    for (std::size_t a = 0; a < 3; ++a)
-      if (!(std::abs(p[a] - view.sent[n][a]) <= visible_motion)) return true;
-  }
-  return false;
+  view.n_told = surface.n_vertices();
+  view.pages.begin(out.body, out.revision, out.total_vertices);
+  return static_cast<int>(out.n_chunks);
 }
 
 int Appearance::write_blocks(const std::function<void(const VertexBlock&)>& sink) {
   int blocks = 0;
   for (std::size_t b = 0; b < views_.size(); ++b) {
     View& view = views_[b];
-    const BodyModel& moving = world_.body(b);
-    for (std::size_t first = 0; first < view.surface.n_moving(); first += max_block_vertices) {
-      const std::size_t last = std::min<std::size_t>(first + max_block_vertices, view.surface.n_moving());
-      moving.conditions(std::span(view.surface.cell).subspan(first, last - first), conditions_);
-      if (!block_changed(view, moving, first, last)) continue;
-      VertexBlock& out = *block_;
-      out.body = static_cast<std::uint32_t>(b);
-      out.revision = view.revision;
-      out.block = static_cast<std::uint32_t>(first / max_block_vertices);
-      out.tick = static_cast<std::uint64_t>(world_.report().frames);
-      out.t = world_.t();
-      out.first_vertex = static_cast<std::uint32_t>(first);
-      out.n_vertices = static_cast<std::uint32_t>(last - first);
-      for (std::size_t n = first; n < last; ++n) {
-        const Index cell = view.surface.cell[n];
-        out.position[n - first] = view.sent[n] = float_of(moving.position(cell));
-        out.flags[n - first] = view.sent_flags[n] = vertex_flags(conditions_[n - first]);
-      }
-      sink(out);
-      ++blocks;
-    }
+    block_->body = static_cast<std::uint32_t>(b);
+    block_->revision = view.revision;
+    block_->tick = static_cast<std::uint64_t>(world_.report().frames);
+    block_->t = world_.t();
+    blocks += view.blocks.write(view.shown, world_.body(b), *block_, sink);
   }
   return blocks;
 }
 
 void Appearance::resend() {
-  for (View& view : views_) std::fill(view.sent.begin(), view.sent.end(), Array3f{NAN, NAN, NAN});
+  for (View& view : views_) view.blocks.resend();
 }
 
 std::size_t Appearance::facets_visible() const {
   std::size_t n = 0;
-  for (const View& view : views_) n += view.surface.facets.size() - count_loose(view.surface);
+  for (const View& view : views_)
+    n += static_cast<std::size_t>(std::count_if(view.shown.facets().begin(), view.shown.facets().end(),
+                                                [](const auto& facet) { return !is_loose(facet); }));
   return n;
 }
 
 std::size_t Appearance::facets_total() const {
   std::size_t n = facets_visible();
-  for (const View& view : views_) n += view.surface.hidden;
+  for (const View& view : views_) n += view.shown.hidden();
   return n;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What render_node is told: the visible surface of every body once per revision, then only the blocks of vertices
+// What render_node is told: the visible surface of every body, then only what changes in it and the blocks of vertices
 // that moved. Free of DDS: the messages go to whoever asks.
 
 #include <functional>
@@ -9,6 +9,11 @@
 #include <vector>
 
 #include "common/message/messages.h"
+#include "physics_node/appearance/change_pages.h"
+#include "physics_node/appearance/colours.h"
+#include "physics_node/appearance/moved_blocks.h"
+#include "physics_node/appearance/numbered_surface.h"
+#include "physics_node/appearance/surface_bytes_report.h"
 #include "physics_node/boundary/surface.h"
 #include "physics_node/world.h"
 
@@ -17,6 +22,12 @@ namespace palpate::physics {
 /// Who makes a surface anew: poll() itself, so that pictures are the same each time, or a thread of its own meanwhile, so
 /// that frames go on.
 enum class Remake { at_once, beside };
+
+/// Who takes what there is to tell of surfaces.
+struct SurfaceSinks {
+  std::function<void(const BodySurface&)> whole;
+  std::function<void(const SurfaceChange&)> change;
+};
 
 class Appearance {
  public:
@@ -31,8 +42,13 @@ class Appearance {
   /// @return true if write_surfaces has something new
   bool poll();
 
-  /// All chunks of every body whose surface is new since the last call. @return chunks
-  int write_surfaces(const std::function<void(const BodySurface&)>& sink);
+  /// What is new since the last call: of each body all chunks of its surface, or pages of what changed in it. It is sent whole the
+  /// first time, and when the pages since it was last would weigh more than that. Cost: of what is written, not of what exists.
+  /// @return chunks and pages
+  int write_surfaces(const SurfaceSinks& sinks);
+
+  /// The surface of this body is written whole next time: a part of it has been lost.
+  void publish_anew(std::size_t body);
 
   /// Blocks in which a vertex moved by more than a hundredth of a millimetre, or changed its flags, since they were
   /// last written. @return blocks
@@ -43,24 +59,44 @@ class Appearance {
 
   std::size_t facets_visible() const;  // loose elements and masses are not facets
   std::size_t facets_total() const;
+  const SurfaceBytes& surface_bytes() const { return bytes_; }
 
  private:
-  struct View {
-    Surface surface;
-    std::unique_ptr<LiveElements> live;  // what it was, or is being, made from
-    std::int64_t breaks = 0;             // of the body then
-    std::uint32_t revision = 0;
-    bool published = false;
-    std::vector<Array3f> sent;             // positions as last written (n_moving)
-    std::vector<std::uint8_t> sent_flags;  // (n_moving)
+  enum class Due { nothing, change, whole };
+  struct Listed {
+    std::size_t vertices = 0, facets = 0;
   };
-  using Made = std::vector<std::pair<std::size_t, Surface>>;
-  Surface make(std::size_t body) const;
-  std::vector<std::size_t> outdated();
-  void show(std::size_t body, Surface surface);
-  bool block_changed(const View& view, const NodeMotion& moving, std::size_t first, std::size_t last) const;
-  void write_chunk(std::size_t body, std::uint32_t chunk,
-                   const std::function<void(const BodySurface&)>& sink);
+  struct View {
+    NumberedSurface shown;
+    std::unique_ptr<LiveElements> live;        // what it was, or is being, made from
+    std::unique_ptr<FragmentColours> colours;  // the same; null where fragments have none
+    std::int64_t breaks = 0;                   // of the body then
+    std::uint32_t revision = 0;
+    Due due = Due::nothing;
+    ChangePages pages;  // of this revision
+    Listed listed;      // in them, or due
+    std::vector<FacetChange> due_facets;
+    std::size_t n_told = 0;  // vertices
+    MovedBlocks blocks;
+  };
+  /// A new surface of a body: its changes, or where those weigh too much the whole.
+  struct Made {
+    std::size_t body = 0;
+    std::optional<NumberedSurface> whole;
+    SurfaceDelta delta;
+  };
+  struct Job {
+    std::size_t body = 0;
+    Listed listed;
+  };
+  Surface surface_of(std::size_t body) const;
+  Made make(const Job& job) const;
+  std::vector<Job> outdated();
+  void copy(std::size_t body);
+  void show(Made made);
+  void begin_whole(View& view);
+  int write_whole(std::size_t body, const std::function<void(const BodySurface&)>& sink);
+  int write_change(std::size_t body, const std::function<void(const SurfaceChange&)>& sink);
 
   const World& world_;
   std::vector<View> views_;
@@ -70,9 +106,9 @@ class Appearance {
   std::int64_t restored_ = 0;  // how often the guard had gone back when surfaces were last looked at
   std::unique_ptr<BodySurface> chunk_ = std::make_unique<BodySurface>();
   std::unique_ptr<VertexBlock> block_ = std::make_unique<VertexBlock>();
-  std::vector<Condition> conditions_ =
-      std::vector<Condition>(max_block_vertices);  // of the block that is looked at
-  std::future<Made> pending_;  // the last member: it is waited for before what it reads goes
+  std::vector<Array3f> new_vertices_;  // that are being written
+  SurfaceBytes bytes_;
+  std::future<std::vector<Made>> pending_;  // the last member: it is waited for before what it reads goes
 };
 
 }  // namespace palpate::physics

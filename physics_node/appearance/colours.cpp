@@ -40,14 +40,19 @@ std::uint32_t fragment_colour(std::int32_t label) {
   return packed(channel(0), channel(2.0 / 3), channel(1.0 / 3));
 }
 
-void colour_fragments(const Fragments& fragments, Surface& surface) {
+FragmentColours::FragmentColours(const Fragments& fragments, const Lattice& lattice)
+    : label_(static_cast<std::size_t>(lattice.n_cells()), -1) {
+  for (const Index mass : lattice.masses) label_[static_cast<std::size_t>(mass)] = fragments.label(mass);
   const auto& masses = fragments.masses();
-  const auto largest = std::max_element(masses.begin(), masses.end()) - masses.begin();
+  largest_ = static_cast<Index>(std::max_element(masses.begin(), masses.end()) - masses.begin());
+}
+
+void FragmentColours::paint(Surface& surface) const {
   for (std::size_t f = 0; f < surface.facets.size(); ++f) {
     const std::uint32_t corner = surface.facets[f][0];
     if (corner >= surface.n_moving()) continue;  // scenery
-    const Index label = fragments.label(surface.cell[corner]);
-    if (label != largest) surface.rgba[f] = fragment_colour(label);
+    const Index label = label_[static_cast<std::size_t>(surface.cell[corner])];
+    if (label != largest_) surface.rgba[f] = fragment_colour(label);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "common/scene/scene_fwd.h"
 #include "physics_node/boundary/surface.h"
@@ -16,7 +17,18 @@ std::uint32_t body_colour(const Scene& scene, std::size_t body);
 /// Well apart from the colours of nearby labels, and always the same for a label. @param label  >= 0
 std::uint32_t fragment_colour(std::int32_t label);
 
-/// Gives every fragment its colour but the one with most masses, which keeps the body's.
-void colour_fragments(const Fragments& fragments, Surface& surface);
+/// The fragments of a body at one moment, apart from the body: a thread of its own may colour a surface by them.
+class FragmentColours {
+ public:
+  /// Cost: a copy of the label of every mass.
+  FragmentColours(const Fragments& fragments, const Lattice& lattice);
+
+  /// Gives every fragment its colour but the one with most masses, which keeps the body's.
+  void paint(Surface& surface) const;
+
+ private:
+  std::vector<Index> label_;  // (n_cells)
+  Index largest_ = 0;
+};
 
 }  // namespace palpate::physics

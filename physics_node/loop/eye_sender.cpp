@@ -9,12 +9,14 @@ namespace {
 
 constexpr auto again_period = std::chrono::milliseconds(33);
 constexpr int most_refusals =
-    100;  // of one chunk: some 20 s, by when DDS has given up a reader that does not answer
+    100;  // of one chunk or page: some 20 s, by when DDS has given up a reader that does not answer
 
 }  // namespace
 
 EyeSender::EyeSender(Participant& participant, bool repeat)
-    : surfaces_(participant), blocks_(participant), repeat_(repeat), thread_([this] { send(); }) {}
+    : surfaces_(participant), changes_(participant), blocks_(participant), repeat_(repeat), thread_([this] {
+        send();
+      }) {}
 
 EyeSender::~EyeSender() {
   {
@@ -31,10 +33,23 @@ void EyeSender::post(const BodySurface& chunk) {
     return due.first.first == chunk.body && due.second->revision < chunk.revision;
   };
   std::erase_if(surfaces_due_, outdated);
+  std::erase_if(changes_due_, outdated);
   std::erase_if(blocks_due_, outdated);
   std::erase_if(sent_, outdated);
+  revision_[chunk.body] = chunk.revision;
   surfaces_due_[{chunk.body, chunk.chunk}] = std::make_unique<BodySurface>(chunk);
   something_.notify_one();
+}
+
+void EyeSender::post(const SurfaceChange& page) {
+  const std::lock_guard lock(mutex_);
+  changes_due_[{page.body, page.page}] = std::make_unique<SurfaceChange>(page);
+  something_.notify_one();
+}
+
+std::set<std::uint32_t> EyeSender::take_incomplete() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(incomplete_, {});
 }
 
 void EyeSender::post(const VertexBlock& block) {
@@ -52,7 +67,9 @@ void EyeSender::send() {
   auto next_again = std::chrono::steady_clock::now();
   while (!end_) {
     if (!surfaces_due_.empty()) {
-      send_surface(lock);
+      send_surely(surfaces_due_, surfaces_, lock);
+    } else if (!changes_due_.empty()) {
+      send_surely(changes_due_, changes_, lock);
     } else if (!blocks_due_.empty()) {
       send_block(lock);
     } else {
@@ -64,24 +81,23 @@ void EyeSender::send() {
   }
 }
 
-/// The lock is open while DDS works. A chunk that DDS could not take comes again unless a newer one has come.
-void EyeSender::send_surface(std::unique_lock<std::mutex>& lock) {
-  auto node = surfaces_due_.extract(surfaces_due_.begin());
+/// The lock is open while DDS works. What DDS could not take comes again unless a newer one has come.
+template <class M>
+void EyeSender::send_surely(Due<M>& due, Writer<M>& writer, std::unique_lock<std::mutex>& lock) {
+  auto node = due.extract(due.begin());
   const std::uint32_t body = node.key().first;
   lock.unlock();
-  const bool sent = surfaces_.write(*node.mapped());
+  const bool sent = writer.write(*node.mapped());
   lock.lock();
   refusals_ = sent ? 0 : refusals_ + 1;
   if (sent) return;
   if (refusals_ >= most_refusals) {
-    log_warn("a part of the surface of body {} could not be sent and is left out", body);
+    log_warn("a part of the surface of body {} could not be sent: it is sent whole again", body);
+    incomplete_.insert(body);
     refusals_ = 0;
     return;
   }
-  const auto newer = surfaces_due_.lower_bound({body, 0});
-  if (newer == surfaces_due_.end() || newer->first.first != body ||
-      newer->second->revision == node.mapped()->revision)
-    surfaces_due_.insert(std::move(node));
+  if (node.mapped()->revision >= revision_[body]) due.insert(std::move(node));
 }
 
 void EyeSender::send_block(std::unique_lock<std::mutex>& lock) {

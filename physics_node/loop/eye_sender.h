@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <thread>
 #include <utility>
 
@@ -22,34 +23,46 @@ class EyeSender {
   EyeSender(const EyeSender&) = delete;
   EyeSender& operator=(const EyeSender&) = delete;
 
-  /// Both copy and return; what waits and is outdated by the new one is dropped. Cost: a copy, and an allocation where
-  /// nothing of this chunk or block waits.
+  /// All copy and return; what waits and is outdated by the new one is dropped. Cost: a copy, and an allocation where
+  /// nothing of this chunk, page or block waits.
   void post(const BodySurface& chunk);
+  void post(const SurfaceChange& page);
   void post(const VertexBlock& block);
 
   int watchers() noexcept { return blocks_.matched(); }
   std::uint64_t watchers_ever() noexcept { return blocks_.matched_ever(); }
 
+  /// Bodies of whose surface a part could not be sent, since the last call: what changed behind it is lost to its readers.
+  std::set<std::uint32_t> take_incomplete();
+
   const Writer<BodySurface>& surfaces() const noexcept { return surfaces_; }
+  const Writer<SurfaceChange>& changes() const noexcept { return changes_; }
   const Writer<VertexBlock>& blocks() const noexcept { return blocks_; }
 
  private:
-  using Key = std::pair<std::uint32_t, std::uint32_t>;  // body, and its chunk or block
+  using Key = std::pair<std::uint32_t, std::uint32_t>;  // body, and its chunk, page or block
+  template <class M>
+  using Due = std::map<Key, std::unique_ptr<M>>;
   void send();
-  void send_surface(std::unique_lock<std::mutex>& lock);
+  template <class M>
+  void send_surely(Due<M>& due, Writer<M>& writer, std::unique_lock<std::mutex>& lock);
   void send_block(std::unique_lock<std::mutex>& lock);
   void send_again(std::unique_lock<std::mutex>& lock);
 
   Writer<BodySurface> surfaces_;
+  Writer<SurfaceChange> changes_;
   Writer<VertexBlock> blocks_;
   bool repeat_;
   std::mutex mutex_;  // of all below
   std::condition_variable something_;
-  std::map<Key, std::unique_ptr<BodySurface>> surfaces_due_;
-  std::map<Key, std::unique_ptr<VertexBlock>> blocks_due_;
-  std::map<Key, std::unique_ptr<VertexBlock>> sent_;  // of the newest revision; empty unless repeat
+  Due<BodySurface> surfaces_due_;
+  Due<SurfaceChange> changes_due_;
+  Due<VertexBlock> blocks_due_;
+  Due<VertexBlock> sent_;                            // of the newest revision; empty unless repeat
+  std::map<std::uint32_t, std::uint32_t> revision_;  // newest of each body
+  std::set<std::uint32_t> incomplete_;
   Key last_again_{0, 0};
-  int refusals_ = 0;  // of the surface that is tried now
+  int refusals_ = 0;  // of the chunk or page that is tried now
   bool end_ = false;
   std::thread thread_;
 };

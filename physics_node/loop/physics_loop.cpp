@@ -137,8 +137,10 @@ void PhysicsLoop::publish_hand() {
 }
 
 void PhysicsLoop::publish_eye() {
-  const bool new_surfaces = appearance_->poll();
-  if (new_surfaces) appearance_->write_surfaces([this](const BodySurface& chunk) { wire_.eye.post(chunk); });
+  for (const std::uint32_t body : wire_.eye.take_incomplete()) appearance_->publish_anew(body);
+  if (appearance_->poll())
+    appearance_->write_surfaces({[this](const BodySurface& chunk) { wire_.eye.post(chunk); },
+                                 [this](const SurfaceChange& page) { wire_.eye.post(page); }});
   const std::uint64_t ever = wire_.eye.watchers_ever();  // one that came as another left counts as well
   if (ever > watchers_ever_) appearance_->resend();
   watchers_ever_ = ever;
@@ -253,7 +255,8 @@ bool PhysicsLoop::leave() {
   try_to([&] { recorder_->finish(*world_); });
   auto part = physics_summary(*world_, recorder_.get(), wall);
   part.update(wire_report("physics", wire_.participant, wire_.patches, wire_.wrenches, wire_.status,
-                          wire_.eye.surfaces(), wire_.eye.blocks()));
+                          wire_.eye.surfaces(), wire_.eye.changes(), wire_.eye.blocks()));
+  part.update(surface_bytes_report(appearance_->surface_bytes()));
   add_heard(part, "physics",
             {{"ToolState", wire_.tool_states.counts()}, {"Command", wire_.commands.counts()}});
   try_to([&] { write_json(options_.out + "/parts/physics.json", part); });

@@ -137,6 +137,7 @@ void check_summary_words(const House& house, Words& breaches) {
   const std::map<std::string, Words> sources = {
       {"Hand", {"haptic_node/loop/haptic_summary.cpp"}},
       {"Pictures", {"render_node/render_loop.cpp", "deploy/palpate/virtual_eye.cpp"}},
+      {"Surfaces", {"physics_node/appearance/surface_bytes_report.h"}},
       {"Wire", {"common/wire/wire_report.h", "common/wire/heard_report.cpp"}},
       {"Nodes", {"deploy/palpate/summary.cpp"}}};
   // Written by the source, but listed under Physics; exit_code and signal are two words of one line.

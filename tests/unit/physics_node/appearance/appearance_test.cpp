@@ -6,6 +6,7 @@
 #include <array>
 #include <chrono>
 #include <cstdlib>
+#include <functional>
 #include <set>
 #include <thread>
 
@@ -23,6 +24,19 @@ namespace {
 
 using namespace test;
 
+/// Tells nobody.
+SurfaceSinks no_sinks() {
+  return {[](const BodySurface&) {}, [](const SurfaceChange&) {}};
+}
+/// Of whole surfaces only.
+SurfaceSinks whole_to(const std::function<void(const BodySurface&)>& sink) {
+  return {sink, [](const SurfaceChange&) { ADD_FAILURE() << "a change"; }};
+}
+/// Of changes only.
+SurfaceSinks changes_to(const std::function<void(const SurfaceChange&)>& sink) {
+  return {[](const BodySurface&) { ADD_FAILURE() << "a whole surface"; }, sink};
+}
+
 /// A slab with more vertices than a chunk holds.
 Recipe large_slab() {
   Recipe recipe = pressed_slab_recipe();
@@ -38,7 +52,7 @@ TEST(Appearance, SendsEveryVertexAndFacetOnce) {
   EXPECT_TRUE(appearance.poll());
   std::vector<int> vertices, facets;
   std::uint32_t n_chunks = 0, seen = 0;
-  const int written = appearance.write_surfaces([&](const BodySurface& chunk) {
+  const int written = appearance.write_surfaces(whole_to([&](const BodySurface& chunk) {
     vertices.resize(chunk.total_vertices), facets.resize(chunk.total_facets);
     n_chunks = chunk.n_chunks;
     EXPECT_EQ(chunk.chunk, seen++);
@@ -49,7 +63,7 @@ TEST(Appearance, SendsEveryVertexAndFacetOnce) {
       ++facets[chunk.first_facet + n];
       for (const auto corner : chunk.corners[n]) EXPECT_LT(corner, chunk.total_vertices);
     }
-  });
+  }));
   EXPECT_GT(n_chunks, 1u);
   EXPECT_EQ(written, static_cast<int>(n_chunks));
   EXPECT_EQ(facets.size(), 2u * (32 * 32 + 2 * 32 * 15));
@@ -57,7 +71,7 @@ TEST(Appearance, SendsEveryVertexAndFacetOnce) {
   for (const int n : vertices) ASSERT_EQ(n, 1);
   for (const int n : facets) ASSERT_EQ(n, 1);
   EXPECT_FALSE(appearance.poll());
-  EXPECT_EQ(appearance.write_surfaces([](const BodySurface&) { ADD_FAILURE(); }), 0);
+  EXPECT_EQ(appearance.write_surfaces(changes_to([](const SurfaceChange&) { ADD_FAILURE(); })), 0);
 }
 
 TEST(Appearance, WritesOnlyBlocksThatMoved) {
@@ -77,6 +91,23 @@ TEST(Appearance, WritesOnlyBlocksThatMoved) {
   appearance.resend();
   blocks.clear();
   EXPECT_EQ(appearance.write_blocks(sink), 2);
+}
+
+/// A reader has lost a part of it.
+TEST(Appearance, SendsABodyWholeAgainOnRequest) {
+  const World world(scene_of(large_slab()));
+  Appearance appearance(world, std::nullopt);
+  appearance.poll();
+  const int chunks = appearance.write_surfaces(no_sinks());
+  ASSERT_FALSE(appearance.poll());
+  appearance.publish_anew(0);
+  EXPECT_TRUE(appearance.poll());
+  std::uint32_t revision = 0;
+  EXPECT_EQ(appearance.write_surfaces(whole_to([&](const BodySurface& chunk) { revision = chunk.revision; })),
+            chunks);
+  EXPECT_EQ(revision, 2u);
+  EXPECT_EQ(appearance.write_blocks([](const VertexBlock& block) { EXPECT_EQ(block.revision, 2u); }), 2);
+  EXPECT_FALSE(appearance.poll());
 }
 
 TEST(Appearance, LeavesABodyAtRestAlone) {
@@ -113,17 +144,21 @@ INSTANTIATE_TEST_SUITE_P(Lattices, BrokenAppearance, testing::Values("fcc", "vox
 TEST_P(BrokenAppearance, ShowsWhatHasYieldedAndBroken) {
   World world(scene_of(falling(GetParam())));
   Appearance appearance(world, std::nullopt);
-  appearance.write_surfaces([](const BodySurface&) {});
+  appearance.write_surfaces(no_sinks());
   const auto facets_before = appearance.facets_visible();
   for (int n = 0; n < 120; ++n) world.frame({});
   EXPECT_TRUE(appearance.poll());
-  std::uint32_t revision = 0;
-  appearance.write_surfaces([&](const BodySurface& chunk) { revision = chunk.revision; });
-  EXPECT_EQ(revision, 2u);
+  int pages = 0;
+  appearance.write_surfaces(changes_to([&](const SurfaceChange& page) {
+    ++pages;
+    EXPECT_EQ(page.revision, 1u);
+    EXPECT_EQ(page.change, 1u);
+  }));
+  EXPECT_GT(pages, 0);
   EXPECT_NE(appearance.facets_visible(), facets_before);
   int yielded = 0, broken = 0, dark = 0;
   appearance.write_blocks([&](const VertexBlock& block) {
-    EXPECT_EQ(block.revision, 2u);
+    EXPECT_EQ(block.revision, 1u);
     for (std::uint32_t n = 0; n < block.n_vertices; ++n) {
       yielded += (block.flags[n] & vertex_yielded) != 0 ? 1 : 0;
       dark += block.flags[n] >= 63 * vertex_share_one ? 1 : 0;
@@ -166,25 +201,30 @@ TEST(YieldedShare, CountsLiveElements) {
 TEST_P(BrokenAppearance, IsWholeAgainAfterAReset) {
   World world(scene_of(falling(GetParam())));
   Appearance appearance(world, std::nullopt);
-  appearance.write_surfaces([](const BodySurface&) {});
+  appearance.write_surfaces(no_sinks());
   const auto facets = appearance.facets_visible();
   for (int n = 0; n < 120; ++n) world.frame({});
   EXPECT_TRUE(appearance.poll());
-  appearance.write_surfaces([](const BodySurface&) {});
+  appearance.write_surfaces(no_sinks());
   EXPECT_NE(appearance.facets_visible(), facets);
   world.reset();
   EXPECT_TRUE(appearance.poll());
   EXPECT_EQ(appearance.facets_visible(), facets);
-  appearance.write_surfaces([](const BodySurface&) {});
+  appearance.write_surfaces(no_sinks());
   EXPECT_FALSE(appearance.poll()) << "nothing has broken since";
 }
 
 /// Facets as they are sent, whoever made them.
 std::vector<std::array<std::uint32_t, 4>> sent_facets(Appearance& appearance) {
   std::vector<std::array<std::uint32_t, 4>> facets;
-  appearance.write_surfaces([&](const BodySurface& chunk) {
-    facets.insert(facets.end(), chunk.corners.begin(), chunk.corners.begin() + chunk.n_facets);
-  });
+  appearance.write_surfaces({[&](const BodySurface& chunk) {
+                               facets.insert(facets.end(), chunk.corners.begin(),
+                                             chunk.corners.begin() + chunk.n_facets);
+                             },
+                             [&](const SurfaceChange& page) {
+                               for (std::uint32_t n = 0; n < page.n_changes; ++n)
+                                 facets.push_back(page.facets[n].corners);
+                             }});
   return facets;
 }
 
@@ -197,7 +237,9 @@ TEST_P(BrokenAppearance, IsTheSameFromAThreadOfItsOwn) {
   const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(20);
   while (!beside.poll() && std::chrono::steady_clock::now() < give_up)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  EXPECT_EQ(sent_facets(at_once), sent_facets(beside));
+  const auto facets = sent_facets(at_once);
+  EXPECT_GT(facets.size(), 0u);
+  EXPECT_EQ(facets, sent_facets(beside));
 }
 
 TEST_P(BrokenAppearance, ColoursFragmentsOnRequest) {
@@ -211,10 +253,11 @@ TEST_P(BrokenAppearance, ColoursFragmentsOnRequest) {
     for (int n = 0; n < 120; ++n) world.frame({});
     EXPECT_GT(world.fragments(0)->count(), 2);
     appearance.poll();
+    appearance.publish_anew(0);
     std::set<std::uint32_t> colours;
-    appearance.write_surfaces([&](const BodySurface& chunk) {
+    appearance.write_surfaces(whole_to([&](const BodySurface& chunk) {
       colours.insert(chunk.rgba.begin(), chunk.rgba.begin() + chunk.n_facets);
-    });
+    }));
     // Every fragment is in sight, the smallest as particles; the largest keeps the colour of the body.
     const auto& masses = world.fragments(0)->masses();
     const auto largest = std::max_element(masses.begin(), masses.end()) - masses.begin();
@@ -260,7 +303,7 @@ TEST(Appearance, FollowsTheThreshold) {
   scene.bodies = {volume_body(folder / "made.h5", 50, 400)};
   const World world(scene);
   Appearance appearance(world, std::nullopt);
-  appearance.write_surfaces([](const BodySurface&) {});
+  appearance.write_surfaces(no_sinks());
   EXPECT_EQ(appearance.facets_visible(), 2u * (16 + 24 + 24));
   const auto total = appearance.facets_total();
   appearance.set_threshold(200);
@@ -269,9 +312,9 @@ TEST(Appearance, FollowsTheThreshold) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   EXPECT_EQ(appearance.facets_visible(), 2u * (16 + 12 + 12));
   EXPECT_LT(appearance.facets_total(), total);
-  std::uint32_t revision = 0;
-  appearance.write_surfaces([&](const BodySurface& chunk) { revision = chunk.revision; });
-  EXPECT_EQ(revision, 2u);
+  std::uint32_t facets = 0;
+  appearance.write_surfaces(changes_to([&](const SurfaceChange& page) { facets = page.total_facets; }));
+  EXPECT_EQ(facets, appearance.facets_visible());
 }
 
 }  // namespace

@@ -1,0 +1,82 @@
+#include "physics_node/appearance/moved_blocks.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palpate::physics {
+namespace {
+
+constexpr float visible_motion = 1e-5F;  // [m]
+constexpr Array3f nowhere{NAN, NAN, NAN};
+
+std::uint8_t vertex_flags(const Condition& condition) {
+  unsigned flags = (condition.flags & mass_broken) != 0 ? vertex_broken : 0;
+  if ((condition.flags & mass_yielded) != 0) {
+    const auto share = static_cast<unsigned>(std::lround(63 * condition.yielded_share));
+    flags |= vertex_yielded | share * vertex_share_one;
+  }
+  return static_cast<std::uint8_t>(flags);
+}
+
+}  // namespace
+
+void MovedBlocks::begin(std::size_t n_vertices) {
+  sent_.assign(n_vertices, nowhere);
+  sent_flags_.assign(n_vertices, 0);
+}
+
+void MovedBlocks::grow(std::size_t n_vertices) {
+  sent_.resize(n_vertices, nowhere);
+  sent_flags_.resize(n_vertices, 0);
+}
+
+void MovedBlocks::resend() { std::fill(sent_.begin(), sent_.end(), nowhere); }
+
+/// Scenery has no flags.
+void MovedBlocks::look_at(const NumberedSurface& surface, const BodyModel& moving, std::size_t first,
+                          std::size_t last) {
+  cells_.clear();
+  for (std::size_t n = first; n < last; ++n)
+    if (surface.cell(n) >= 0) cells_.push_back(surface.cell(n));
+  conditions_.resize(cells_.size());
+  moving.conditions(cells_, conditions_);
+  flags_.clear();
+  auto condition = conditions_.begin();
+  for (std::size_t n = first; n < last; ++n)
+    flags_.push_back(surface.cell(n) >= 0 ? vertex_flags(*condition++) : std::uint8_t{0});
+}
+
+bool MovedBlocks::changed(const NumberedSurface& surface, const BodyModel& moving, std::size_t first,
+                          std::size_t last) const {
+  for (std::size_t n = first; n < last; ++n) {
+    if (flags_[n - first] != sent_flags_[n]) return true;
+    const Array3f p = float_of(surface.position(n, moving));
+    for (std::size_t a = 0; a < 3; ++a)
+      if (!(std::abs(p[a] - sent_[n][a]) <= visible_motion)) return true;
+  }
+  return false;
+}
+
+int MovedBlocks::write(const NumberedSurface& surface, const BodyModel& moving, VertexBlock& block,
+                       const std::function<void(const VertexBlock&)>& sink) {
+  if (surface.is_rigid()) return 0;
+  int blocks = 0;
+  for (std::size_t first = 0; first < surface.n_vertices(); first += max_block_vertices) {
+    const std::size_t last = std::min<std::size_t>(first + max_block_vertices, surface.n_vertices());
+    if (!surface.may_move(first, last)) continue;
+    look_at(surface, moving, first, last);
+    if (!changed(surface, moving, first, last)) continue;
+    block.block = static_cast<std::uint32_t>(first / max_block_vertices);
+    block.first_vertex = static_cast<std::uint32_t>(first);
+    block.n_vertices = static_cast<std::uint32_t>(last - first);
+    for (std::size_t n = first; n < last; ++n) {
+      block.position[n - first] = sent_[n] = float_of(surface.position(n, moving));
+      block.flags[n - first] = sent_flags_[n] = flags_[n - first];
+    }
+    sink(block);
+    ++blocks;
+  }
+  return blocks;
+}
+
+}  // namespace palpate::physics

@@ -1,0 +1,45 @@
+#pragma once
+// Which vertices of one body have moved, or changed their state, since a reader was last told of them.
+
+#include <functional>
+#include <vector>
+
+#include "physics_node/appearance/numbered_surface.h"
+#include "physics_node/step/body_model.h"
+
+namespace palpate::physics {
+
+/// As the wire has positions.
+inline Array3f float_of(const Vec3& p) {
+  return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
+}
+
+class MovedBlocks {
+ public:
+  /// Of so many vertices, none of which has been told of.
+  void begin(std::size_t n_vertices);
+  void grow(std::size_t n_vertices);
+  /// A vertex has been told of elsewhere.
+  void told(std::size_t vertex, const Array3f& position) { sent_[vertex] = position; }
+  /// All blocks are written again next time.
+  void resend();
+
+  /// Gives the sink every block in which a vertex moved by more than a hundredth of a millimetre, or changed its flags.
+  /// @param block  what does not depend on the block is filled in  @return blocks
+  int write(const NumberedSurface& surface, const BodyModel& moving, VertexBlock& block,
+            const std::function<void(const VertexBlock&)>& sink);
+
+ private:
+  void look_at(const NumberedSurface& surface, const BodyModel& moving, std::size_t first, std::size_t last);
+  bool changed(const NumberedSurface& surface, const BodyModel& moving, std::size_t first,
+               std::size_t last) const;
+
+  std::vector<Array3f> sent_;             // positions as last written  (n_vertices)
+  std::vector<std::uint8_t> sent_flags_;  // (n_vertices)
+  // Of the block that is looked at.
+  std::vector<Index> cells_;           // of its vertices that move
+  std::vector<Condition> conditions_;  // of these
+  std::vector<std::uint8_t> flags_;    // of its vertices
+};
+
+}  // namespace palpate::physics
