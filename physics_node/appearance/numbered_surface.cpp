@@ -22,26 +22,45 @@ struct RestHash {
 struct Placed {
   std::array<std::uint32_t, 5> facet;  // corners and colour
   std::uint32_t place;
-  friend bool operator<(const Placed& a, const Placed& b) { return a.facet < b.facet; }
 };
 
-/// Sorted; equal ones in the order of their places.
-template <class CornersOf>
-std::vector<Placed> sorted(const std::vector<std::uint32_t>& rgba, const CornersOf& corners_of) {
-  std::vector<Placed> all(rgba.size());
-  for (std::size_t f = 0; f < all.size(); ++f) {
-    const NumberedSurface::Corners c = corners_of(f);
-    all[f] = {{c[0], c[1], c[2], c[3], rgba[f]}, static_cast<std::uint32_t>(f)};
-  }
-  std::stable_sort(all.begin(), all.end());
-  return all;
+Placed placed(const NumberedSurface::Corners& c, std::uint32_t rgba, std::size_t place) {
+  return {{c[0], c[1], c[2], c[3], rgba}, static_cast<std::uint32_t>(place)};
 }
 
 /// Those of `a` that `b` has not as often, in the order of their places.
-std::vector<Placed> without(const std::vector<Placed>& a, const std::vector<Placed>& b) {
+std::vector<Placed> without(std::vector<Placed> a, std::vector<Placed> b) {
+  const auto by_facet = [](const Placed& x, const Placed& y) { return x.facet < y.facet; };
+  std::stable_sort(a.begin(), a.end(), by_facet);
+  std::sort(b.begin(), b.end(), by_facet);
   std::vector<Placed> left;
-  std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(left));
+  std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(left), by_facet);
   std::sort(left.begin(), left.end(), [](const Placed& x, const Placed& y) { return x.place < y.place; });
+  return left;
+}
+
+/// What is left of two lists of facets when equal ones have been struck out in pairs, as far as they come in the same order.
+struct Unpaired {
+  std::vector<Placed> here, there;
+};
+template <class Here, class There>
+Unpaired strike_out_pairs(std::size_t n_here, const Here& here, std::size_t n_there, const There& there) {
+  constexpr std::size_t reach = 32;  // Why: more than what a break takes away beside one another
+  Unpaired left;
+  std::size_t first = 0;  // of those here that are still to be found
+  for (std::size_t t = 0; t < n_there; ++t) {
+    const Placed wanted = there(t);
+    const std::size_t end = std::min(first + reach, n_here);
+    std::size_t found = first;
+    while (found < end && here(found).facet != wanted.facet) ++found;
+    if (found == end) {
+      left.there.push_back(wanted);
+      continue;
+    }
+    for (; first < found; ++first) left.here.push_back(here(first));
+    ++first;
+  }
+  for (; first < n_here; ++first) left.here.push_back(here(first));
   return left;
 }
 
@@ -64,28 +83,41 @@ NumberedSurface::NumberedSurface(Surface surface)
   cell_.resize(rest_.size(), scenery);
 }
 
-/// @return number here of each vertex of `next`
+/// @return number here of each vertex of `next`. Most come in the order of their numbers; what is looked for elsewhere is found by its
+/// mass, or scenery by where it rests.
 std::vector<std::uint32_t> NumberedSurface::numbers_of(const Surface& next,
                                                        std::vector<SurfaceDelta::Vertex>& added) const {
   std::unordered_map<Index, std::uint32_t> of_mass;
   std::unordered_map<Vec3, std::uint32_t, RestHash> of_scenery;
-  for (std::size_t v = 0; v < rest_.size(); ++v) {
-    const auto number = static_cast<std::uint32_t>(v);
-    if (cell_[v] >= 0)
-      of_mass.emplace(cell_[v], number);
-    else
-      of_scenery.emplace(rest_[v], number);
-  }
+  const auto note_all = [&] {
+    for (std::size_t v = 0; v < rest_.size(); ++v) {
+      const auto number = static_cast<std::uint32_t>(v);
+      if (cell_[v] >= 0)
+        of_mass.emplace(cell_[v], number);
+      else
+        of_scenery.emplace(rest_[v], number);
+    }
+  };
   const auto number_in = [&](auto& known, const auto& key, const SurfaceDelta::Vertex& vertex) {
+    if (of_mass.empty() && of_scenery.empty()) note_all();
     const auto free = static_cast<std::uint32_t>(rest_.size() + added.size());
     const auto [at, is_new] = known.try_emplace(key, free);
     if (is_new) added.push_back(vertex);
     return at->second;
   };
   std::vector<std::uint32_t> numbers(next.n_vertices());
-  for (std::size_t v = 0; v < numbers.size(); ++v)
-    numbers[v] = v < next.n_moving() ? number_in(of_mass, next.cell[v], {next.rest[v], next.cell[v]})
-                                     : number_in(of_scenery, next.rest[v], {next.rest[v], scenery});
+  std::uint32_t follower = 0;  // number after that of the vertex before
+  for (std::size_t v = 0; v < numbers.size(); ++v) {
+    const SurfaceDelta::Vertex vertex{next.rest[v], v < next.n_moving() ? next.cell[v] : scenery};
+    const bool follows = follower < rest_.size() && cell_[follower] == vertex.cell &&
+                         (vertex.cell >= 0 || rest_[follower] == vertex.rest);
+    if (follows)
+      numbers[v] = follower;
+    else
+      numbers[v] = vertex.cell >= 0 ? number_in(of_mass, vertex.cell, vertex)
+                                    : number_in(of_scenery, vertex.rest, vertex);
+    if (numbers[v] < rest_.size()) follower = numbers[v] + 1;
+  }
   return numbers;
 }
 
@@ -94,13 +126,14 @@ SurfaceDelta NumberedSurface::delta_to(const Surface& next) const {
   delta.total_facets = next.facets.size();
   delta.hidden = next.hidden;
   const auto number = numbers_of(next, delta.vertices);
-  const auto here = sorted(rgba_, [this](std::size_t f) { return facets_[f]; });
-  const auto there = sorted(next.rgba, [&](std::size_t f) {
-    Corners corners = next.facets[f];
-    for (std::uint32_t& corner : corners) corner = number[corner];
-    return corners;
-  });
-  const auto gone = without(here, there), added = without(there, here);
+  const Unpaired left = strike_out_pairs(
+      facets_.size(), [this](std::size_t f) { return placed(facets_[f], rgba_[f], f); }, next.facets.size(),
+      [&](std::size_t f) {
+        Corners corners = next.facets[f];
+        for (std::uint32_t& corner : corners) corner = number[corner];
+        return placed(corners, next.rgba[f], f);
+      });
+  const auto gone = without(left.here, left.there), added = without(left.there, left.here);
   // 1. New ones in the places of those that are gone.
   const std::size_t swapped = std::min(gone.size(), added.size());
   for (std::size_t n = 0; n < swapped; ++n) delta.facets.push_back(at_place(gone[n].place, added[n]));

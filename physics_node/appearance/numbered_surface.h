@@ -29,7 +29,7 @@ class NumberedSurface {
   explicit NumberedSurface(Surface surface);
 
   /// What makes this surface show the facets of `next`, in whatever order. Equal facets have equal corners, from the same first
-  /// one on, and equal colours. Cost: sorts the facets of both.
+  /// one on, and equal colours. Cost: a pass over both, and sorting what does not come in the same order in them.
   SurfaceDelta delta_to(const Surface& next) const;
 
   /// Cost: of the change, not of the surface.
