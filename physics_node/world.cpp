@@ -11,7 +11,9 @@
 #include "common/math/hash.h"
 #include "common/scene/body_spec.h"
 #include "common/scene/material_spec.h"
+#include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
+#include "common/scene/surroundings_spec.h"
 #include "common/scene/tool_spec.h"
 #include "physics_node/forecast/memory_need.h"
 #include "physics_node/forecast/speed_forecast.h"
@@ -25,8 +27,8 @@ constexpr int most_substeps = 256;            // of a frame in which something f
 
 /// @param n_chunks  of the body that has most: more threads than that would have nothing to do
 TeamChoice choose_threads(const Scene& scene, int spare_cores, Index n_masses, std::size_t n_chunks) {
-  if (scene.physics.threads > 0) return TeamChoice::always(scene.physics.threads);
-  if (n_masses < masses_worth_a_team || scene.physics.integrator == Integrator::backward_euler)
+  if (scene.physics->threads > 0) return TeamChoice::always(scene.physics->threads);
+  if (n_masses < masses_worth_a_team || scene.physics->integrator == Integrator::backward_euler)
     return TeamChoice::always(1);
   const int cores = static_cast<int>(std::thread::hardware_concurrency()) - spare_cores;
   return TeamChoice::up_to(std::clamp(cores, 1, std::max(1, static_cast<int>(n_chunks))));
@@ -35,7 +37,7 @@ TeamChoice choose_threads(const Scene& scene, int spare_cores, Index n_masses, s
 }  // namespace
 
 World::World(const Scene& scene, int spare_cores) : scene_(scene) {
-  const Integrator integrator = scene.physics.integrator;
+  const Integrator integrator = scene.physics->integrator;
   const double memory = usable_memory();
   std::vector<MemoryNeed> needs;
   for (const BodySpec& spec : scene.bodies) needs.push_back(memory_need(spec, scene));
@@ -58,14 +60,14 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
     any_yields_ = any_yields_ || any_yields(body);
     const Lattice& lattice = body.lattice;
     const double bucket = 4 * lattice.spacing();
-    bodies_.push_back(make_body_model(std::move(body), scene.physics.precision, integrator));
+    bodies_.push_back(make_body_model(std::move(body), scene.physics->precision, integrator));
     fragments_.push_back(any_yields(bodies_.back()->body()) ? std::make_unique<Fragments>(*bodies_.back())
                                                             : nullptr);
     touchable_.push_back({bodies_.back().get(), std::make_unique<Boundary>(*bodies_.back(), bucket, feels)});
   }
   toolbox_ = make_tools(scene_, bodies_, touchable_);
-  if (scene.contact.enabled && (bodies_.size() > 1 || any_yields_))
-    collisions_ = std::make_unique<Collisions>(bodies_, fragments_, scene.contact);
+  if (scene.contact->enabled && (bodies_.size() > 1 || any_yields_))
+    collisions_ = std::make_unique<Collisions>(bodies_, fragments_, *scene.contact);
   if (collisions_)
     for (const std::size_t b : toolbox_.felt) collisions_->feel(b);
   if (bodies_.size() > 1 || any_yields_) inside_ = std::make_unique<InsideOthers>(bodies_);
@@ -77,18 +79,20 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
   if (choice_.most() > 1) team_ = std::make_unique<Team>(choice_.most());
   gathered_.reserve(toolbox_.pressing.size() * ToolCoupling::most_forces);
 
-  frame_dt_ = 1.0 / scene.physics.frame_Hz;
+  frame_dt_ = 1.0 / scene.physics->frame_Hz;
   n_substeps_ = static_cast<int>(steps_a_frame(scene, stable_dt_));
   dt_ = frame_dt_ / n_substeps_;
   if (dt_ > stable_dt_) {
     remarks_.push_back(fmt::format(
         "{}: a step of {:.4g} ms is above the stable {:.4g} ms; expect the guard to act",
-        scene.physics.place.line == 0 && scene.physics.place.file.empty() ? scene.path + ": [physics]"
-                                                                          : scene.physics.place.text(),
+        scene.physics->place.line == 0 && scene.physics->place.file.empty() ? scene.path + ": [physics]"
+                                                                            : scene.physics->place.text(),
         1e3 * dt_, 1e3 * stable_dt_));
   }
   restart_ledger();
 }
+
+bool World::is_implicit() const noexcept { return scene_.physics->integrator == Integrator::backward_euler; }
 
 void World::restart_ledger() {
   for (auto& body : bodies_) body->restart_momentum();
@@ -148,7 +152,7 @@ void World::move_bodies(double dt, bool watch) noexcept {
                          .gravity = scene_.gravity,
                          .team = team_.get(),
                          .threads = choice_.threads(),
-                         .verlet = scene_.physics.integrator == Integrator::velocity_verlet,
+                         .verlet = scene_.physics->integrator == Integrator::velocity_verlet,
                          .watch = watch,
                          .exact = may_be_struck() || pressed_ || pressed_before_};
   const Stage stage = is_implicit() ? Stage::integrate : Stage::element_forces;
@@ -187,7 +191,7 @@ void World::touch(double dt, double done) noexcept {
   }
   for (const Plane& plane : planes_)
     for (auto& body : bodies_)
-      report_.contact_lost += body->bounce_off(plane, scene_.contact.restitution, dt).lost;
+      report_.contact_lost += body->bounce_off(plane, scene_.contact->restitution, dt).lost;
 }
 
 /// Of the forces of tools that press, where no step has solved for them. [W]
@@ -308,7 +312,7 @@ void World::frame(std::span<const std::optional<ToolState>> tools) noexcept {
   guard();
   if (collisions_ && collisions_->bodies_are_near()) inside_->look_now_and_then();
   // backward_euler solves for all masses at once: none of them can be left out.
-  if (scene_.physics.sleep && !is_implicit())
+  if (scene_.physics->sleep && !is_implicit())
     for (auto& body : bodies_) body->sleep_and_wake(frame_dt_);
   t_ += frame_dt_;
   ++report_.frames;

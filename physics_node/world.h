@@ -84,7 +84,7 @@ class World {
   void take_tools(std::span<const std::optional<ToolState>> tools) noexcept;
   void find_contacts() noexcept;
   int substeps_of_frame() const noexcept;
-  bool is_implicit() const noexcept { return scene_.physics.integrator == Integrator::backward_euler; }
+  bool is_implicit() const noexcept;
   /// May a velocity jump in this frame? Then contact wants to know what it was.
   bool may_be_struck() const noexcept { return near_ || stick_near_ || !planes_.empty(); }
   bool is_pressed() const noexcept;                                 // by a tool that gives forces

@@ -1,6 +1,7 @@
 #include "render_node/picture.h"
 
 #include "common/error/error.h"
+#include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
 #include "render_node/gl/egl_context.h"
 #include "render_node/gl/framebuffer.h"
@@ -19,9 +20,9 @@ struct Picture::Parts {
   Parts(const Scene& given, Edges edges)
       : scene(given),
         model(scene),
-        framebuffer(scene.render.size_px[0], scene.render.size_px[1],
+        framebuffer(scene.render->size_px[0], scene.render->size_px[1],
                     edges == Edges::smooth ? smooth_samples : 0),
-        stage(scene, model, scene.render.size_px[1]) {}
+        stage(scene, model, scene.render->size_px[1]) {}
   ~Parts() { make_current(); }  // members let go of what they have in this context
 
   void make_current() {
@@ -52,7 +53,8 @@ void Picture::draw(double t) {
   parts_->framebuffer.bind();
   PanelFacts facts;
   facts.t = t;
-  parts_->stage.draw(facts, parts_->scene.render.size_px[0], parts_->scene.render.size_px[1], frame_seconds);
+  parts_->stage.draw(facts, parts_->scene.render->size_px[0], parts_->scene.render->size_px[1],
+                     frame_seconds);
   parts_->image = parts_->framebuffer.read();
 }
 

@@ -17,6 +17,7 @@
 #include "common/report/json_file.h"
 #include "common/report/log.h"
 #include "common/scene/device_spec.h"
+#include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
 #include "common/time/clock.h"
@@ -120,14 +121,14 @@ std::vector<std::uint32_t> pointed_tools(const NodeOptions& options, const Scene
 }
 
 int run_headless(const NodeOptions& options, const Scene& scene) {
-  FrameFolder frames(options.out, scene.render);
+  FrameFolder frames(options.out, *scene.render);
   const bool few_cores = std::thread::hardware_concurrency() <= 2;
   if (few_cores) setenv("LP_NUM_THREADS", "1", 0);  // Mesa's software renderer takes every core otherwise
   Wire wire(membership(options, scene, "render"));
   Fare fare(scene);
   fare.tell(wire, NodePhase::loading, 0, true);
   Picture picture(scene, few_cores ? Edges::plain : Edges::smooth);
-  FrameSchedule schedule(scene.render.rate_Hz);
+  FrameSchedule schedule(scene.render->rate_Hz);
   if (!pointed_tools(options, scene).empty())
     log_warn("driver \"mouse\": there is no window to point in; leave out --headless, on a display");
   bool stop = false;

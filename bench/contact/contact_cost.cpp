@@ -2,6 +2,7 @@
 
 #include "common/scene/body_spec.h"
 #include "common/scene/material_spec.h"
+#include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
 #include "physics_node/world.h"
 
@@ -20,8 +21,8 @@ Scene still_scene() {
   Scene scene;
   scene.title = "contact";
   scene.gravity = Vec3::Zero();
-  scene.physics.threads = 1;
-  scene.physics.sleep = false;
+  scene.physics->threads = 1;
+  scene.physics->sleep = false;
   return scene;
 }
 
@@ -46,7 +47,7 @@ Scene cubes(double gap) {
 
 Scene smashed_ball() {
   Scene scene = still_scene();
-  scene.physics.safety = 0.5;
+  scene.physics->safety = 0.5;
   scene.materials = {material(1e-3, 200)};
   scene.materials[0].k2_ratio = 0.2;
   scene.materials[0].viscosity = 0.05;

@@ -2,7 +2,9 @@
 
 #include "common/scene/body_spec.h"
 #include "common/scene/material_spec.h"
+#include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
+#include "common/scene/surroundings_spec.h"
 #include "physics_node/world.h"
 
 namespace palpate::bench {
@@ -11,10 +13,10 @@ Scene fall_scene(const Fall& fall) {
   Scene scene;
   scene.title = "fall";
   scene.gravity = Vec3::Zero();
-  scene.physics.integrator = Integrator::velocity_verlet;
-  scene.physics.step = 1e-4;
-  scene.physics.threads = 1;
-  scene.physics.sleep = false;
+  scene.physics->integrator = Integrator::velocity_verlet;
+  scene.physics->step = 1e-4;
+  scene.physics->threads = 1;
+  scene.physics->sleep = false;
   MaterialSpec clay;
   clay.name = "clay";
   clay.mass = 1e-3;
@@ -34,7 +36,7 @@ Scene fall_scene(const Fall& fall) {
   ball.velocity = {0, 0, -fall.speed};
   scene.bodies.push_back(ball);
   scene.floor = FloorSpec{};
-  scene.contact.distance = ContactDistance::paper;
+  scene.contact->distance = ContactDistance::paper;
   return scene;
 }
 

@@ -4,6 +4,7 @@
 
 #include "common/scene/body_spec.h"
 #include "common/scene/material_spec.h"
+#include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
 #include "physics_node/world.h"
 
@@ -16,8 +17,8 @@ Drop make_drop(int masses) {
   Drop drop;
   Scene& scene = drop.scene;
   scene.title = "peers";
-  scene.physics.frame_Hz = 1 / frame_seconds;
-  scene.physics.sleep = false;  // the peers step every mass
+  scene.physics->frame_Hz = 1 / frame_seconds;
+  scene.physics->sleep = false;  // the peers step every mass
   MaterialSpec tissue;
   tissue.name = "tissue";
   tissue.modulus = 10e3;

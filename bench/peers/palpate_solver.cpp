@@ -5,6 +5,7 @@
 #include "bench/peers/solver.h"
 #include "bench/problems/stopwatch.h"
 #include "common/report/commit.h"
+#include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
 #include "physics_node/world.h"
 
@@ -37,10 +38,10 @@ class PalpateSolver final : public Solver {
 
   Run run(const Task& task) override {
     Scene scene = task.drop->scene;
-    scene.physics.precision = precision_;
-    scene.physics.threads = method_.threads;
-    scene.physics.integrator = way_.integrator;
-    scene.physics.step = task.dt();
+    scene.physics->precision = precision_;
+    scene.physics->threads = method_.threads;
+    scene.physics->integrator = way_.integrator;
+    scene.physics->step = task.dt();
     physics::World world(scene);
     if (way_.half_step_back) {
       start_half_step_back(world.body(0), scene.gravity, task.dt());

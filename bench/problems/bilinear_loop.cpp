@@ -13,6 +13,7 @@
 
 #include "bench/problems/problems.h"
 #include "common/scene/material_spec.h"
+#include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
 #include "physics_node/step/body_model.h"
 
@@ -33,8 +34,8 @@ double bilinear_loop_error(double speed, int steps, Precision precision) {
   scene.materials[0].yield_ratio = y_p;
   scene.materials[0].break_ratio = 1.5;
   scene.materials[0].viscosity = c;
-  scene.physics.precision = precision;
-  scene.physics.threads = 1;
+  scene.physics->precision = precision;
+  scene.physics->threads = 1;
   physics::World world(scene);
   physics::BodyModel& body = world.body(0);
   const auto mass = free_mass(world);

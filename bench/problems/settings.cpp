@@ -7,6 +7,7 @@
 #include "common/error/error.h"
 #include "common/scene/body_spec.h"
 #include "common/scene/material_spec.h"
+#include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
 
 namespace palpate::bench {
@@ -29,7 +30,7 @@ Scene empty_scene() {
   Scene scene;
   scene.title = "reference problem";
   scene.gravity = Vec3::Zero();
-  scene.physics.sleep = false;
+  scene.physics->sleep = false;
   MaterialSpec material;
   material.name = "m";
   material.mass = 1.0;
@@ -69,11 +70,11 @@ physics::Index free_mass(const physics::World& world) {
 
 void apply(const Settings& settings, double seconds, int frames, Scene& scene) {
   const double frame = seconds / frames;
-  scene.physics.integrator = settings.integrator;
-  scene.physics.precision = settings.precision;
-  scene.physics.threads = settings.threads;
-  scene.physics.frame_Hz = 1 / frame;
-  scene.physics.step = frame / std::ceil(frame / settings.step - 1e-9);
+  scene.physics->integrator = settings.integrator;
+  scene.physics->precision = settings.precision;
+  scene.physics->threads = settings.threads;
+  scene.physics->frame_Hz = 1 / frame;
+  scene.physics->step = frame / std::ceil(frame / settings.step - 1e-9);
 }
 
 Outcome run(physics::World& world, int frames, const std::function<void(int)>& look) {

@@ -7,7 +7,9 @@
 #include "bench/shots/inside.h"
 #include "common/scene/body_spec.h"
 #include "common/scene/material_spec.h"
+#include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
+#include "common/scene/surroundings_spec.h"
 #include "physics_node/world.h"
 
 namespace palpate::bench {
@@ -63,9 +65,9 @@ Shot random_shot(std::uint64_t seed, double fastest, ContactDistance distance) {
   Scene& scene = shot.scene;
   scene.title = "shot";
   scene.gravity = Vec3::Zero();
-  scene.physics.threads = 1;
-  scene.contact.distance = distance;
-  scene.contact.count_passages = true;
+  scene.physics->threads = 1;
+  scene.contact->distance = distance;
+  scene.contact->count_passages = true;
 
   BodySpec target, bullet;
   const double reach = choose_target(target, shot.target, dice);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/scene/scene.h"
+#include "common/scene/surroundings_spec.h"
 
 namespace palpate::bench {
 

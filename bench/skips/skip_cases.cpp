@@ -7,6 +7,7 @@
 #include "common/record/volume.h"
 #include "common/scene/body_spec.h"
 #include "common/scene/material_spec.h"
+#include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
 
 namespace palpate::bench {
@@ -22,8 +23,8 @@ Scene block() {
   tissue.modulus = 10e3;
   scene.bodies = {box_body(LatticeKind::fcc, Vec3(0.12, 0.12, 0.12), 0.005)};
   scene.bodies[0].fixed_faces[4] = true;
-  scene.physics.step = 0.5e-3;
-  scene.physics.threads = 1;
+  scene.physics->step = 0.5e-3;
+  scene.physics->threads = 1;
   return scene;
 }
 
@@ -53,7 +54,7 @@ SkipCase one_material() {
 
 SkipCase sleep() {
   SkipCase c{"rows at rest", "at rest and may sleep", "at rest and may not", block(), block()};
-  c.lean.physics.sleep = true;
+  c.lean.physics->sleep = true;
   c.shaken = false;
   return c;
 }
@@ -94,7 +95,7 @@ Scene volume_scene(const std::filesystem::path& file, std::array<int, 3> size, i
   body.spacing.reset();
   body.lattice = LatticeKind::voxel;
   body.fixed_faces = {};
-  scene.physics.step = 0.1e-3;
+  scene.physics->step = 0.1e-3;
   return scene;
 }
 

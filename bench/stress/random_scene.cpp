@@ -11,6 +11,7 @@
 #include "common/scene/body_spec.h"
 #include "common/scene/device_spec.h"
 #include "common/scene/material_spec.h"
+#include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
 #include "physics_node/step/body_model.h"
@@ -49,7 +50,7 @@ BodySpec body(Dice& dice, double spacing, double target_masses) {
 
 Scene bodies_and_materials(Dice& dice) {
   Scene scene = empty_scene();
-  scene.physics.sleep = dice.chance(0.5);
+  scene.physics->sleep = dice.chance(0.5);
   const double modulus = dice.decades(10, 1e9), density = dice.decades(1e2, 1e4),
                spacing = dice.decades(1e-3, 0.1);
   const bool yields = dice.chance(0.5), breaks = dice.chance(0.7);
@@ -84,8 +85,8 @@ StressScene random_scene(std::uint64_t seed) {
   stress.seed = seed;
   stress.scene = bodies_and_materials(dice);
   Scene& scene = stress.scene;
-  scene.physics.precision = dice.chance(0.5) ? Precision::single_ : Precision::double_;
-  scene.physics.threads = dice.chance(0.1) ? 2 : 1;
+  scene.physics->precision = dice.chance(0.5) ? Precision::single_ : Precision::double_;
+  scene.physics->threads = dice.chance(0.1) ? 2 : 1;
   if (dice.chance(0.7)) scene.gravity = dice.within(1).normalized() * dice.decades(0.01, 1000) * g;
   const double spacing = *scene.bodies[0].spacing;
   if (dice.chance(0.4)) scene.floor = FloorSpec{scene.bodies[0].at.z() - dice.between(-1, 5) * spacing};
@@ -112,13 +113,13 @@ StressScene random_scene(std::uint64_t seed) {
   const int steps_per_frame = 1 + dice.pick(4);
   stress.frames = (implicit ? 60 : 240) / steps_per_frame;
   // Implicit steps too are measured in explicit ones.
-  scene.physics.integrator = implicit ? Integrator::symplectic_euler : integrator;
-  scene.physics.frame_Hz = 1e12;  // any step fits into a frame: only the stable one is asked for
+  scene.physics->integrator = implicit ? Integrator::symplectic_euler : integrator;
+  scene.physics->frame_Hz = 1e12;  // any step fits into a frame: only the stable one is asked for
   const double stable = physics::World(scene).stable_step_seconds();
-  scene.physics.integrator = integrator;
+  scene.physics->integrator = integrator;
   const double step = stress.step_ratio * (std::isfinite(stable) ? stable : 1e-3);
-  scene.physics.step = step;
-  scene.physics.frame_Hz = 1 / (steps_per_frame * step);
+  scene.physics->step = step;
+  scene.physics->frame_Hz = 1 / (steps_per_frame * step);
   return stress;
 }
 
@@ -167,11 +168,11 @@ std::string describe(const StressScene& s) {
       "viscosity "
       "{:.2g} Pa s start {} {:.2g} gravity {:.3g} m/s2 floor {} tool {:.2g} N {:.2g} m/s step {:.3g} of "
       "stable",
-      name_of(scene.physics.integrator), name_of(scene.physics.precision), *m.modulus,
+      name_of(scene.physics->integrator), name_of(scene.physics->precision), *m.modulus,
       *scene.materials[1].modulus, *m.density, *scene.materials[1].density, *scene.bodies[0].spacing,
       scene.bodies[0].regions.size(), scene.bodies.size(),
       m.yield_ratio ? fmt::format(" yield {:.4g} break {:.4g}", *m.yield_ratio, *m.break_ratio) : " elastic",
-      scene.physics.sleep ? " sleep" : "", m.viscosity_bulk.value_or(0),
+      scene.physics->sleep ? " sleep" : "", m.viscosity_bulk.value_or(0),
       start_names[static_cast<int>(s.start)], s.amount, scene.gravity.norm(), scene.floor.has_value(),
       s.tool_force, s.tool_speed, s.step_ratio);
 }

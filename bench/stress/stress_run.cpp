@@ -10,6 +10,7 @@
 #include "bench/problems/settings.h"
 #include "bench/problems/stopwatch.h"
 #include "common/scene/body_spec.h"
+#include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
 #include "physics_node/step/body_model.h"
 
@@ -61,8 +62,8 @@ StressResult run_stress(std::uint64_t seed, const std::function<void(const std::
   world.restart_ledger();
   StressResult result;
   result.seed = seed;
-  result.integrator = name_of(stress.scene.physics.integrator);
-  result.precision = name_of(stress.scene.physics.precision);
+  result.integrator = name_of(stress.scene.physics->integrator);
+  result.precision = name_of(stress.scene.physics->precision);
   result.lattice = stress.scene.bodies[0].lattice == LatticeKind::fcc ? "fcc" : "voxel";
   result.start = start_names[static_cast<int>(stress.start)];
   result.step_ratio = stress.step_ratio;

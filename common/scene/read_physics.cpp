@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 
 #include "common/math/units.h"
+#include "common/scene/physics_spec.h"
 #include "common/scene/read_parts.h"
 #include "common/scene/scene.h"
+#include "common/scene/surroundings_spec.h"
 
 namespace palpate {
 namespace {
@@ -33,7 +35,7 @@ void read_physics(TableReader& root, ReadContext& context) {
   const auto* table = root.read_table("physics");
   if (table == nullptr) return;
   TableReader reader(*table, "[physics]", context.complaints);
-  auto& physics = context.scene.physics;
+  auto& physics = *context.scene.physics;
   physics.place = reader.place();
   if (const auto word =
           reader.read_word("integrator", {"symplectic_euler", "velocity_verlet", "backward_euler"}))
@@ -64,11 +66,11 @@ void read_contact(TableReader& root, ReadContext& context) {
   const auto* table = root.read_table("contact");
   if (table == nullptr) return;
   TableReader reader(*table, "[contact]", context.complaints);
-  set_if(context.scene.contact.enabled, reader.read_flag("enabled"));
+  set_if(context.scene.contact->enabled, reader.read_flag("enabled"));
   if (const auto word = reader.read_word("distance", {"paper", "swept"}))
-    context.scene.contact.distance = static_cast<ContactDistance>(*word);
-  set_if(context.scene.contact.restitution, reader.read_number("restitution", {.lo = 0, .hi = 1}));
-  set_if(context.scene.contact.count_passages, reader.read_flag("count_passages"));
+    context.scene.contact->distance = static_cast<ContactDistance>(*word);
+  set_if(context.scene.contact->restitution, reader.read_number("restitution", {.lo = 0, .hi = 1}));
+  set_if(context.scene.contact->count_passages, reader.read_flag("count_passages"));
   reader.refuse_left_over();
 }
 

@@ -1,6 +1,8 @@
 // [render] and [record]: what is seen and what is kept.
 #include "common/math/units.h"
 #include "common/scene/read_parts.h"
+#include "common/scene/record_spec.h"
+#include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
 
 namespace palpate {
@@ -10,7 +12,7 @@ void read_camera(TableReader& render, ReadContext& context) {
   const auto* table = render.read_table("camera");
   if (table == nullptr) return;
   TableReader reader(*table, "camera of [render]", context.complaints);
-  auto& camera = context.scene.render.camera;
+  auto& camera = context.scene.render->camera;
   if (const auto yaw = reader.read_number("yaw_deg", {.lo = -360, .hi = 360}))
     camera.yaw = rad_from_deg(*yaw);
   if (const auto pitch = reader.read_number("pitch_deg", {.lo = -90, .hi = 90}))
@@ -28,7 +30,7 @@ void read_render(TableReader& root, ReadContext& context) {
   const auto* table = root.read_table("render");
   if (table == nullptr) return;
   TableReader reader(*table, "[render]", context.complaints);
-  auto& render = context.scene.render;
+  auto& render = *context.scene.render;
   if (const auto size = reader.read_integers("size_px", 2, "[width, height]", 16, 8192))
     render.size_px = {(*size)[0], (*size)[1]};
   read_camera(reader, context);
@@ -52,7 +54,7 @@ void read_record(TableReader& root, ReadContext& context) {
   const auto* table = root.read_table("record");
   if (table == nullptr) return;
   TableReader reader(*table, "[record]", context.complaints);
-  auto& record = context.scene.record;
+  auto& record = *context.scene.record;
   if (const auto kept = reader.read_words("what", {"positions", "forces", "energy"})) {
     record.positions = (*kept)[0];
     record.forces = (*kept)[1];

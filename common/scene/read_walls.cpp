@@ -1,6 +1,7 @@
 // [[wall]]
 #include "common/scene/read_parts.h"
 #include "common/scene/scene.h"
+#include "common/scene/surroundings_spec.h"
 
 namespace palpate {
 namespace {

@@ -8,6 +8,10 @@
 #include "common/scene/body_spec.h"
 #include "common/scene/device_spec.h"
 #include "common/scene/material_spec.h"
+#include "common/scene/physics_spec.h"
+#include "common/scene/record_spec.h"
+#include "common/scene/render_spec.h"
+#include "common/scene/surroundings_spec.h"
 #include "common/scene/tool_spec.h"
 
 namespace palpate {

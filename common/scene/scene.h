@@ -9,16 +9,14 @@
 #include <vector>
 
 #include "common/math/vec3.h"
-#include "common/scene/physics_spec.h"
-#include "common/scene/record_spec.h"
-#include "common/scene/render_spec.h"
+#include "common/scene/floor_spec.h"
+#include "common/scene/indirect.h"
 #include "common/scene/scene_fwd.h"
-#include "common/scene/surroundings_spec.h"
 
 namespace palpate {
 
-/// Bodies, materials, tools and devices are incomplete types here: a file that reads one includes its header, and
-/// a new key compiles only those files again. The special members are therefore defined in scene.cpp.
+/// The tables are incomplete types here: a file that reads one includes its header, and a new key compiles only those
+/// files again. The special members are therefore defined in scene.cpp.
 struct Scene {
   Scene();
   Scene(const Scene&);
@@ -34,16 +32,16 @@ struct Scene {
   /// That a run lasts where nobody says otherwise [s]; absent: natural_seconds().
   std::optional<double> seconds;
   Vec3 gravity{0, 0, -9.81};  // [m/s^2]
-  PhysicsSpec physics;
+  Indirect<PhysicsSpec> physics;
   std::vector<BodySpec> bodies;
   std::vector<MaterialSpec> materials;
   std::optional<FloorSpec> floor;
   std::vector<WallSpec> walls;
-  ContactSpec contact;
+  Indirect<ContactSpec> contact;
   std::vector<ToolSpec> tools;
   std::vector<DeviceSpec> devices;
-  RenderSpec render;
-  RecordSpec record;
+  Indirect<RenderSpec> render;
+  Indirect<RecordSpec> record;
 
   const MaterialSpec& material(const std::string& name) const;  // must exist
   const DeviceSpec& device(const std::string& name) const;      // must exist

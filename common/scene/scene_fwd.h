@@ -5,8 +5,11 @@ namespace palpate {
 
 struct Scene;
 struct BodySpec;
+struct ContactSpec;
 struct DeviceSpec;
 struct MaterialSpec;
+struct PhysicsSpec;
+struct RecordSpec;
 struct RenderSpec;
 struct ToolSpec;
 struct WallSpec;

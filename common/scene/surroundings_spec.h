@@ -1,13 +1,10 @@
 #pragma once
-// [floor], [[wall]] and [contact] of a scene: what bodies meet besides tools.
+// [[wall]] and [contact] of a scene: what bodies meet besides tools.
 
 #include "common/math/vec3.h"
 
 namespace palpate {
 
-struct FloorSpec {
-  double height = 0;
-};
 /// A fixed plane; tissue stays on the side that the normal points to.
 struct WallSpec {
   Vec3 point = Vec3::Zero();    // world [m]

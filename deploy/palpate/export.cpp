@@ -9,6 +9,7 @@
 #include "common/file/privacy.h"
 #include "common/file/scratch_folder.h"
 #include "common/process/checked_option.h"
+#include "common/scene/record_spec.h"
 #include "common/scene/scene.h"
 #include "deploy/palpate/subcommands.h"
 #include "deploy/palpate/viewers.h"
@@ -58,7 +59,7 @@ int run_export(const ExportOptions& options) {
 }  // namespace
 
 void export_for_viewers(const fs::path& out, const Scene& scene) {
-  if (!scene.record.positions) return;
+  if (!scene.record->positions) return;
   try {
     const physics::VtkExport done = physics::export_vtk((out / "record.h5").string(), scene, {.folder = out});
     if (!done.collection.empty()) say(done);

@@ -8,6 +8,7 @@
 #include "common/scene/device_spec.h"
 #include "common/scene/load_scene.h"
 #include "common/scene/material_spec.h"
+#include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
 #include "deploy/palpate/info.h"
@@ -100,7 +101,7 @@ std::string forecast_text(const Scene& scene, const physics::World& world) {
   if (!std::isfinite(stable_dt)) return text;
   const SpeedForecast speed = forecast_speed(scene, masses, stable_dt);
   text += fmt::format("step         {:.0f} a frame of {:.3g} ms\n", speed.steps_a_frame,
-                      1e3 / scene.physics.frame_Hz);
+                      1e3 / scene.physics->frame_Hz);
   if (speed.real_time_factor > 0)
     text += fmt::format("speed        about {:.2g} x real time on one thread, without contact\n",
                         speed.real_time_factor);

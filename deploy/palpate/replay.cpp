@@ -19,6 +19,7 @@
 #include "common/report/commit.h"
 #include "common/report/json_file.h"
 #include "common/report/warnings.h"
+#include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
 #include "deploy/palpate/out_folder.h"
 #include "deploy/palpate/plotter.h"
@@ -61,7 +62,7 @@ class Rerun {
   explicit Rerun(const ReplayOptions& options) : options_(options), record_(options.record) {
     const ScratchFolder files;
     auto [scene, source] = record_.lay_out(files.path().string());
-    if (options.threads >= 0) scene.physics.threads = options.threads;
+    if (options.threads >= 0) scene.physics->threads = options.threads;
     world_ = std::make_unique<physics::World>(scene);
     replay_ = std::make_unique<physics::Replay>(record_, *world_);
     if (options.pictures) eye_ = std::make_unique<VirtualEye>(scene, *world_);

@@ -2,18 +2,19 @@
 
 #include <algorithm>
 
+#include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
 
 namespace palpate::deploy {
 
 VirtualEye::VirtualEye(const Scene& scene, const physics::World& world)
-    : appearance_(world, scene.render.threshold),
+    : appearance_(world, scene.render->threshold),
       picture_(scene),
       traces_(scene.tools.size()),
-      spec_(scene.render),
+      spec_(*scene.render),
       every_(std::max<std::int64_t>(
-          1, static_cast<std::int64_t>(1 / (scene.render.rate_Hz * world.frame_seconds()) + 0.5))) {
+          1, static_cast<std::int64_t>(1 / (scene.render->rate_Hz * world.frame_seconds()) + 0.5))) {
   for (std::uint32_t n = 0; n < traces_.size(); ++n) traces_[n].tool = n;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
 #include "physics_node/boundary/loose_parts.h"
 
@@ -39,7 +40,7 @@ void Appearance::copy(std::size_t body) {
   else
     view.live->copy(moving);
   const Fragments* fragments = world_.fragments(body);
-  if (fragments != nullptr && world_.scene().render.show_fragments)
+  if (fragments != nullptr && world_.scene().render->show_fragments)
     view.colours = std::make_unique<FragmentColours>(*fragments, moving.body().lattice);
 }
 

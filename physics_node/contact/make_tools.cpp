@@ -1,6 +1,7 @@
 #include "physics_node/contact/make_tools.h"
 
 #include "common/error/error.h"
+#include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
 #include "physics_node/contact/body_tool.h"
@@ -20,7 +21,7 @@ void add_point(const ToolSpec& spec, std::uint32_t n, const BodyModels& bodies,
 void add_stick(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
                const std::vector<TouchableBody>& touchable, Toolbox& box) {
   const ToolSpec& spec = scene.tools[n];
-  if (scene.physics.integrator == Integrator::backward_euler)
+  if (scene.physics->integrator == Integrator::backward_euler)
     throw InputError(spec.place.text() +
                      ": a stick moves masses step by step, which \"backward_euler\" does not; write "
                      "integrator = \"symplectic_euler\" or \"velocity_verlet\"");

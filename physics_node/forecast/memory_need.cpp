@@ -16,6 +16,7 @@
 #include "common/record/volume_facts.h"
 #include "common/scene/body_spec.h"
 #include "common/scene/material_spec.h"
+#include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
 #include "physics_node/body/solid_shape.h"
@@ -126,7 +127,7 @@ double bytes_of_masses(double masses, const BodySpec& body, const Scene& scene) 
   bool plastic = yields(body.material, scene);
   for (const RegionSpec& region : body.regions)
     plastic = plastic || (!region.material.empty() && yields(region.material, scene));
-  const bool doubled = scene.physics.precision == Precision::double_;
+  const bool doubled = scene.physics->precision == Precision::double_;
   const bool felt = std::any_of(scene.tools.begin(), scene.tools.end(), meets_facets);
   return masses * (plastic ? (doubled ? plastic_double_bytes : plastic_bytes) + (felt ? felt_bytes : 0.0)
                            : (doubled ? elastic_double_bytes : elastic_bytes));

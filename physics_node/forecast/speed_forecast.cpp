@@ -10,6 +10,7 @@
 #include "common/error/error.h"
 #include "common/scene/body_spec.h"
 #include "common/scene/material_spec.h"
+#include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
 
 namespace palpate::physics {
@@ -35,7 +36,7 @@ struct Culprit {
 /// what it advises. Of materials that are given by the bulk; of others nothing is known here.
 std::optional<Culprit> shortest_step(const Scene& scene) {
   constexpr double margin = 4;  // Why: a lattice is stable for about half the time that a wave takes
-  const double shortest = margin / (scene.physics.frame_Hz * most_steps_a_frame);
+  const double shortest = margin / (scene.physics->frame_Hz * most_steps_a_frame);
   std::optional<Culprit> found;
   for (const BodySpec& body : scene.bodies)
     for (const MaterialSpec& material : scene.materials) {
@@ -65,28 +66,28 @@ std::optional<Culprit> shortest_step(const Scene& scene) {
 }  // namespace
 
 double steps_a_frame(const Scene& scene, double stable_dt) {
-  const double frame = 1 / scene.physics.frame_Hz,
-               wanted = scene.physics.step.value_or(scene.physics.safety * stable_dt);
+  const double frame = 1 / scene.physics->frame_Hz,
+               wanted = scene.physics->step.value_or(scene.physics->safety * stable_dt);
   const double steps = std::isfinite(wanted) ? std::max(1.0, std::ceil(frame / wanted - 1e-9)) : 1;
   if (steps <= most_steps_a_frame) return steps;
   const std::string numbers = fmt::format("a step of {:.2g} s would cut a frame into {:.2g}; {:g} may be",
                                           wanted, steps, most_steps_a_frame);
-  if (!scene.physics.step)
+  if (!scene.physics->step)
     if (const auto culprit = shortest_step(scene))
       throw InputError(fmt::format("{}: {}: {}", culprit->place, numbers, culprit->advice));
-  const bool placed = scene.physics.place.line != 0 || !scene.physics.place.file.empty();
+  const bool placed = scene.physics->place.line != 0 || !scene.physics->place.file.empty();
   throw InputError(fmt::format("{}: {}: give softer or heavier material, a wider spacing, or a longer step",
-                               placed ? scene.physics.place.text() : scene.path, numbers));
+                               placed ? scene.physics->place.text() : scene.path, numbers));
 }
 
 SpeedForecast forecast_speed(const Scene& scene, double masses, double stable_dt) {
   SpeedForecast forecast;
   forecast.steps_a_frame = steps_a_frame(scene, stable_dt);
-  if (scene.physics.integrator == Integrator::backward_euler || masses <= 0 || !std::isfinite(stable_dt))
+  if (scene.physics->integrator == Integrator::backward_euler || masses <= 0 || !std::isfinite(stable_dt))
     return forecast;
   const double step_s = masses * (any_yields(scene) ? plastic_s : elastic_s) *
-                        (scene.physics.precision == Precision::double_ ? of_double : 1);
-  forecast.real_time_factor = 1 / (scene.physics.frame_Hz * forecast.steps_a_frame * step_s);
+                        (scene.physics->precision == Precision::double_ ? of_double : 1);
+  forecast.real_time_factor = 1 / (scene.physics->frame_Hz * forecast.steps_a_frame * step_s);
   return forecast;
 }
 

@@ -11,6 +11,8 @@
 #include "common/report/json_file.h"
 #include "common/report/log.h"
 #include "common/scene/device_spec.h"
+#include "common/scene/physics_spec.h"
+#include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
 #include "common/time/clock.h"
@@ -51,7 +53,7 @@ PhysicsLoop::PhysicsLoop(const NodeOptions& options, const Scene& scene)
   const std::int64_t begin = now_ns();
   world_ = std::make_unique<World>(scene_, scene_.tools.empty() ? 0 : cores_of_the_hand);
   world_->add_remarks(remarks_about(*world_));
-  appearance_ = std::make_unique<Appearance>(*world_, scene_.render.threshold, Remake::beside);
+  appearance_ = std::make_unique<Appearance>(*world_, scene_.render->threshold, Remake::beside);
   newcomer_
       .settle();  // before an earlier record is set aside, and before the hand and the eye are told anything
   if (!options_.out.empty()) {
@@ -197,12 +199,12 @@ void PhysicsLoop::publish_status(NodePhase phase) {
 }
 
 int PhysicsLoop::run() {
-  Ticker ticker(scene_.physics.frame_Hz);
+  Ticker ticker(scene_.physics->frame_Hz);
   start_ns_ = now_ns();
   std::int64_t next_eye = start_ns_;
   std::int64_t next_status = start_ns_;
   const bool in_step =
-      !scene_.tools.empty() && scene_.device(scene_.tools.front().device).rate_Hz == scene_.physics.frame_Hz;
+      !scene_.tools.empty() && scene_.device(scene_.tools.front().device).rate_Hz == scene_.physics->frame_Hz;
   // 1. wait  2. hear  3. move  4. tell the hand  5. tell the eye, the record and whoever asks
   while (!stop_ && !stop_requested() && (options_.seconds <= 0 || world_->t() < options_.seconds)) {
     const auto wake = ticker.wait();

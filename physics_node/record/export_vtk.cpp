@@ -10,6 +10,7 @@
 #include "common/record/hdf5_file.h"
 #include "common/scene/body_spec.h"
 #include "common/scene/material_spec.h"
+#include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
 #include "physics_node/appearance/colours.h"
@@ -29,7 +30,7 @@ class ExportedBody {
       : file_(file),
         base_("/bodies/" + scene.bodies[b].name),
         rgba_(body_colour(scene, b)),
-        threshold_(scene.render.threshold),
+        threshold_(scene.render->threshold),
         moving_(make_body_model(build_body(scene.bodies[b], scene.materials), Precision::single_)),
         live_(*moving_),
         number_(static_cast<std::size_t>(body().lattice.n_cells())) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/message/vec3.h"
+#include "common/scene/record_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
 
@@ -13,7 +14,7 @@ Recorder::Recorder(const World& world, const SceneSource& source, const std::str
                    WhenBehind when_behind)
     : folder_(folder),
       when_behind_(when_behind),
-      spec_(world.scene().record),
+      spec_(*world.scene().record),
       rows_(std::make_unique<SpscRing<ToolRow, 16384>>()),
       energy_rows_(std::make_unique<SpscRing<EnergyRow, 1024>>()) {
   for (const auto& tool : world.scene().tools) tool_names_.push_back(tool.name);

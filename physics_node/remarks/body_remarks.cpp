@@ -6,6 +6,7 @@
 
 #include "common/scene/body_spec.h"
 #include "common/scene/scene.h"
+#include "common/scene/surroundings_spec.h"
 #include "physics_node/remarks/enclosure.h"
 #include "physics_node/remarks/remarks.h"
 
@@ -102,7 +103,7 @@ void add_overlaps(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
   constexpr std::size_t most_looked_at = 2000;
   for (std::size_t a = 0; a < bodies.size(); ++a)
     for (std::size_t b = 0; b < bodies.size(); ++b) {
-      if (a == b || !scene.contact.enabled) continue;
+      if (a == b || !scene.contact->enabled) continue;
       const Body &inner = bodies[a]->body(), &outer = bodies[b]->body();
       const auto box = box_of(outer);
       if (box.intersection(box_of(inner)).isEmpty()) continue;

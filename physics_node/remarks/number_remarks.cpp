@@ -7,6 +7,7 @@
 
 #include "common/scene/body_spec.h"
 #include "common/scene/material_spec.h"
+#include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
 #include "physics_node/remarks/remarks.h"
@@ -25,7 +26,7 @@ constexpr int busy_steps_a_frame =
 
 /// A scene need not have the table.
 std::string place_of_physics(const Scene& scene) {
-  const std::string place = scene.physics.place.text();
+  const std::string place = scene.physics->place.text();
   return place.empty() ? scene.path + ": [physics]" : place;
 }
 
@@ -69,10 +70,10 @@ Remarks number_remarks(const Scene& scene, const Bodies& bodies, int steps_a_fra
         scene.path, scene.gravity.norm()));
   if (scene.gravity.z() > 0)
     remarks.push_back(fmt::format("{}: gravity points up, [0, 0, -9.81] points down", scene.path));
-  if (!scene.tools.empty() && scene.physics.frame_Hz < slowest_frame_Hz)
+  if (!scene.tools.empty() && scene.physics->frame_Hz < slowest_frame_Hz)
     remarks.push_back(fmt::format(
         "{}: at {:.4g} frames a second the hand is often without an answer; frame_Hz = 1000 is usual",
-        place_of_physics(scene), scene.physics.frame_Hz));
+        place_of_physics(scene), scene.physics->frame_Hz));
   if (steps_a_frame > busy_steps_a_frame)
     remarks.push_back(fmt::format(
         "{}: {} steps a frame are too many for real time; larger cells, softer or heavier material, or "

@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
 #include "physics_node/remarks/remarks.h"
 
 namespace palpate::physics {
 
 Remarks picture_remarks(const Scene& scene, const Bodies& bodies) {
-  const CameraSpec& camera = scene.render.camera;
+  const CameraSpec& camera = scene.render->camera;
   if (!camera.target && !camera.distance) return {};  // fitted to the bodies
   Eigen::AlignedBox3d box;
   for (const auto& body : bodies) box.extend(box_of(body->body()));
@@ -25,7 +26,7 @@ Remarks picture_remarks(const Scene& scene, const Bodies& bodies) {
   const double away = to.norm();
   const std::string place = scene.path + ": [render] camera";
   if (away <= radius) return {};  // it stands among them
-  const double wide = static_cast<double>(scene.render.size_px[0]) / scene.render.size_px[1];
+  const double wide = static_cast<double>(scene.render->size_px[0]) / scene.render->size_px[1];
   const double half = std::atan(std::tan(0.5 * camera.field_of_view) * std::max(1.0, wide));
   const double off = std::acos(std::clamp(-to.dot(back) / away, -1.0, 1.0)), ball = std::asin(radius / away);
   if (off > half + ball)

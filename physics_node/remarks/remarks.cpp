@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "common/scene/scene.h"
+#include "common/scene/surroundings_spec.h"
 #include "common/scene/tool_spec.h"
 
 namespace palpate::physics {

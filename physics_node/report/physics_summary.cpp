@@ -7,7 +7,9 @@
 #include "common/math/hash.h"
 #include "common/report/commit.h"
 #include "common/report/warnings.h"
+#include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
+#include "common/scene/surroundings_spec.h"
 #include "common/scene/tool_spec.h"
 #include "physics_node/fragments/outcome.h"
 #include "physics_node/report/run_warnings.h"
@@ -114,8 +116,8 @@ nlohmann::json physics_summary(const World& world, const Recorder* recorder, dou
                          {"seed", scene.seed},
                          {"threads", world.threads()},
                          {"team", team_part(world.team_choice())},
-                         {"precision", precision_name(scene.physics.precision)},
-                         {"integrator", integrator_name(scene.physics.integrator)},
+                         {"precision", precision_name(scene.physics->precision)},
+                         {"integrator", integrator_name(scene.physics->integrator)},
                          {"simulated_s", world.t()},
                          {"wall_s", wall_s},
                          {"real_time_factor", wall_s > 0 ? world.t() / wall_s : 0.0},
@@ -160,7 +162,7 @@ nlohmann::json physics_summary(const World& world, const Recorder* recorder, dou
                        {"stopped", tally.stopped},
                        {"overflows", tally.overflows},
                        {"rebuilds", tally.rebuilds}};
-    if (scene.contact.count_passages) part["contact"]["passages"] = tally.passages;
+    if (scene.contact->count_passages) part["contact"]["passages"] = tally.passages;
   }
   for (std::size_t n = 0; recorder != nullptr && n < scene.tools.size(); ++n) {
     part["tools"][scene.tools[n].name] = {{"contacts_max", recorder->contacts_max(n)},

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/scene/scene.h"
+#include "common/scene/surroundings_spec.h"
 
 namespace palpate::physics {
 namespace {
@@ -25,7 +26,7 @@ double generated(const EnergyLedger& ledger) {
 }
 
 std::string remedy(const World& world) {
-  const ContactSpec& contact = world.scene().contact;
+  const ContactSpec& contact = *world.scene().contact;
   if (!contact.enabled) return "contact is switched off: set contact.enabled = true";
   if (contact.distance == ContactDistance::paper)
     return "contact of masses with masses lets them through: set contact.distance = \"swept\"";

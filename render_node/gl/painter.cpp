@@ -8,6 +8,7 @@
 #include "common/scene/device_spec.h"
 #include "common/scene/force_model.h"
 #include "common/scene/scene.h"
+#include "common/scene/surroundings_spec.h"
 #include "common/scene/tool_spec.h"
 #include "render_node/view/arrow_scale.h"
 #include "render_node/view/line_of_action.h"

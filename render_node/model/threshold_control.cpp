@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "common/scene/body_spec.h"
+#include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
 
 namespace palpate::render {
@@ -18,7 +19,7 @@ ThresholdControl::ThresholdControl(const Scene& scene) {
       lo_ = -1024;
       hi_ = 3071;
     }
-    value_ = sent_ = std::clamp(scene.render.threshold.value_or(volume->keep_min), lo_, hi_);
+    value_ = sent_ = std::clamp(scene.render->threshold.value_or(volume->keep_min), lo_, hi_);
     return;
   }
 }

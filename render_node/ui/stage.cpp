@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
 #include "render_node/ui/notices.h"
 
@@ -13,15 +14,15 @@ namespace palpate::render {
 Stage::Stage(const Scene& scene, ViewModel& model, int height)
     : scene_(scene),
       model_(model),
-      camera_(scene.render.camera),
-      options_{scene.render.show_tool, scene.render.show_force, scene.render.show_wire,
-               scene.render.show_fragments},
+      camera_(scene.render->camera),
+      options_{scene.render->show_tool, scene.render->show_force, scene.render->show_wire,
+               scene.render->show_fragments},
       threshold_(scene),
       painter_(scene, model),
       imgui_(height) {}
 
 PanelWishes Stage::draw(const PanelFacts& facts, int width, int height, float seconds) {
-  const bool panels = scene_.render.show_panels;
+  const bool panels = scene_.render->show_panels;
   const float scale = imgui_.fit(height);
   camera_.set_picture(
       width, height,

@@ -12,6 +12,7 @@
 
 #include "common/error/error.h"
 #include "common/scene/body_spec.h"
+#include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
 #include "render_node/gl/egl_context.h"
@@ -52,7 +53,7 @@ struct Window::Glfw {
     glfwWindowHint(GLFW_SAMPLES, samples_per_pixel);
     const std::string title = scene.title.empty() ? "palpate" : scene.title + " \xe2\x80\x93 palpate";
     window =
-        glfwCreateWindow(scene.render.size_px[0], scene.render.size_px[1], title.c_str(), nullptr, nullptr);
+        glfwCreateWindow(scene.render->size_px[0], scene.render->size_px[1], title.c_str(), nullptr, nullptr);
     if (window == nullptr) {
       glfwTerminate();
       complain();
@@ -71,7 +72,7 @@ struct Window::Glfw {
 
 Window::Window(const Scene& scene, ViewModel& model, const std::vector<std::uint32_t>& pointed)
     : glfw_(std::make_unique<Glfw>(scene)),
-      stage_(std::make_unique<Stage>(scene, model, scene.render.size_px[1])),
+      stage_(std::make_unique<Stage>(scene, model, scene.render->size_px[1])),
       scene_(scene),
       model_(model),
       pointed_(pointed),

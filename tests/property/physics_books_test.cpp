@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/scene/load_scene.h"
+#include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
 #include "physics_node/world.h"
 #include "tests/support/physics/pressed_world.h"
@@ -201,7 +202,7 @@ TEST(Meeting, KeepsTheBooksWhateverTheSeed) {
       const Books books = keep(world, 0.6);
       EXPECT_LT(books.error, 0.01) << integrator << " " << seed;
       EXPECT_EQ(books.falls, 0) << integrator << " " << seed;
-      const bool single = world.scene().physics.precision == Precision::single_;
+      const bool single = world.scene().physics->precision == Precision::single_;
       EXPECT_LT(books.linear, single ? 1e-6 : 1e-10) << integrator << " " << seed;
     }
 }

@@ -6,6 +6,7 @@
 #include "bench/shots/shot.h"
 #include "common/scene/body_spec.h"
 #include "common/scene/scene.h"
+#include "common/scene/surroundings_spec.h"
 
 namespace palpate::bench::test {
 namespace {

@@ -16,7 +16,11 @@
 #include "common/scene/body_spec.h"
 #include "common/scene/device_spec.h"
 #include "common/scene/material_spec.h"
+#include "common/scene/physics_spec.h"
+#include "common/scene/record_spec.h"
+#include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
+#include "common/scene/surroundings_spec.h"
 #include "common/scene/tool_spec.h"
 
 namespace palpate::test {
@@ -173,6 +177,8 @@ void add_lines(Lines& lines, const std::string& at, const Eigen::Matrix<double, 
 template <class T>
 void add_lines(Lines& lines, const std::string& at, const std::optional<T>& x);
 template <class T>
+void add_lines(Lines& lines, const std::string& at, const Indirect<T>& x);
+template <class T>
 void add_lines(Lines& lines, const std::string& at, const std::vector<T>& x);
 template <class T, std::size_t N>
 void add_lines(Lines& lines, const std::string& at, const std::array<T, N>& x);
@@ -190,6 +196,10 @@ template <class T>
 void add_lines(Lines& lines, const std::string& at, const std::optional<T>& x) {
   lines[at + "?"] = x ? "there" : "none";
   if (x) add_lines(lines, at, *x);
+}
+template <class T>
+void add_lines(Lines& lines, const std::string& at, const Indirect<T>& x) {
+  add_lines(lines, at, *x);
 }
 template <class T>
 void add_lines(Lines& lines, const std::string& at, const std::vector<T>& x) {

@@ -9,6 +9,7 @@
 #include "bench/stress/stress_run.h"
 #include "common/scene/body_spec.h"
 #include "common/scene/material_spec.h"
+#include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
 
 namespace palpate::bench {
@@ -25,8 +26,8 @@ TEST(Stress, ComesInAllKinds) {
   std::set<std::string> kinds;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     const StressScene stress = random_scene(seed);
-    kinds.insert(name_of(stress.scene.physics.integrator));
-    kinds.insert(name_of(stress.scene.physics.precision));
+    kinds.insert(name_of(stress.scene.physics->integrator));
+    kinds.insert(name_of(stress.scene.physics->precision));
     kinds.insert(start_names[static_cast<int>(stress.start)]);
     kinds.insert(stress.scene.bodies[0].lattice == LatticeKind::fcc ? "fcc" : "voxel");
     kinds.insert(stress.tool_force > 0 ? "tool" : "no tool");

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "common/scene/device_spec.h"
+#include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
 #include "tests/unit/render_node/render_support.h"
@@ -23,7 +24,7 @@ Camera camera_of(const Scene& scene) { return test::camera_of_cube(scene, side);
 
 TEST(PictureOfATool, DrawsTheForceArrowToScale) {
   Scene scene = test::small_scene();
-  scene.render.show_tool = false;
+  scene.render->show_tool = false;
   Picture picture(scene);
   show(picture, cube);
   picture.draw(0);
@@ -51,7 +52,7 @@ TEST(PictureOfATool, DrawsTheForceArrowToScale) {
 /// A hand that comes from above; no arrow.
 Scene small_scene_with_a_path() {
   Scene scene = test::small_scene();
-  scene.render.show_force = false;
+  scene.render->show_force = false;
   scene.devices[0].waypoints = {{0, Vec3(0, 0, 0.2)}, {1, Vec3(0, 0, 0)}};
   return scene;
 }
@@ -75,7 +76,7 @@ Eigen::AlignedBox2i box_of_tool(const Scene& scene, const HapticTrace& trace, co
 
 TEST(PictureOfATool, LaysAStickAtTheProxyAsTheHandIsTurned) {
   Scene scene = test::small_scene();
-  scene.render.show_force = false;
+  scene.render->show_force = false;
   scene.tools[0].shape = ToolShape::stick;
   scene.tools[0].length = 0.03;
   scene.tools[0].radius = 0.002;

@@ -7,6 +7,7 @@
 
 #include "common/message/vec3.h"
 #include "common/scene/device_spec.h"
+#include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
 #include "tests/unit/render_node/render_support.h"
@@ -61,7 +62,7 @@ TEST(PictureOfAnArrow, BeginsWhereABodyIsPushedAndNotAtItsTip) {
 
 TEST(PictureOfAnArrow, BeginsWhereAStickIsPushed) {
   Scene scene = test::small_scene();
-  scene.render.show_tool = false;
+  scene.render->show_tool = false;
   scene.tools[0].shape = ToolShape::stick;
   scene.tools[0].length = 0.08;
   scene.tools[0].radius = 0.004;

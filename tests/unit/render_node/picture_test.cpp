@@ -7,7 +7,9 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
+#include "common/scene/surroundings_spec.h"
 #include "render_node/view/camera.h"
 #include "tests/unit/render_node/render_support.h"
 
@@ -135,7 +137,7 @@ TEST(Picture, ShowsMassesAndElementsThatNoFacetShows) {
 
 TEST(Picture, ShowsYieldedElementsAsDarkWires) {
   Scene scene = small_scene();
-  scene.render.show_wire = true;
+  scene.render->show_wire = true;
   const auto dark_pixels = [&](std::uint8_t flags) {
     Picture picture(scene);
     show(picture, cube);
@@ -155,7 +157,7 @@ TEST(Picture, ShowsFloorAndWalls) {
   Scene scene = small_scene();
   Picture open(scene);
   scene.walls.push_back({Vec3(0.1, 0, 0), -Vec3::UnitX()});
-  scene.render.camera.yaw = 0.5;
+  scene.render->camera.yaw = 0.5;
   Picture walled(scene);
   scene.walls.clear();
   Picture turned(scene);
@@ -175,7 +177,7 @@ TEST(Picture, KeepsTheFloorUnderAFallInSight) {
   Picture picture(scene);
   show(picture, cube);
   picture.draw(0);
-  Camera camera(scene.render.camera);
+  Camera camera(scene.render->camera);
   camera.set_picture(320, 240, 0);
   camera.fit({Vec3(-side / 2, -side / 2, -0.5), Vec3::Constant(side / 2)});
   const auto top = *camera.project({0, -side / 2, 0.03}), bottom = *camera.project({0, -side / 2, -0.5});
@@ -227,7 +229,7 @@ TEST(Picture, CountsFacets) {
 
 TEST(Picture, GivesTheSameBytesForTheSameMessages) {
   Scene scene = small_scene();
-  scene.render.show_panels = true;
+  scene.render->show_panels = true;
   scene.floor = FloorSpec{-0.06};
   const auto drawn = [&] {
     Picture picture(scene);
@@ -261,9 +263,9 @@ TEST(Picture, WritesAPngOfTheSceneSize) {
 
 TEST(Picture, ShowsPanelsOnTheLeftAndTheBodyBeside) {
   Scene scene = small_scene();
-  scene.render.size_px = {1280, 720};
+  scene.render->size_px = {1280, 720};
   Picture without(scene);
-  scene.render.show_panels = true;
+  scene.render->show_panels = true;
   Picture with(scene);
   for (Picture* picture : {&without, &with}) {
     show(*picture, cube);
@@ -285,7 +287,7 @@ TEST(Picture, ShowsPanelsOnTheLeftAndTheBodyBeside) {
 TEST(Picture, DrawsWiresOverTheSurface) {
   Scene scene = small_scene();
   Picture plain(scene);
-  scene.render.show_wire = true;
+  scene.render->show_wire = true;
   Picture wired(scene);
   for (Picture* picture : {&plain, &wired}) {
     show(*picture, cube);

@@ -5,6 +5,7 @@
 
 #include "common/scene/body_spec.h"
 #include "common/scene/device_spec.h"
+#include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
 
@@ -135,8 +136,8 @@ void show(Picture& picture, const VoxelSurface& surface, std::uint32_t revision)
 }
 
 Camera camera_of_cube(const Scene& scene, double side_m) {
-  Camera camera(scene.render.camera);
-  camera.set_picture(scene.render.size_px[0], scene.render.size_px[1], 0);
+  Camera camera(scene.render->camera);
+  camera.set_picture(scene.render->size_px[0], scene.render->size_px[1], 0);
   camera.fit({Vec3::Constant(-side_m / 2), Vec3::Constant(side_m / 2)});
   return camera;
 }
@@ -155,10 +156,10 @@ Scene small_scene() {
   tool.name = "finger";
   tool.device = "hand";
   scene.tools = {tool};
-  scene.render.size_px = {320, 240};
-  scene.render.camera.yaw = 0;
-  scene.render.camera.pitch = 0;
-  scene.render.show_panels = false;
+  scene.render->size_px = {320, 240};
+  scene.render->camera.yaw = 0;
+  scene.render->camera.pitch = 0;
+  scene.render->show_panels = false;
   return scene;
 }
 

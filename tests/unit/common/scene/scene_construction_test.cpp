@@ -11,6 +11,7 @@
 #include "common/scene/body_spec.h"
 #include "common/scene/load_scene.h"
 #include "common/scene/scene.h"
+#include "common/scene/surroundings_spec.h"
 #include "common/scene/tool_spec.h"
 #include "tests/unit/common/scene/sample_scene.h"
 

@@ -8,7 +8,11 @@
 #include "common/scene/device_spec.h"
 #include "common/scene/load_scene.h"
 #include "common/scene/material_spec.h"
+#include "common/scene/physics_spec.h"
+#include "common/scene/record_spec.h"
+#include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
+#include "common/scene/surroundings_spec.h"
 #include "common/scene/tool_spec.h"
 #include "tests/unit/common/scene/sample_scene.h"
 
@@ -33,16 +37,16 @@ TEST(SceneReader, ReadsTheWorldAndTheStepInSI) {
   EXPECT_EQ(scene.title, "Every key");
   EXPECT_EQ(scene.seed, 7u);
   EXPECT_EQ(scene.gravity, Vec3(0, 0.5, -9.81));
-  EXPECT_EQ(scene.physics.integrator, Integrator::velocity_verlet);
-  EXPECT_THAT(scene.physics.step, Optional(testing::DoubleEq(0.25e-3)));
-  EXPECT_EQ(scene.physics.safety, 0.5);
-  EXPECT_EQ(scene.physics.precision, Precision::double_);
-  EXPECT_EQ(scene.physics.threads, 2);
-  EXPECT_EQ(scene.physics.frame_Hz, 500);
+  EXPECT_EQ(scene.physics->integrator, Integrator::velocity_verlet);
+  EXPECT_THAT(scene.physics->step, Optional(testing::DoubleEq(0.25e-3)));
+  EXPECT_EQ(scene.physics->safety, 0.5);
+  EXPECT_EQ(scene.physics->precision, Precision::double_);
+  EXPECT_EQ(scene.physics->threads, 2);
+  EXPECT_EQ(scene.physics->frame_Hz, 500);
   ASSERT_TRUE(scene.floor);
   EXPECT_DOUBLE_EQ(scene.floor->height, -0.05);
-  EXPECT_FALSE(scene.contact.enabled);
-  EXPECT_EQ(scene.contact.distance, ContactDistance::paper);
+  EXPECT_FALSE(scene.contact->enabled);
+  EXPECT_EQ(scene.contact->distance, ContactDistance::paper);
 }
 
 TEST(SceneReader, ReadsATissueAndThePapersConstants) {
@@ -138,25 +142,25 @@ TEST(SceneReader, PassesKeysItDoesNotKnowToTheDriverAsText) {
 
 TEST(SceneReader, ReadsWhatIsSeenAndKept) {
   const auto scene = parsed(full_scene);
-  EXPECT_THAT(scene.render.size_px, ElementsAre(640, 480));
-  EXPECT_DOUBLE_EQ(scene.render.camera.yaw, std::numbers::pi / 2);
-  EXPECT_DOUBLE_EQ(scene.render.camera.pitch, std::numbers::pi / 6);
-  EXPECT_THAT(scene.render.camera.distance, Optional(testing::DoubleEq(0.4)));
-  ASSERT_TRUE(scene.render.camera.target);
-  EXPECT_TRUE(scene.render.camera.target->isApprox(Vec3(0, 0, 0.01)));
-  EXPECT_DOUBLE_EQ(scene.render.camera.field_of_view, std::numbers::pi / 4);
-  EXPECT_THAT(scene.render.threshold, Optional(226.0));
-  EXPECT_FALSE(scene.render.show_tool);
-  EXPECT_TRUE(scene.render.show_force);
-  EXPECT_FALSE(scene.render.show_panels);
-  EXPECT_TRUE(scene.render.show_wire);
-  EXPECT_TRUE(scene.render.show_fragments);
-  EXPECT_EQ(scene.render.rate_Hz, 25);
-  EXPECT_EQ(scene.render.most_frames, 50);
-  EXPECT_EQ(scene.render.most_frame_bytes, 20e6);
-  EXPECT_TRUE(scene.record.positions);
-  EXPECT_FALSE(scene.record.forces);
-  EXPECT_EQ(scene.record.rate_Hz, 100);
+  EXPECT_THAT(scene.render->size_px, ElementsAre(640, 480));
+  EXPECT_DOUBLE_EQ(scene.render->camera.yaw, std::numbers::pi / 2);
+  EXPECT_DOUBLE_EQ(scene.render->camera.pitch, std::numbers::pi / 6);
+  EXPECT_THAT(scene.render->camera.distance, Optional(testing::DoubleEq(0.4)));
+  ASSERT_TRUE(scene.render->camera.target);
+  EXPECT_TRUE(scene.render->camera.target->isApprox(Vec3(0, 0, 0.01)));
+  EXPECT_DOUBLE_EQ(scene.render->camera.field_of_view, std::numbers::pi / 4);
+  EXPECT_THAT(scene.render->threshold, Optional(226.0));
+  EXPECT_FALSE(scene.render->show_tool);
+  EXPECT_TRUE(scene.render->show_force);
+  EXPECT_FALSE(scene.render->show_panels);
+  EXPECT_TRUE(scene.render->show_wire);
+  EXPECT_TRUE(scene.render->show_fragments);
+  EXPECT_EQ(scene.render->rate_Hz, 25);
+  EXPECT_EQ(scene.render->most_frames, 50);
+  EXPECT_EQ(scene.render->most_frame_bytes, 20e6);
+  EXPECT_TRUE(scene.record->positions);
+  EXPECT_FALSE(scene.record->forces);
+  EXPECT_EQ(scene.record->rate_Hz, 100);
 }
 
 TEST(SceneReader, GivesTheDefaultsOfTheHeaderToTheShortestScene) {
@@ -164,17 +168,17 @@ TEST(SceneReader, GivesTheDefaultsOfTheHeaderToTheShortestScene) {
   const Scene fresh;
   EXPECT_EQ(scene.seed, 1u);
   EXPECT_EQ(scene.gravity, Vec3(0, 0, -9.81));
-  EXPECT_FALSE(scene.physics.step);
-  EXPECT_EQ(scene.physics.safety, fresh.physics.safety);
-  EXPECT_EQ(scene.physics.frame_Hz, 1000);
+  EXPECT_FALSE(scene.physics->step);
+  EXPECT_EQ(scene.physics->safety, fresh.physics->safety);
+  EXPECT_EQ(scene.physics->frame_Hz, 1000);
   EXPECT_EQ(scene.bodies.at(0).lattice, LatticeKind::fcc);
   EXPECT_EQ(scene.bodies.at(0).at, Vec3(0, 0, 0));
   EXPECT_FALSE(scene.floor);
-  EXPECT_TRUE(scene.contact.enabled);
+  EXPECT_TRUE(scene.contact->enabled);
   EXPECT_THAT(scene.tools, IsEmpty());
-  EXPECT_TRUE(scene.render.show_panels);
-  EXPECT_FALSE(scene.render.threshold);
-  EXPECT_TRUE(scene.record.forces);
+  EXPECT_TRUE(scene.render->show_panels);
+  EXPECT_FALSE(scene.render->threshold);
+  EXPECT_TRUE(scene.record->forces);
 }
 
 TEST(SceneReader, KeepsMaterialsInTheOrderOfTheFile) {

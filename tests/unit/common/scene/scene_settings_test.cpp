@@ -6,6 +6,8 @@
 #include "common/scene/device_spec.h"
 #include "common/scene/load_scene.h"
 #include "common/scene/material_spec.h"
+#include "common/scene/physics_spec.h"
+#include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/shape_spec.h"
 #include "common/scene/tool_spec.h"
@@ -34,7 +36,7 @@ std::string complaint(const std::string& setting) {
 }
 
 TEST(SceneSettings, ReplaceAValueOfTheFile) {
-  EXPECT_EQ(with({"physics.threads=1"}).physics.threads, 1);
+  EXPECT_EQ(with({"physics.threads=1"}).physics->threads, 1);
   EXPECT_EQ(with({"seed=99"}).seed, 99u);
   EXPECT_EQ(*with({"material.skin.modulus_kPa=5.5"}).material("skin").modulus, 5500);
 }
@@ -86,19 +88,19 @@ TEST(SceneSettings, ReachIntoInlineTables) {
   EXPECT_EQ(std::get<VolumeShape>(with({"body.head.deformable.radius_voxels=3"}).bodies[0].shape)
                 .deformable.radius_voxels,
             3);
-  EXPECT_DOUBLE_EQ(*with({"render.camera.distance_mm=123"}).render.camera.distance, 0.123);
+  EXPECT_DOUBLE_EQ(*with({"render.camera.distance_mm=123"}).render->camera.distance, 0.123);
 }
 
 TEST(SceneSettings, TakeABareWordAsText) {
-  EXPECT_EQ(with({"physics.precision=single"}).physics.precision, Precision::single_);
+  EXPECT_EQ(with({"physics.precision=single"}).physics->precision, Precision::single_);
   EXPECT_EQ(with({"title=Two words"}).title, "Two words");
   EXPECT_EQ(with({"title=\"quoted\""}).title, "quoted");
 }
 
 TEST(SceneSettings, MakeTablesThatTheFileLacks) {
   const auto scene = parse_scene(least_scene, "s.toml", {"physics.threads=3", "render.camera.yaw_deg=0"});
-  EXPECT_EQ(scene.physics.threads, 3);
-  EXPECT_EQ(scene.render.camera.yaw, 0);
+  EXPECT_EQ(scene.physics->threads, 3);
+  EXPECT_EQ(scene.render->camera.yaw, 0);
 }
 
 TEST(SceneSettings, LaterOnesWin) { EXPECT_EQ(with({"seed=3", "seed=4"}).seed, 4u); }

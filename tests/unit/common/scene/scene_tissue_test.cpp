@@ -5,6 +5,8 @@
 #include "common/scene/body_spec.h"
 #include "common/scene/load_scene.h"
 #include "common/scene/material_spec.h"
+#include "common/scene/physics_spec.h"
+#include "common/scene/record_spec.h"
 #include "common/scene/scene.h"
 #include "tests/unit/common/scene/sample_scene.h"
 
@@ -162,15 +164,15 @@ TEST(Regions, AreAtMostSixtyFour) {
 }
 
 TEST(Physics, SleepsUnlessToldNotTo) {
-  EXPECT_TRUE(parsed(scene_with("", ball)).physics.sleep);
-  EXPECT_FALSE(parsed(scene_with("", ball), {"physics.sleep=false"}).physics.sleep);
+  EXPECT_TRUE(parsed(scene_with("", ball)).physics->sleep);
+  EXPECT_FALSE(parsed(scene_with("", ball), {"physics.sleep=false"}).physics->sleep);
   EXPECT_THAT(one_complaint(scene_with("", ball), {"physics.sleep=deep"}), HasSubstr("write true or false"));
 }
 
 TEST(Record, KeepsTheEnergyUnlessAListLeavesItOut) {
-  EXPECT_TRUE(parsed(scene_with("", ball)).record.energy);
-  EXPECT_FALSE(parsed(scene_with("", ball), {"record.what=[\"forces\"]"}).record.energy);
-  const auto record = parsed(scene_with("", ball), {"record.what=[\"energy\"]"}).record;
+  EXPECT_TRUE(parsed(scene_with("", ball)).record->energy);
+  EXPECT_FALSE(parsed(scene_with("", ball), {"record.what=[\"forces\"]"}).record->energy);
+  const auto record = *parsed(scene_with("", ball), {"record.what=[\"energy\"]"}).record;
   EXPECT_TRUE(record.energy);
   EXPECT_FALSE(record.forces);
 }

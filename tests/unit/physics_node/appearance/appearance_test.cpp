@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "common/scene/body_spec.h"
+#include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
 #include "physics_node/appearance/colours.h"
@@ -247,7 +248,7 @@ TEST_P(BrokenAppearance, ColoursFragmentsOnRequest) {
     Recipe recipe = falling(GetParam());
     recipe.body = "velocity_m_per_s = [0, 0, -3]";
     Scene scene = scene_of(recipe);
-    scene.render.show_fragments = asked;
+    scene.render->show_fragments = asked;
     World world(scene);
     Appearance appearance(world, std::nullopt);
     for (int n = 0; n < 120; ++n) world.frame({});

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "common/message/vec3.h"
+#include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
 #include "physics_node/world.h"
 #include "tests/support/physics/pressed_world.h"
@@ -82,7 +83,7 @@ TEST(ToolCoupling, OffersTheNormalThatHeldTissueHasAtRest) {
 /// Frames of 50 ms of a force that grows: the displacement of a frame's beginning belongs to the force of the last frame.
 TEST(ToolCoupling, LearnsTheSameStiffnessFromAForceThatGrowsAsFromOneThatStands) {
   Scene scene = pressed_slab();
-  scene.physics.frame_Hz = 20;
+  scene.physics->frame_Hz = 20;
   World world(scene);
   ContactPatch patch;
   double most = 0;

@@ -10,6 +10,7 @@
 
 #include "common/error/error.h"
 #include "common/record/hdf5_file.h"
+#include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
 #include "physics_node/record/recorder.h"
@@ -114,7 +115,7 @@ TEST_F(Export, FollowsWhatYieldsAndBreaks) {
   EXPECT_LE(last["arrays"]["yielded_share"][1].get<double>(), 1.0);
   EXPECT_GT(last["cells"].get<int>(), first["cells"].get<int>()) << "cracks are open";
   // As many facets as the surface of the world has now: the last time is the last state.
-  const Surface now = make_surface(world_->body(0), scene_.render.threshold, 0);
+  const Surface now = make_surface(world_->body(0), scene_.render->threshold, 0);
   EXPECT_NEAR(last["cells"].get<double>(), static_cast<double>(now.facets.size()),
               0.2 * static_cast<double>(now.facets.size()));
 }

@@ -15,6 +15,7 @@
 #include "common/record/part_file.h"
 #include "common/record/volume.h"
 #include "common/scene/load_scene.h"
+#include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
 #include "physics_node/record/export_vtk.h"
 #include "physics_node/record/mend_record.h"
@@ -119,7 +120,7 @@ Outcome run_again(const std::string& path, int threads = 1) {
   const ScratchFolder files;
   SessionRecord record(path);
   auto laid_out = record.lay_out(files.path());
-  laid_out.scene.physics.threads = threads;
+  laid_out.scene.physics->threads = threads;
   World world(laid_out.scene);
   Replay replay(record, world);
   while (replay.frame()) {

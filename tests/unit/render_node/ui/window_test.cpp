@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/error/error.h"
+#include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
 #include "tests/unit/render_node/render_support.h"
 // Last: Xlib's macros.
@@ -22,8 +23,8 @@ namespace {
 TEST(Window, ShowsTheBodyAndThePanels) {
   ASSERT_TRUE(display_present());
   Scene scene = test::small_scene();
-  scene.render.size_px = {960, 540};
-  scene.render.show_panels = true;
+  scene.render->size_px = {960, 540};
+  scene.render->show_panels = true;
   ViewModel model(scene);
   render::Window window(scene, model);
   PanelFacts facts;
@@ -48,8 +49,8 @@ TEST(Window, ShowsTheBodyAndThePanels) {
 TEST(Window, LeadsAToolWithMouseWheelAndKeys) {
   Scene scene = test::small_scene();
   scene.title = "Led by mouse";
-  scene.render.size_px = {960, 540};
-  scene.render.show_panels = true;
+  scene.render->size_px = {960, 540};
+  scene.render->show_panels = true;
   ViewModel model(scene);
   render::Window window(scene, model, {0});
   PanelFacts facts;
@@ -119,8 +120,8 @@ TEST(Window, LeadsAToolWithMouseWheelAndKeys) {
 struct Shown {
   Shown(const std::string& title, int width, int height, bool pointed) : scene(test::small_scene()) {
     scene.title = title;
-    scene.render.size_px = {width, height};
-    scene.render.show_panels = true;
+    scene.render->size_px = {width, height};
+    scene.render->show_panels = true;
     model.emplace(scene);
     window.emplace(scene, *model, pointed ? std::vector<std::uint32_t>{0} : std::vector<std::uint32_t>{});
     facts.interactive = true;
