@@ -10,6 +10,7 @@
 
 #include "common/message/messages.h"
 #include "common/report/commit.h"
+#include "common/wire/convert.h"
 
 namespace palpate {
 namespace {

@@ -98,7 +98,7 @@ void Reader<M>::Inner::reject(const Broken& broken) noexcept {
   const bool first =
       std::all_of(counts.rejected.begin(), counts.rejected.end(), [](std::uint64_t n) { return n == 0; });
   ++counts.rejected[static_cast<std::size_t>(broken.reason)];
-  if (first) note(fmt::format("{}: {} is {}", Topic<M>::name, broken.field, text_of(broken.reason)));
+  if (first) note(fmt::format("{}: {} is {}", Topic<M>::name, name_of(broken), text_of(broken.reason)));
 }
 
 template <class M>

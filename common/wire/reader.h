@@ -1,5 +1,5 @@
 #pragma once
-// Receives one kind of message. M: any of the nine structs of common/message/messages.h. A sample that breaks a
+// Receives one kind of message. M: any of the structs of common/message/messages.h. A sample that breaks a
 // promise of its message is dropped whole and counted by reason; one of a process that may not speak here is not looked at.
 
 #include <array>

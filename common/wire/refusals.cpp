@@ -1,8 +1,16 @@
 #include "common/wire/refusals.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "common/wire/broken.h"
+
 namespace palpate {
+
+std::string name_of(const Broken& broken) {
+  return broken.list[0] == '\0' ? broken.field : fmt::format("{}.{}", broken.list, broken.field);
+}
 
 const char* text_of(RejectReason reason) noexcept {
   switch (reason) {

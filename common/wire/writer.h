@@ -1,5 +1,5 @@
 #pragma once
-// Publishes one kind of message. M: any of the nine structs of common/message/messages.h.
+// Publishes one kind of message. M: any of the structs of common/message/messages.h.
 
 #include <cstdint>
 #include <memory>

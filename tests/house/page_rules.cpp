@@ -89,6 +89,37 @@ void check_topics(const House& house, Words& breaches) {
   compare(breaches, page, listed, source, there);
 }
 
+/// fields() of a message names the fields of the IDL in its order, so that none is left out of conversion and checks.
+void check_messages(const House& house, Words& breaches) {
+  const std::string source = "idl/palpate.idl";
+  if (house.find(source) == nullptr) return;
+  static const std::regex structure("struct (\\w+) \\{"), field("^  (?:@key )?\\w+ (\\w+)(?:\\[\\w+\\])*;"),
+      named("visit(?:\\.\\w+)?\\(PALPATE_FIELD\\((\\w+)\\)"), header("^common/message/\\w+_messages\\.h$");
+  std::map<std::string, Words> declared, described;
+  const auto collect = [](const SourceFile& file, const std::regex& pattern,
+                          std::map<std::string, Words>& by) {
+    std::string name;
+    std::smatch match;
+    for (const auto& line : file.lines) {
+      if (std::regex_search(line, match, structure)) name = match[1];
+      if (std::regex_search(line, match, pattern) && match[1] != "version") by[name].push_back(match[1]);
+    }
+  };
+  collect(*house.find(source), field, declared);
+  std::map<std::string, std::string> place;
+  for (const auto& [path, file] : house.files) {
+    if (!std::regex_match(path, header)) continue;
+    std::map<std::string, Words> here;
+    collect(*file, named, here);
+    for (auto& [name, words] : here) place[name] = path, described[name] = std::move(words);
+  }
+  if (described.empty()) return;
+  for (const auto& [name, fields] : declared)
+    if (described[name] != fields)
+      breaches.push_back((place.contains(name) ? place[name] : source) + ":1: fields() of " + name +
+                         " does not name the fields of " + source + " in its order");
+}
+
 void check_stages(const House& house, Words& breaches) {
   const std::string page = "docs/reference/stages.md", source = "physics_node/step/step_report.h";
   if (house.find(page) == nullptr || house.find(source) == nullptr) return;
@@ -223,6 +254,7 @@ std::vector<std::string> page_breaches(const std::vector<SourceFile>& files) {
   Words breaches;
   check_stages(house, breaches);
   check_topics(house, breaches);
+  check_messages(house, breaches);
   check_driver_options(house, breaches);
   check_summary_words(house, breaches);
   check_named_files(house, breaches);

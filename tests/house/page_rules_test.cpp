@@ -23,6 +23,17 @@ TEST_F(PlantedHouse, RefusesTopicsThatAreNotThoseOfTheIdl) {
               HasSubstr("\"Tip.q double\" is not in idl/palpate.idl"));
 }
 
+TEST_F(PlantedHouse, RefusesMessagesThatLeaveFieldsOfTheIdlOut) {
+  plant("idl/palpate.idl",
+        "@final @topic struct Tip {\n  uint32 version;\n  @key uint32 tool;\n  double p[3];\n};\n");
+  const std::string page = "common/message/tip_messages.h", begin = "#pragma once\nstruct Tip {\n",
+                    tool = "visit(PALPATE_FIELD(tool), any);\n", p = "visit(PALPATE_FIELD(p), any);\n";
+  EXPECT_TRUE(is_fine(page, begin + tool + p));
+  EXPECT_THAT(breach(page, begin + tool),
+              HasSubstr("fields() of Tip does not name the fields of idl/palpate.idl"));
+  EXPECT_THAT(breach(page, begin + p + tool), HasSubstr("in its order"));
+}
+
 TEST_F(PlantedHouse, RefusesStagesThatAreNotThoseOfTheEnum) {
   plant("physics_node/step/step_report.h",
         "enum class Stage : std::size_t {\n  take,  // first\n  push,\n};\n");

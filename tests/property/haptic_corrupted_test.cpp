@@ -195,7 +195,7 @@ TYPED_TEST(Corrupted, ComesBackWholeIfNothingIsChanged) {
   TypeParam message;
   ASSERT_GT(wire.bytes().size(), sizeof(TypeParam) / 2);
   ASSERT_TRUE(wire.pass(wire.bytes(), message));
-  EXPECT_TRUE(same(message, whole<TypeParam>()));
+  EXPECT_TRUE(message == whole<TypeParam>());
 }
 
 TYPED_TEST(Corrupted, IsRefusedWhereverItIsCutShort) {

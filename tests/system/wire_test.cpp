@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "common/error/error.h"
+#include "common/wire/convert.h"
 #include "common/wire/loopback_sockets.h"
 #include "common/wire/reader.h"
 #include "common/wire/topic.h"
@@ -21,7 +22,6 @@ namespace {
 
 using namespace std::chrono_literals;
 using test::random_message;
-using test::same;
 
 /// Calls `done` every millisecond until it is true. @return false if that takes too long
 template <class Done>
@@ -64,7 +64,7 @@ TYPED_TEST(Wire, CarriesAMessageFromWriterToReader) {
   ASSERT_TRUE(writer.write(*sent));
   ASSERT_TRUE(reader.wait(test::patience));
   ASSERT_TRUE(reader.take(*got));
-  EXPECT_TRUE(same(*sent, *got));
+  EXPECT_TRUE(*sent == *got);
   EXPECT_FALSE(reader.take(*got));
   EXPECT_FALSE(reader.wait(1ms));
   EXPECT_EQ(reader.counts().received, 1U);

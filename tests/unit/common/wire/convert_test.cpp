@@ -3,13 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "common/wire/topic.h"
+#include "tests/support/reference/page.h"
+#include "tests/unit/common/wire/break_fields.h"
 #include "tests/unit/common/wire/sample_messages.h"
 
 namespace palpate {
 namespace {
 
 using test::random_message;
-using test::same;
 
 template <class M>
 class Conversion : public testing::Test {};
@@ -25,7 +26,7 @@ TYPED_TEST(Conversion, BringsEveryFieldBack) {
     to_wire(*sent, *wire);
     const Verdict verdict = from_wire(*wire, *got);
     ASSERT_FALSE(verdict) << "seed " << seed << ": " << verdict->field << " is " << text_of(verdict->reason);
-    ASSERT_TRUE(same(*sent, *got)) << "seed " << seed;
+    ASSERT_TRUE(*sent == *got) << "seed " << seed;
   }
 }
 
@@ -45,7 +46,48 @@ TYPED_TEST(Conversion, LeavesTheMessageAloneWhenItRejects) {
   const TypeParam before = random_message<TypeParam>(3);
   TypeParam message = before;
   EXPECT_TRUE(from_wire(wire, message));
-  EXPECT_TRUE(same(before, message));
+  EXPECT_TRUE(before == message);
+}
+
+TYPED_TEST(Conversion, IsAsLongAsItsPageSays) {
+  using Wire = typename Topic<TypeParam>::Wire;
+  std::string size = std::to_string(sizeof(Wire));
+  if (size.size() > 3) size.insert(size.size() - 3, ",");
+  const std::string text = test::text_of_source("docs/reference/topics.md"),
+                    line = std::string("## `") + Topic<TypeParam>::name + "`\n\n" + size + " bytes, ";
+  EXPECT_NE(text.find(line), text.npos) << "docs/reference/topics.md lacks " << line;
+}
+
+/// With something in all arrays.
+template <class M>
+std::unique_ptr<M> full_message() {
+  for (std::uint64_t seed = 1;; ++seed) {
+    auto message = std::make_unique<M>(random_message<M>(seed));
+    bool full = true;
+    M::fields(test::LooksForEmpty<M>(*message, full));
+    if (full) return message;
+  }
+}
+
+TYPED_TEST(Conversion, NamesTheFieldWhosePromiseIsBroken) {
+  const auto wire = std::make_unique<typename Topic<TypeParam>::Wire>();
+  const auto untouched = std::make_unique<TypeParam>();
+  const auto message = full_message<TypeParam>();
+  int n = 0;
+  for (;; ++n) {
+    to_wire(*message, *wire);
+    ASSERT_FALSE(judge(*wire)) << "the sample to be broken must be whole";
+    test::Breach breach;
+    int which = n;
+    TypeParam::fields(test::BreakField(*wire, which, breach));
+    if (breach.field.empty()) break;
+    const Verdict verdict = from_wire(*wire, *untouched);
+    ASSERT_TRUE(verdict) << "breach " << n << ", " << breach.field;
+    EXPECT_EQ(name_of(*verdict), breach.field) << "breach " << n;
+    EXPECT_EQ(text_of(verdict->reason), text_of(breach.reason)) << breach.field;
+    ASSERT_TRUE(*untouched == TypeParam{}) << breach.field << " was let through in part";
+  }
+  EXPECT_GT(n, 5);
 }
 
 // Any bytes: no verdict may read beyond an array or make an enumeration out of a number that is none (sanitizers watch),
