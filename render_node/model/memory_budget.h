@@ -9,7 +9,7 @@
 
 namespace palpate::render {
 
-/// Bytes as they came, of all bodies together: surfaces shown, surfaces that still lack chunks, blocks that wait for theirs.
+/// Bytes as they came, of all bodies together: surfaces shown, surfaces that still lack chunks, pages and blocks that wait for theirs.
 struct MemoryBudget {
   static constexpr std::size_t most = std::size_t{128} << 20;  // 4 million vertices with their facets
   std::size_t used = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// A complete visible surface of one body, put together from BodySurface chunks.
+// A complete visible surface of one body, put together from BodySurface chunks and changed by SurfaceChange pages.
 
 #include <array>
 #include <cstdint>

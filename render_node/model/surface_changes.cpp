@@ -82,7 +82,8 @@ bool SurfaceChanges::fits(const Surface& surface, Pages::const_iterator last) co
 }
 
 ChunkFate SurfaceChanges::carry_out(Surface& surface, MemoryHold& memory) {
-  if (surface.revision != revision_) return ChunkFate::kept;
+  if (surface.revision > revision_) begin(surface.revision);
+  if (surface.revision < revision_) return ChunkFate::kept;
   const auto last = last_of_the_complete(surface);
   if (last == waiting_.end()) return ChunkFate::kept;
   if (!fits(surface, last)) return give_up(ChunkFate::malformed);

@@ -193,6 +193,20 @@ TEST(SurfaceChanges, RefuseWhatNoSurfaceCanBecome) {
       << "the first change is still to come";
 }
 
+/// DDS keeps pages of a surface that has been sent whole since, and gives them to who comes late.
+TEST(SurfaceChanges, LetGoOfPagesWhenANewerSurfaceIsThere) {
+  Reader reader;
+  reader.surface.revision = revision - 1;
+  for (const auto& page : four_changes()) EXPECT_EQ(reader.take(page), ChunkFate::kept);
+  EXPECT_GT(reader.budget->used, 0U);
+  reader.surface = triangle();
+  reader.surface.revision = revision + 1;
+  EXPECT_EQ(reader.changes.carry_out(reader.surface, reader.memory), ChunkFate::kept);
+  EXPECT_EQ(reader.budget->used, 0U);
+  EXPECT_EQ(reader.take(four_changes()[0]), ChunkFate::stale);
+  expect_same(reader.surface, triangle());
+}
+
 /// A page of 1.3 kB that says it is one of 16,384.
 TEST(SurfaceChanges, TakeMemoryForWhatHasComeAndNoMoreThanTheirBudget) {
   Reader reader;

@@ -21,7 +21,10 @@ TEST(ViewModel, CountsWhatIsAboutNothingKnown) {
   wrench.tool = 9;
   model.take(wrench);
   model.take(test::block_of(cube, 1, 1, 0));
-  EXPECT_EQ(model.samples_ignored(), 4U);
+  SurfaceChange page;
+  page.body = 1;
+  model.take(page);
+  EXPECT_EQ(model.samples_ignored(), 5U);
   EXPECT_FALSE(model.anything_to_see());
 }
 
