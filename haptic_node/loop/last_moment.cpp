@@ -6,6 +6,7 @@
 #include <chrono>
 #include <csignal>
 
+#include "common/process/silent_thread.h"
 #include "haptic_node/loop/realtime.h"
 #include "haptic_node/loop/realtime_loop.h"
 
@@ -14,21 +15,11 @@ namespace {
 
 constexpr auto step = std::chrono::milliseconds(20);
 
-/// A thread that gets no signal, so that it is there when others are busy with one.
-std::thread without_signals(auto&& body) {
-  sigset_t all, before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
-  std::thread thread(body);
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  return thread;
-}
-
 }  // namespace
 
 LastMoment::LastMoment(std::int64_t patience_ns) : patience_ns_(patience_ns) {
   sem_init(&wake_, 0, 0);
-  thread_ = without_signals([this] { wait(); });
+  thread_ = silent_thread([this] { wait(); });
 }
 
 LastMoment::~LastMoment() {
