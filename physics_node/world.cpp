@@ -17,7 +17,7 @@
 #include "common/scene/tool_spec.h"
 #include "physics_node/forecast/memory_need.h"
 #include "physics_node/forecast/speed_forecast.h"
-#include "physics_node/step/stable_step.h"
+#include "physics_node/step/lattice/stable_step.h"
 
 namespace palpate::physics {
 namespace {
@@ -25,13 +25,13 @@ namespace {
 constexpr Index masses_worth_a_team = 15000;  // below, a second thread brings little (palpate bench team)
 constexpr int most_substeps = 256;            // of a frame in which something fast is near
 
-/// @param n_chunks  of the body that has most: more threads than that would have nothing to do
-TeamChoice choose_threads(const Scene& scene, int spare_cores, Index n_masses, std::size_t n_chunks) {
+/// @param n_pieces  of the body that has most: more threads than that would have nothing to do
+TeamChoice choose_threads(const Scene& scene, int spare_cores, Index n_masses, std::size_t n_pieces) {
   if (scene.physics->threads > 0) return TeamChoice::always(scene.physics->threads);
   if (n_masses < masses_worth_a_team || scene.physics->integrator == Integrator::backward_euler)
     return TeamChoice::always(1);
   const int cores = static_cast<int>(std::thread::hardware_concurrency()) - spare_cores;
-  return TeamChoice::up_to(std::clamp(cores, 1, std::max(1, static_cast<int>(n_chunks))));
+  return TeamChoice::up_to(std::clamp(cores, 1, std::max(1, static_cast<int>(n_pieces))));
 }
 
 }  // namespace
@@ -43,23 +43,22 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
   for (const BodySpec& spec : scene.bodies) needs.push_back(memory_need(spec, scene));
   refuse_too_large(scene, needs, memory);
   Index n_masses = 0;
-  std::size_t n_chunks = 0;
+  std::size_t n_pieces = 0;
   stable_dt_ = std::numeric_limits<double>::infinity();
   const bool feels = std::any_of(scene.tools.begin(), scene.tools.end(), meets_facets);
   for (const BodySpec& spec : scene.bodies) {
     Body body = build_body(spec, scene.materials);
     stable_dt_ = std::min(stable_dt_, stable_step(stiffest_mode(body), integrator));
-    n_masses += body.lattice.n_masses();
-    n_chunks = std::max(n_chunks, body.lattice.chunks.size());
+    n_masses += body.n_nodes();
+    n_pieces = std::max(n_pieces, body.n_pieces());
     MemoryNeed& need = needs[bodies_.size()];
     if (need.masses == 0) {  // of an image: now it is known
-      need.masses = static_cast<double>(body.lattice.n_masses());
+      need.masses = static_cast<double>(body.n_nodes());
       need.bytes += bytes_of_masses(need.masses, spec, scene);
       refuse_too_large(scene, needs, memory);
     }
     any_yields_ = any_yields_ || any_yields(body);
-    const Lattice& lattice = body.lattice;
-    const double bucket = 4 * lattice.spacing();
+    const double bucket = 4 * body.spacing();
     bodies_.push_back(make_body_model(std::move(body), scene.physics->precision, integrator));
     fragments_.push_back(any_yields(bodies_.back()->body()) ? std::make_unique<Fragments>(*bodies_.back())
                                                             : nullptr);
@@ -73,9 +72,9 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
   if (bodies_.size() > 1 || any_yields_) inside_ = std::make_unique<InsideOthers>(bodies_);
   if (scene.floor) planes_.push_back({Vec3::UnitZ(), scene.floor->height});
   if (scene.floor || !scene.walls.empty())
-    for (auto& body : bodies_) body->prepare_contact();
+    for (auto& body : bodies_) body->prepare_for(Disturbance::impulses);
   for (const WallSpec& wall : scene.walls) planes_.push_back({wall.normal, wall.normal.dot(wall.point)});
-  choice_ = choose_threads(scene, spare_cores, n_masses, n_chunks);
+  choice_ = choose_threads(scene, spare_cores, n_masses, n_pieces);
   if (choice_.most() > 1) team_ = std::make_unique<Team>(choice_.most());
   gathered_.reserve(toolbox_.pressing.size() * ToolCoupling::most_forces);
 

@@ -12,7 +12,7 @@
 #include "bench/subcommands.h"
 #include "common/error/error.h"
 #include "common/process/checked_option.h"
-#include "physics_node/step/element_context.h"
+#include "physics_node/step/lattice/element_context.h"
 
 namespace palpate::bench {
 namespace {

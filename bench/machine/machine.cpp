@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "common/report/commit.h"
-#include "physics_node/step/element_context.h"
+#include "physics_node/step/lattice/element_context.h"
 
 namespace palpate::bench {
 namespace {

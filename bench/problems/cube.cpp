@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "physics_node/step/stable_step.h"
+#include "physics_node/step/lattice/stable_step.h"
 
 namespace palpate::bench {
 namespace {

@@ -13,7 +13,7 @@ std::vector<Index> surface_of(const BodyModel& body) { return Candidates(body, t
 
 int count_inside(const BodyModel& inner, std::span<const Index> masses, const BodyModel& outer) {
   const Lattice& lattice = outer.body().lattice;
-  const auto mask = [&](Index cell) { return outer.mask(cell); };
+  const auto mask = [&](Index cell) { return outer.adjacency().live_elements(cell); };
   const auto patterns = triangle_patterns(lattice);
   std::vector<Triangle> surface;
   for (const Index cell : lattice.masses)

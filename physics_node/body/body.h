@@ -4,17 +4,21 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "common/math/vec3.h"
 #include "common/scene/scene_fwd.h"
+#include "physics_node/body/adjacency.h"
 #include "physics_node/body/cells.h"
 #include "physics_node/body/element_law.h"
 #include "physics_node/lattice/lattice.h"
 
 namespace palpate::physics {
 
+/// A node is known by its number alone, which is below `capacity`, and for which nobody outside the rooms that make and step
+/// bodies computes.
 struct Body {
   std::string name;
   Lattice lattice;
@@ -30,6 +34,22 @@ struct Body {
   std::vector<Index>
       handle;               // storage cells of the masses that a hand drives, in storage order; of tools only
   Vec3 tip = Vec3::Zero();  // where the hand's tip is while the body is at rest: at_mm of the scene [m]
+
+  /// All nodes, in a fixed order.
+  std::span<const Index> nodes() const noexcept { return lattice.masses; }
+  Index n_nodes() const noexcept { return lattice.n_masses(); }
+  /// The number of every node is below this.
+  Index capacity() const noexcept { return lattice.n_cells(); }
+  Vec3 rest_position(Index node) const noexcept { return lattice.rest_position(node); }  // [m]
+  /// How far neighbours lie apart at most [m].
+  double spacing() const noexcept { return lattice.spacing(); }
+  std::int64_t n_elements() const { return lattice.n_elements(); }
+  Adjacency adjacency() const noexcept { return Adjacency(lattice); }  // as loaded
+  /// Pieces of a step that threads may share.
+  std::size_t n_pieces() const noexcept { return lattice.chunks.size(); }
+  double longest_element() const noexcept {  // at rest [m]
+    return *std::max_element(lattice.rest_length.begin(), lattice.rest_length.end());
+  }
 };
 
 /// The law of the mass in a storage cell.

@@ -9,11 +9,8 @@ namespace {
 
 /// With every element, whatever is broken by now.
 Surface surface_as_loaded(const Body& body) {
-  std::vector<Mask> masks;
-  for (const Index mass : body.lattice.masses)
-    masks.push_back(body.lattice.mask[static_cast<std::size_t>(mass)]);
   LiveElements all(body);
-  all.copy(body, masks);
+  all.copy(body, body.adjacency());
   return make_surface(body, all, std::nullopt, 0);
 }
 
@@ -59,7 +56,7 @@ void Boundary::prepare_to_follow() {
   waits_.resize(n);
   queue_.resize(n);
   // Why: a body that is half crumbs has about as many open facets as masses.
-  open_.resize(body_.body().lattice.masses.size() + 4096);
+  open_.resize(body_.body().nodes().size() + 4096);
   restart();
 }
 
@@ -115,7 +112,7 @@ Vec3 Boundary::position(std::uint32_t facet, std::size_t corner, const NodeMotio
 
 Vec3 Boundary::rest(std::uint32_t facet, std::size_t corner) const noexcept {
   if (is_loaded(facet)) return surface_.rest[surface_.facets[facet][corner]];
-  return body_.body().lattice.rest_position(open_at(facet).masses[corner]);
+  return body_.body().rest_position(open_at(facet).masses[corner]);
 }
 
 Vec3 Boundary::centroid(std::uint32_t facet, const NodeMotion& moving) const noexcept {

@@ -6,14 +6,15 @@ LiveElements::LiveElements(const Body& body) : mask_(static_cast<std::size_t>(bo
 
 LiveElements::LiveElements(const Topology& moving) : LiveElements(moving.body()) { copy(moving); }
 
-void LiveElements::copy(const Topology& moving) {
-  for (const Index cell : moving.body().lattice.masses)
-    mask_[static_cast<std::size_t>(cell)] = moving.mask(cell);
+void LiveElements::copy(const Topology& moving) { copy(moving.body(), moving.adjacency()); }
+
+void LiveElements::copy(const Body& body, const Adjacency& from) {
+  for (const Index node : body.nodes()) mask_[static_cast<std::size_t>(node)] = from.live_elements(node);
 }
 
-void LiveElements::copy(const Body& body, std::span<const Mask> masks) {
-  for (std::size_t n = 0; n < body.lattice.masses.size(); ++n)
-    mask_[static_cast<std::size_t>(body.lattice.masses[n])] = masks[n];
+void LiveElements::copy(const Body& body, std::span<const Mask> recorded) {
+  for (std::size_t n = 0; n < body.nodes().size(); ++n)
+    mask_[static_cast<std::size_t>(body.nodes()[n])] = recorded[n];
 }
 
 LiveNet::LiveNet(const Lattice& lattice, std::span<const Mask> masks) : lattice_(lattice), masks_(masks) {

@@ -14,13 +14,14 @@ namespace palpate::physics {
 
 class LiveElements {
  public:
-  /// Copies the masks of all masses. Cost: one virtual call per mass.
+  /// Those alive now.
   explicit LiveElements(const Topology& moving);
   /// None alive.
   explicit LiveElements(const Body& body);
   void copy(const Topology& moving);
-  /// From the masks of all masses, in storage order, as a record holds them.
-  void copy(const Body& body, std::span<const Mask> masks);
+  void copy(const Body& body, const Adjacency& from);
+  /// Of all nodes, in their order, as a record holds them.
+  void copy(const Body& body, std::span<const Mask> recorded);
 
   /// Bit d: the element in direction d lives.
   Mask mask(Index cell) const { return mask_[static_cast<std::size_t>(cell)]; }

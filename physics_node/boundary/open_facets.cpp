@@ -8,8 +8,9 @@ namespace palpate::physics {
 
 void Boundary::follow() noexcept {
   if (!sites_) return;
-  if (body_.fresh_overflow()) return restart();
-  for (const Break& broken : body_.fresh_breaks()) mark(broken.first), mark(broken.other);
+  const TopologyEvents events = body_.events();
+  if (events.overflow) return restart();
+  for (const EdgeGone& gone : events.edges_gone) mark(gone.a), mark(gone.b);
 }
 
 /// As loaded, and every mass that lacks an element is looked at anew.
@@ -21,10 +22,9 @@ void Boundary::restart() noexcept {
   queue_begin_ = n_queued_ = n_used_ = n_open_ = 0;
   free_ = none;
   changed_all_ = ++revision_;
-  const Lattice& lattice = body_.body().lattice;
   if (body_.breaks() == 0) return;
-  for (const Index mass : lattice.masses)
-    if (body_.mask(mass) != lattice.mask[static_cast<std::size_t>(mass)]) mark(mass);
+  for (const Index node : body_.body().nodes())
+    if (body_.adjacency().has_lost(node)) mark(node);
 }
 
 void Boundary::mark(Index mass) noexcept {

@@ -12,7 +12,9 @@ namespace {
 class VoxelSites final : public SiteFacets {
  public:
   explicit VoxelSites(const Topology& moving)
-      : lattice_(moving.body().lattice), cells_(*moving.body().cells), now_(moving.body(), moving.masks()) {}
+      : lattice_(moving.body().lattice),
+        cells_(*moving.body().cells),
+        now_(moving.body(), moving.adjacency().of_all()) {}
 
   std::size_t n_sites() const noexcept override { return cells_.filled.size(); }
 
@@ -71,7 +73,7 @@ class VoxelSites final : public SiteFacets {
 class FccSites final : public SiteFacets {
  public:
   explicit FccSites(const Topology& moving)
-      : lattice_(moving.body().lattice), net_(lattice_, moving.masks()), numbers_(lattice_) {}
+      : lattice_(moving.body().lattice), net_(lattice_, moving.adjacency().of_all()), numbers_(lattice_) {}
 
   std::size_t n_sites() const noexcept override { return numbers_.size(); }
 

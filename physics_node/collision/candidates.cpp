@@ -1,49 +1,21 @@
 #include "physics_node/collision/candidates.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numeric>
 
 namespace palpate::physics {
-namespace {
-
-/// Elements of a mass deep inside the lattice: 12; on voxels 18 of an even mass and 6 of an odd one.
-int complete_count(const Lattice& lattice, Index cell) {
-  if (lattice.kind == LatticeKind::fcc) return 12;
-  return (lattice.grid_of(cell).sum() & 1) == 0 ? 18 : 6;
-}
-
-/// Does space reach this mass although it may lack no element? On fcc where a mass is missing across one of the six octahedra
-/// that it is a corner of, on voxels where one of its eight cells is.
-bool lies_open(const Lattice& lattice, Index cell) {
-  if (lattice.kind != LatticeKind::fcc) return lattice.mass_share[static_cast<std::size_t>(cell)] < 1;
-  const Vec3i grid = lattice.grid_of(cell);
-  for (int axis = 0; axis < 3; ++axis)
-    for (const int by : {-2, 2})
-      if (lattice.mass_at(grid + by * Vec3i::Unit(axis)) < 0) return true;
-  return false;
-}
-
-}  // namespace
-
-bool Candidates::is_candidate(Index cell, Mask live) const {
-  const Lattice& lattice = moving_->body().lattice;
-  return std::popcount(live) < complete_count(lattice, cell) || (with_front_ && lies_open(lattice, cell));
-}
-
-Candidates::Candidates(const BodyModel& moving, bool with_front) : moving_(&moving), with_front_(with_front) {
-  const Lattice& lattice = moving.body().lattice;
-  length_ = lattice.spacing();
-  longest_element_ = 1.01 * *std::max_element(lattice.rest_length.begin(), lattice.rest_length.end());
-  number_.assign(static_cast<std::size_t>(lattice.n_cells()), -1);
-  most_ = lattice.masses.size();
-  if (!any_yields(moving.body())) {
-    const auto at_start = [&](Index cell) {
-      return is_candidate(cell, lattice.mask[static_cast<std::size_t>(cell)]);
-    };
-    most_ = static_cast<std::size_t>(std::count_if(lattice.masses.begin(), lattice.masses.end(), at_start));
-  }
+Candidates::Candidates(const BodyModel& moving, bool with_front)
+    : moving_(&moving), exposed_(moving.body(), with_front), with_front_(with_front) {
+  const Body& body = moving.body();
+  length_ = body.spacing();
+  longest_element_ = 1.01 * body.longest_element();
+  number_.assign(static_cast<std::size_t>(body.capacity()), -1);
+  most_ = body.nodes().size();
+  if (!any_yields(body))
+    most_ = static_cast<std::size_t>(std::count_if(body.nodes().begin(), body.nodes().end(), [&](Index node) {
+      return exposed_.contains(node, body.adjacency());
+    }));
   cell_.reserve(most_);
   rest_.reserve(most_);
   inverse_mass_.reserve(most_);
@@ -62,7 +34,7 @@ void Candidates::add(Index cell) noexcept {
   const Body& body = moving_->body();
   number = static_cast<std::int32_t>(cell_.size());
   cell_.push_back(cell);
-  rest_.push_back(body.lattice.rest_position(cell));
+  rest_.push_back(body.rest_position(cell));
   const bool driven = std::binary_search(body.handle.begin(), body.handle.end(), cell);
   inverse_mass_.push_back(driven ? 0.0 : body.inverse_mass[static_cast<std::size_t>(cell)]);
   x_.emplace_back(Vec3::Zero());
@@ -75,25 +47,23 @@ void Candidates::restart() noexcept {
   for (const Index cell : cell_) number_[static_cast<std::size_t>(cell)] = -1;
   cell_.clear(), rest_.clear(), inverse_mass_.clear();
   x_.clear(), last_x_.clear(), v_.clear(), v_move_.clear();
-  const Lattice& lattice = moving_->body().lattice;
-  for (const Index cell : lattice.masses)
-    if (is_candidate(cell, moving_->mask(cell))) add(cell);
+  const Adjacency& now = moving_->adjacency();
+  const auto nodes = moving_->body().nodes();
+  for (const Index cell : nodes)
+    if (exposed_.contains(cell, now)) add(cell);
   if (!with_front_ || moving_->breaks() == 0) return;
-  for (const Index cell : lattice.masses)
-    if (moving_->mask(cell) != lattice.mask[static_cast<std::size_t>(cell)]) add_front(cell);
+  for (const Index cell : nodes)
+    if (now.has_lost(cell)) add_front(cell);
 }
 
 void Candidates::add_front(Index cell) noexcept {
-  const Lattice& lattice = moving_->body().lattice;
-  const auto& offset = lattice.offset[static_cast<std::size_t>(lattice.row_kind(cell))];
-  for (Mask mask = moving_->mask(cell); mask != 0; mask &= mask - 1)
-    add(cell + offset[static_cast<std::size_t>(std::countr_zero(mask))]);
+  moving_->adjacency().each_neighbour(cell, [this](Index other) { add(other); });
 }
 
-void Candidates::follow(std::span<const Break> breaks) noexcept {
-  for (const Break& b : breaks) {
-    add(b.first), add(b.other);
-    if (with_front_) add_front(b.first), add_front(b.other);
+void Candidates::follow(std::span<const EdgeGone> edges) noexcept {
+  for (const EdgeGone& gone : edges) {
+    add(gone.a), add(gone.b);
+    if (with_front_) add_front(gone.a), add_front(gone.b);
   }
 }
 
@@ -112,14 +82,7 @@ bool Candidates::refresh(double dt, std::span<const std::uint32_t> which) noexce
 
 bool Candidates::are_joined(std::size_t a, std::size_t b) const noexcept {
   if ((rest_[a] - rest_[b]).squaredNorm() > longest_element_ * longest_element_) return false;
-  const Lattice& lattice = moving_->body().lattice;
-  const Index cell = cell_[a];
-  const Index away = cell_[b] - cell;
-  const auto& offset = lattice.offset[static_cast<std::size_t>(lattice.row_kind(cell))];
-  Mask mask = moving_->mask(cell);
-  for (; mask != 0; mask &= mask - 1)
-    if (offset[static_cast<std::size_t>(std::countr_zero(mask))] == away) return true;
-  return false;
+  return moving_->adjacency().are_joined(cell_[a], cell_[b]);
 }
 
 }  // namespace palpate::physics

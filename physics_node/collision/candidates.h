@@ -6,21 +6,21 @@
 #include <span>
 #include <vector>
 
+#include "physics_node/boundary/exposed_nodes.h"
 #include "physics_node/step/body_model.h"
 
 namespace palpate::physics {
 
 class Candidates {
  public:
-  /// @param with_front  also masses that lack no element but lie open, as at the bottom of a pit of the fcc surface or in an
-  ///   inner corner of voxels; and the neighbours of masses that lost elements, which a blade inside a cut meets
-  ///   next. Deviation: in the paper a mass touches only where it lacks an element itself.
+  /// @param with_front  also nodes that lie open (boundary/exposed_nodes.h), and the neighbours of those that lost elements, which a
+  ///   blade inside a cut meets next.
   Candidates(const BodyModel& moving, bool with_front);
 
   /// Finds them anew: after a reset, or when elements came back.
   void restart() noexcept;
   /// Takes the ends of elements that broke.
-  void follow(std::span<const Break> breaks) noexcept;
+  void follow(std::span<const EdgeGone> edges) noexcept;
 
   /// Reads where they were when the step of dt just integrated began, and how fast; with dt = 0 where they are now.
   /// @param which  of them; the others stay as they were last read
@@ -49,8 +49,6 @@ class Candidates {
   std::size_t most() const { return most_; }
 
  private:
-  /// @param live  its elements
-  bool is_candidate(Index cell, Mask live) const;
   void add(Index cell) noexcept;
   void add_front(Index cell) noexcept;
 
@@ -58,6 +56,7 @@ class Candidates {
   double length_ = 0;
   double longest_element_ = 0;  // at rest [m]
   std::size_t most_ = 0;
+  ExposedNodes exposed_;
   bool with_front_ = false;
   std::vector<Index> cell_;
   std::vector<Vec3> rest_, x_, v_, v_move_;

@@ -44,7 +44,7 @@ Collisions::Collisions(const BodyModels& bodies, const std::vector<std::unique_p
       apart_(bodies.size() * bodies.size(), 0.0),
       stays_near_(bodies.size() * bodies.size(), 0),
       smallest_L_(std::numeric_limits<double>::infinity()) {
-  for (const auto& body : bodies) body->prepare_contact();
+  for (const auto& body : bodies) body->prepare_for(Disturbance::impulses);
   if (swept_) swept_contact_ = std::make_unique<SweptContact>(bodies_, near_.most_facets());
   for (const auto& body : bodies_) smallest_L_ = std::min(smallest_L_, body.candidates().length());
 }

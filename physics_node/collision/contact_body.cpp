@@ -15,11 +15,11 @@ ContactBody::ContactBody(const BodyModel& moving, bool with_facets, bool with_fr
 }
 
 void ContactBody::follow_breaks() noexcept {
-  if (moving().fresh_overflow()) return restart();
-  const auto breaks = moving().fresh_breaks();
-  if (breaks.empty()) return;
+  const TopologyEvents events = moving().events();
+  if (events.overflow) return restart();
+  if (events.none()) return;
   changed_ = true;
-  candidates_.follow(breaks);
+  candidates_.follow(events.edges_gone);
   find_main_piece();
   if (facets_) facets_->restart(candidates_);
 }
@@ -40,7 +40,7 @@ void ContactBody::find_main_piece() noexcept {
 bool ContactBody::may_meet_itself(std::size_t candidate) const noexcept {
   const Index cell = candidates_.cell()[candidate];
   return fragments_ == nullptr || fragments_->label(cell) != main_piece_ ||
-         moving().mask(cell) != moving().body().lattice.mask[static_cast<std::size_t>(cell)];
+         moving().adjacency().has_lost(cell);
 }
 
 bool ContactBody::read(double dt, std::span<const std::uint32_t> which) noexcept {

@@ -5,8 +5,8 @@
 #include <array>
 #include <vector>
 
+#include "physics_node/boundary/exposed_triangles.h"
 #include "physics_node/collision/candidates.h"
-#include "physics_node/lattice/triangles.h"
 
 namespace palpate::physics {
 
@@ -22,7 +22,7 @@ class Facets {
   bool is_loose(std::uint32_t candidate) const { return in_facet_[candidate] == 0; }
 
  private:
-  TrianglePatterns patterns_;
+  ExposedTriangles triangles_;
   std::vector<Corners> facets_;
   std::vector<std::uint8_t> in_facet_;  // of each candidate
 };

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "common/scene/scene.h"
-#include "physics_node/body/build_lattice.h"
 
 namespace palpate::physics {
 namespace {
@@ -35,7 +34,7 @@ Eigen::AlignedBox3d scenery_box(const Cells& cells) {
 
 std::size_t masses_of(const BodyModels& bodies) {
   std::size_t n = 0;
-  for (const auto& body : bodies) n += static_cast<std::size_t>(body->body().lattice.n_masses());
+  for (const auto& body : bodies) n += static_cast<std::size_t>(body->body().n_nodes());
   return n;
 }
 
@@ -51,13 +50,10 @@ InsideOthers::InsideOthers(const BodyModels& bodies)
   piece_.reserve(point_.capacity());
   for (const auto& moving : bodies) {
     const Body& body = moving->body();
-    Other& other = bodies_.emplace_back();
-    other.moving = moving.get();
-    for (const Index cell : body.lattice.masses) other.rest.push_back(body.lattice.rest_position(cell));
-    other.volumes = volume_patterns(body.lattice);
-    cell_ = std::max(cell_, body.lattice.spacing());
+    Other& other = bodies_.emplace_back(Other{moving.get(), FilledVolumes(*moving)});
+    for (const Index node : body.nodes()) other.rest.push_back(body.rest_position(node));
+    cell_ = std::max(cell_, body.spacing());
     if (!body.cells) continue;
-    other.shift = lattice_corner(*body.cells, body.lattice);
     other.scenery = scenery_box(*body.cells);
     other.has_scenery = !other.scenery.isEmpty();
   }
@@ -65,7 +61,7 @@ InsideOthers::InsideOthers(const BodyModels& bodies)
 
 void InsideOthers::find_box(Other& body) noexcept {
   body.box = body.scenery;
-  const auto& masses = body.moving->body().lattice.masses;
+  const auto masses = body.moving->body().nodes();
   for (std::size_t n = 0; n < masses.size(); ++n)
     body.box.extend(body.rest[n] + body.moving->displacement(masses[n]));
 }
@@ -77,7 +73,7 @@ void InsideOthers::take_points(const Other& of, const Eigen::AlignedBox3d& box,
   near_.setEmpty();
   if (box.isEmpty()) return;
   grid_.clear(cell_);
-  const auto& masses = of.moving->body().lattice.masses;
+  const auto masses = of.moving->body().nodes();
   for (std::size_t n = 0; n < masses.size() && point_.size() < point_.capacity(); ++n) {
     const Vec3 p = of.rest[n] + of.moving->displacement(masses[n]);
     if (!box.contains(p)) continue;  // nor does it where it is not finite
@@ -120,27 +116,14 @@ void InsideOthers::mark_in_tetrahedron(const std::array<Vec3, 4>& x, Index piece
 /// @param apart  of a body with itself: its own volumes hold nothing of their own fragment
 void InsideOthers::mark_in_volumes(const Other& outer, const Fragments* apart) noexcept {
   const BodyModel& moving = *outer.moving;
-  const Body& body = moving.body();
-  const Lattice& lattice = body.lattice;
-  const auto mask = [&](Index cell) { return moving.mask(cell); };
+  const auto nodes = moving.body().nodes();
   Eigen::AlignedBox3d reach = near_;
-  const Vec3 margin = Vec3::Constant(farthest_corner * lattice.spacing());
+  const Vec3 margin = Vec3::Constant(farthest_corner * moving.body().spacing());
   reach.min() -= margin, reach.max() += margin;
-  for (std::size_t n = 0; n < lattice.masses.size(); ++n) {
-    const Index cell = lattice.masses[n];
-    if (!reach.contains(outer.rest[n] + moving.displacement(cell))) continue;
-    for (const VolumePattern& volume : outer.volumes[static_cast<std::size_t>(lattice.row_kind(cell))]) {
-      if (!is_filled(volume, lattice, cell, mask)) continue;
-      if (body.cells) {  // elements of the cells beside it may close a volume in an empty cell
-        const Vec3i at = outer.shift + lattice.grid_of(cell) + volume.lowest;
-        if (!body.cells->is_deformable(at.x(), at.y(), at.z())) continue;
-      }
-      std::array<Vec3, 6> x;
-      for (std::size_t c = 0; c < volume.corner.size(); ++c) x[c] = moving.position(cell + volume.corner[c]);
-      const Index piece = apart != nullptr ? apart->label(cell) : any_piece;
-      for (const auto& t : volume.tetrahedra)
-        mark_in_tetrahedron({x[t[0]], x[t[1]], x[t[2]], x[t[3]]}, piece);
-    }
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    if (!reach.contains(outer.rest[n] + moving.displacement(nodes[n]))) continue;
+    const Index piece = apart != nullptr ? apart->label(nodes[n]) : any_piece;
+    outer.volumes.each(nodes[n], [&](const std::array<Vec3, 4>& x) { mark_in_tetrahedron(x, piece); });
   }
 }
 

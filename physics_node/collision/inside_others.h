@@ -2,15 +2,15 @@
 // How many masses of a body lie inside another one: the measure of what contact should not let happen.
 //
 // Measured against what the other body is now, not against contact distances: its filled volumes with their corners where they
-// are (lattice/volumes.h), and its rigid scenery, which stays where it is. What broke open has no inside.
+// are (boundary/filled_volumes.h), and its rigid scenery, which stays where it is. What broke open has no inside.
 
 #include <Eigen/Geometry>
 #include <memory>
 #include <vector>
 
+#include "physics_node/boundary/filled_volumes.h"
 #include "physics_node/collision/point_grid.h"
 #include "physics_node/fragments/fragments.h"
-#include "physics_node/lattice/volumes.h"
 #include "physics_node/step/body_model.h"
 
 namespace palpate::physics {
@@ -36,12 +36,11 @@ class InsideOthers {
 
  private:
   struct Other {
-    const BodyModel* moving = nullptr;
-    std::vector<Vec3> rest;  // of each mass, in storage order [m]
-    VolumePatterns volumes;
-    Vec3i shift = Vec3i::Zero();  // from grid coordinates to cells, of voxels
+    const BodyModel* moving;
+    FilledVolumes volumes;
+    std::vector<Vec3> rest{};  // of each node, in order [m]
     bool has_scenery = false;
-    Eigen::AlignedBox3d box, scenery;  // as last looked; of its rigid cells
+    Eigen::AlignedBox3d box{}, scenery{};  // as last looked; of its rigid cells
   };
   void find_box(Other& body) noexcept;
   void take_points(const Other& of, const Eigen::AlignedBox3d& box, const Fragments* apart) noexcept;

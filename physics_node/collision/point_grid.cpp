@@ -28,7 +28,7 @@ void PointGrid::insert(std::uint32_t id, const Eigen::Vector3d& p) noexcept {
 void PointGrid::arrange() noexcept {
   // No more buckets than points need: a large grid with few points is as quick as a small one.
   const std::uint32_t buckets = buckets_for(n_);
-  bucket_mask_ = buckets - 1;
+  last_bucket_ = buckets - 1;
   std::fill_n(first_.begin(), buckets + std::size_t{1}, 0U);
   for (std::size_t n = 0; n < n_; ++n) ++first_[bucket_of(inserted_[n].cell)];
   std::uint32_t sum = 0;

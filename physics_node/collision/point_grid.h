@@ -56,11 +56,11 @@ class PointGrid {
     const auto mix = static_cast<std::uint32_t>(c.x()) * 73856093U ^
                      static_cast<std::uint32_t>(c.y()) * 19349663U ^
                      static_cast<std::uint32_t>(c.z()) * 83492791U;
-    return mix & bucket_mask_;
+    return mix & last_bucket_;
   }
 
   double inverse_size_ = 1;
-  std::uint32_t bucket_mask_ = 0;
+  std::uint32_t last_bucket_ = 0;
   std::size_t n_ = 0;
   std::vector<Entry> inserted_, arranged_;  // (n_)
   std::vector<std::uint32_t> first_;        // of each bucket, in arranged_

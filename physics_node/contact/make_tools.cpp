@@ -15,7 +15,7 @@ void add_point(const ToolSpec& spec, std::uint32_t n, const BodyModels& bodies,
   auto point = std::make_unique<ToolCoupling>(spec, n, touchable);
   box.pressing.push_back(point.get());
   box.tools.push_back(std::move(point));
-  for (const auto& body : bodies) body->prepare_books();
+  for (const auto& body : bodies) body->prepare_for(Disturbance::forces);
 }
 
 void add_stick(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
@@ -28,7 +28,7 @@ void add_stick(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
   auto stick = std::make_unique<StickTool>(spec, n, bodies, touchable);
   box.led.push_back(stick.get());
   box.tools.push_back(std::move(stick));
-  for (const auto& body : bodies) body->prepare_contact();
+  for (const auto& body : bodies) body->prepare_for(Disturbance::impulses);
 }
 
 void add_body(const ToolSpec& spec, std::uint32_t n, const BodyModels& bodies, Toolbox& box) {

@@ -77,12 +77,12 @@ FaceHit meet(const Stick& stick, const std::array<Vec3, 3>& x) noexcept {
 StickFaces::StickFaces(const Boundary& surface, BodyModel& model, double radius)
     : surface_(&surface),
       model_(&model),
-      radius_(radius < 0.5 * model.body().lattice.spacing() ? radius : 0.5 * radius) {
+      radius_(radius < 0.5 * model.body().spacing() ? radius : 0.5 * radius) {
   near_.reserve(surface.most_facets());
 }
 
 void StickFaces::list(const Stick& stick, double reach) noexcept {
-  const double spacing = model_->body().lattice.spacing();
+  const double spacing = model_->body().spacing();
   // Why: from the middle of a facet to its corners, stretched twice.
   facets_around(stick, reach + 2 * spacing, *surface_, *model_, near_);
 }
@@ -106,7 +106,7 @@ LeadWork StickFaces::give_way(std::uint32_t facet, const Corners& corner, const 
     }
     which[n] = static_cast<std::uint32_t>(n);
     cells[n] = cell;
-    rest[n] = model_->body().lattice.rest_position(cell);
+    rest[n] = model_->body().rest_position(cell);
     weight[n] = w;
     inverse_mass[n] = model_->body().inverse_mass[static_cast<std::size_t>(cell)];
     W += w * w * inverse_mass[n];

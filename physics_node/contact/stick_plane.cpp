@@ -14,7 +14,7 @@ constexpr std::size_t room = 16384;   // facets that it may touch at the most
 
 StickSurface::StickSurface(const Boundary& surface, const NodeMotion& moving, double radius)
     : surface_(surface), moving_(moving) {
-  const double spacing = moving.body().lattice.spacing();
+  const double spacing = moving.body().spacing();
   reach_ = std::max(2 * radius, 2 * spacing);
   depth_ = 0.25 * spacing;
   near_.reserve(surface.most_facets());

@@ -38,7 +38,7 @@ StickTool::StickTool(const ToolSpec& tool, std::uint32_t index, const BodyModels
   for (const auto& body : bodies) {
     Near near;
     near.moving = body.get();
-    const auto most = static_cast<std::size_t>(body->body().lattice.n_masses());
+    const auto most = static_cast<std::size_t>(body->body().n_nodes());
     near.all.resize(most);
     std::iota(near.all.begin(), near.all.end(), 0U);
     near.cell.resize(most);
@@ -78,19 +78,17 @@ void StickTool::take(const ToolState* state, double) noexcept {
 void StickTool::list(Near& near) noexcept {
   const Stick stick = stick_at(to_);
   const double reach = radius_ + 2 * StickSearch::margin;
-  const Lattice& lattice = near.moving->body().lattice;
+  const Body& body = near.moving->body();
   near.n = 0;
-  for (const RowSegment& row : lattice.rows) {
-    for (Index cell = row.first; cell < row.first + row.count; ++cell) {
-      if (near.moving->body().inverse_mass[static_cast<std::size_t>(cell)] == 0) continue;
-      const Vec3 x = near.moving->position(cell);
-      if ((x - stick.axis_point(stick.nearest(x))).squaredNorm() > reach * reach) continue;
-      if (near.n == near.cell.size()) return;
-      near.cell[near.n] = cell;
-      near.rest[near.n] = lattice.rest_position(cell);
-      near.mass[near.n] = law_at(near.moving->body(), cell).mass;
-      ++near.n;
-    }
+  for (const Index cell : body.nodes()) {
+    if (body.inverse_mass[static_cast<std::size_t>(cell)] == 0) continue;
+    const Vec3 x = near.moving->position(cell);
+    if ((x - stick.axis_point(stick.nearest(x))).squaredNorm() > reach * reach) continue;
+    if (near.n == near.cell.size()) return;
+    near.cell[near.n] = cell;
+    near.rest[near.n] = body.rest_position(cell);
+    near.mass[near.n] = law_at(body, cell).mass;
+    ++near.n;
   }
 }
 

@@ -35,8 +35,7 @@ void merge_equal_masses(std::vector<MassShare>& shares) noexcept {
 
 ToolContact::ToolContact(const Boundary& surface, const NodeMotion& moving, double radius)
     : surface_(surface), moving_(moving) {
-  const Lattice& lattice = moving.body().lattice;
-  const double coarse = lattice.spacing();
+  const double coarse = moving.body().spacing();
   radius_ = std::max(2 * radius, 2 * coarse);
   reach_ = radius_ + search_margin;
   near_.reserve(8 * room);

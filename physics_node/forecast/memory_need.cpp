@@ -31,7 +31,7 @@ constexpr double elastic_bytes = 200, elastic_double_bytes = 310;  // of a mass
 constexpr double plastic_bytes = 680, plastic_double_bytes = 1030;
 // A point or a stick feels what breaks open: two sites of 9 bytes a mass, and room for a facet.
 constexpr double felt_bytes = 42;
-constexpr double storage_bytes = 14;  // of a storage cell: mask, share, inverse mass
+constexpr double storage_bytes = 14;  // of a storage cell: elements, share, inverse mass
 constexpr double image_bytes =
     10;  // of a cell of an image: intensity, twice while it is read, filled, deformable
 constexpr double solid_bytes = 2;  // of a cell of another voxel body: filled, deformable

@@ -1,20 +1,19 @@
 #include "physics_node/fragments/fragments.h"
 
 #include <algorithm>
-#include <bit>
 #include <utility>
 
 namespace palpate::physics {
 
 Fragments::Fragments(const Topology& moving) {
-  const Lattice& lattice = moving.body().lattice;
-  const auto n = static_cast<std::size_t>(lattice.n_cells());
+  const Body& body = moving.body();
+  const auto n = static_cast<std::size_t>(body.capacity());
   label_ = ZeroedArray<Index>(n);
   next_ = ZeroedArray<Index>(n, 1);
   front_of_ = ZeroedArray<Index>(n, 2);
-  const auto n_masses = static_cast<std::size_t>(lattice.n_masses());
+  const auto n_masses = static_cast<std::size_t>(body.n_nodes());
   masses_.reserve(n_masses);
-  const auto most_breaks = std::min(FreshBreaks::most, static_cast<std::size_t>(lattice.n_elements()));
+  const auto most_breaks = std::min(TopologyEvents::most, static_cast<std::size_t>(body.n_elements()));
   fronts_.reserve(std::min(2 * most_breaks, n_masses));
   turns_.reserve(fronts_.capacity());
   links_.reserve(2 * most_breaks);
@@ -107,17 +106,14 @@ Index Fragments::grow(Index front, const Topology& moving) noexcept {
   const Index cell = waiting.head;
   waiting.head = next_[static_cast<std::size_t>(cell)];
   append(fronts_[static_cast<std::size_t>(front)].done, cell);
-  const Lattice& lattice = moving.body().lattice;
-  const auto& offset = lattice.offset[static_cast<std::size_t>(lattice.row_kind(cell))];
-  for (Mask left = moving.masks()[static_cast<std::size_t>(cell)]; left != 0; left &= left - 1) {
-    const Index other = cell + offset[static_cast<std::size_t>(std::countr_zero(left))];
+  moving.adjacency().each_neighbour(cell, [&](Index other) {
     const Index theirs = front_of_[static_cast<std::size_t>(other)];
     if (theirs == 0) {
       reach(front, other);
     } else if (const Index met = root(theirs - 1); met != front) {
       front = merge(front, met);
     }
-  }
+  });
   return front;
 }
 
@@ -154,13 +150,14 @@ void Fragments::forget(const Chain& chain) noexcept {
 }
 
 void Fragments::update(const Topology& moving) noexcept {
-  if (moving.fresh_overflow()) return recompute(moving);
-  if (moving.fresh_breaks().empty()) return;
+  const TopologyEvents events = moving.events();
+  if (events.overflow) return recompute(moving);
+  if (events.none()) return;
   fronts_.clear();
   links_.clear();
   turns_.clear();
-  for (const Break& broken : moving.fresh_breaks()) {
-    const Index a = front_at(broken.first), b = front_at(broken.other);
+  for (const EdgeGone& gone : events.edges_gone) {
+    const Index a = front_at(gone.a), b = front_at(gone.b);
     const auto half_link = static_cast<Index>(links_.size());
     links_.push_back({b, none});
     links_.push_back({a, none});
@@ -186,10 +183,10 @@ void Fragments::update(const Topology& moving) noexcept {
 }
 
 void Fragments::recompute(const Topology& moving) noexcept {
-  const Lattice& lattice = moving.body().lattice;
+  const Body& body = moving.body();
   masses_.clear();
-  for (const Index cell : lattice.masses) label_[static_cast<std::size_t>(cell)] = 0;
-  for (const Index start : lattice.masses) {
+  for (const Index cell : body.nodes()) label_[static_cast<std::size_t>(cell)] = 0;
+  for (const Index start : body.nodes()) {
     if (label_[static_cast<std::size_t>(start)] != 0) continue;
     masses_.push_back(0);
     Chain reached;
@@ -199,13 +196,10 @@ void Fragments::recompute(const Topology& moving) noexcept {
       ++masses_.back();
     };
     take(start);
-    for (Index cell = start; cell != 0; cell = next_[static_cast<std::size_t>(cell)]) {
-      const auto& offset = lattice.offset[static_cast<std::size_t>(lattice.row_kind(cell))];
-      for (Mask left = moving.masks()[static_cast<std::size_t>(cell)]; left != 0; left &= left - 1) {
-        const Index other = cell + offset[static_cast<std::size_t>(std::countr_zero(left))];
+    for (Index cell = start; cell != 0; cell = next_[static_cast<std::size_t>(cell)])
+      moving.adjacency().each_neighbour(cell, [&](Index other) {
         if (label_[static_cast<std::size_t>(other)] == 0) take(other);
-      }
-    }
+      });
   }
 }
 

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
-#include "physics_node/step/measure.h"
+#include "physics_node/step/rigid_fit.h"
 
 namespace palpate::physics {
 
 std::vector<FragmentMeasure> measure_fragments(const NodeMotion& moving, const Fragments& fragments) {
   std::vector<FragmentMeasure> all(static_cast<std::size_t>(fragments.count()));
   for (std::size_t n = 0; n < all.size(); ++n) all[n].label = static_cast<Index>(n);
-  for (const Index cell : moving.body().lattice.masses) {
+  for (const Index cell : moving.body().nodes()) {
     FragmentMeasure& one = all[static_cast<std::size_t>(fragments.label(cell))];
     const double m = law_at(moving.body(), cell).mass;
     const Vec3 x = moving.position(cell);
@@ -30,9 +30,9 @@ double fragment_shape_rms(const NodeMotion& moving, const Fragments& fragments, 
   if (n < 3) return 0;
   Eigen::Matrix3Xd rest(3, n), now(3, n);
   Eigen::Index column = 0;
-  for (const Index cell : moving.body().lattice.masses) {
+  for (const Index cell : moving.body().nodes()) {
     if (fragments.label(cell) != label) continue;
-    rest.col(column) = moving.body().lattice.rest_position(cell);
+    rest.col(column) = moving.body().rest_position(cell);
     now.col(column++) = moving.position(cell);
   }
   return rigid_fit_rms(rest, now);

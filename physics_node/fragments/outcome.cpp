@@ -9,13 +9,13 @@ namespace palpate::physics {
 namespace {
 
 /// Of all masses at rest, about their centre [m].
-double radius_of_gyration(const Lattice& lattice) {
+double radius_of_gyration(const Body& body) {
   Vec3 center = Vec3::Zero();
-  for (const Index cell : lattice.masses) center += lattice.rest_position(cell);
-  center /= static_cast<double>(lattice.n_masses());
+  for (const Index cell : body.nodes()) center += body.rest_position(cell);
+  center /= static_cast<double>(body.n_nodes());
   double sum = 0;
-  for (const Index cell : lattice.masses) sum += (lattice.rest_position(cell) - center).squaredNorm();
-  return std::sqrt(sum / static_cast<double>(lattice.n_masses()));
+  for (const Index cell : body.nodes()) sum += (body.rest_position(cell) - center).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(body.n_nodes()));
 }
 
 }  // namespace
@@ -30,7 +30,7 @@ Outcome classify(const OutcomeMeasures& m) {
 }
 
 OutcomeMeasures measure_outcome(const BodyModel& moving, const Fragments* fragments) {
-  const Lattice& lattice = moving.body().lattice;
+  const Body& body = moving.body();
   const BodyCounts counts = moving.counts();
   OutcomeMeasures m;
   m.touched = moving.touched();
@@ -38,9 +38,9 @@ OutcomeMeasures measure_outcome(const BodyModel& moving, const Fragments* fragme
     m.broken = 1 - static_cast<double>(counts.live_elements) / static_cast<double>(counts.elements);
   if (m.broken > 0)
     m.cut = static_cast<double>(counts.elements - counts.live_elements) /
-            static_cast<double>(middle_section(lattice));
-  m.yielded = static_cast<double>(counts.yielded_masses) / static_cast<double>(lattice.n_masses());
-  const double size = radius_of_gyration(lattice);
+            static_cast<double>(middle_section(body));
+  m.yielded = static_cast<double>(counts.yielded_masses) / static_cast<double>(body.n_nodes());
+  const double size = radius_of_gyration(body);
   double shape = counts.shape_rms;
   if (fragments != nullptr) {
     const auto pieces = measure_fragments(moving, *fragments);

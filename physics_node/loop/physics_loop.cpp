@@ -64,7 +64,7 @@ PhysicsLoop::PhysicsLoop(const NodeOptions& options, const Scene& scene)
                                            Recorder::WhenBehind::drop);
   }
   Index masses = 0;
-  for (std::size_t b = 0; b < world_->n_bodies(); ++b) masses += world_->body(b).body().lattice.n_masses();
+  for (std::size_t b = 0; b < world_->n_bodies(); ++b) masses += world_->body(b).body().n_nodes();
   log_info(
       "{} masses, step {:.3f} ms of at most {:.3f}, {} thread(s) at most, {} visible facets, loaded in "
       "{:.2f} s",

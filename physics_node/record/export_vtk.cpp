@@ -33,11 +33,11 @@ class ExportedBody {
         threshold_(scene.render->threshold),
         moving_(make_body_model(build_body(scene.bodies[b], scene.materials), Precision::single_)),
         live_(*moving_),
-        number_(static_cast<std::size_t>(body().lattice.n_cells())) {
-    if (file.shape(base_ + "/rest").at(0) != body().lattice.masses.size())
+        number_(static_cast<std::size_t>(body().capacity())) {
+    if (file.shape(base_ + "/rest").at(0) != body().nodes().size())
       throw InputError(fmt::format("{}: the record and the scene do not have the same masses", base_));
     std::uint32_t next = 0;
-    for (const Index cell : body().lattice.masses) number_[static_cast<std::size_t>(cell)] = next++;
+    for (const Index cell : body().nodes()) number_[static_cast<std::size_t>(cell)] = next++;
     follows_breaks_ = file.has(base_ + "/live");
     look();
   }
@@ -48,8 +48,7 @@ class ExportedBody {
   /// The mesh of one recorded time.
   VtpMesh mesh(std::uint64_t row) {
     if (follows_breaks_) follow(row);
-    const auto position =
-        file_.read_rows<float>(base_ + "/position", row, 1, 3 * body().lattice.masses.size());
+    const auto position = file_.read_rows<float>(base_ + "/position", row, 1, 3 * body().nodes().size());
     std::vector<std::uint32_t> vertices;
     VtpMesh mesh = facets(true, vertices);
     VtpArray displacement{"displacement", 3, {}};
@@ -81,10 +80,10 @@ class ExportedBody {
   void look() { surface_ = make_surface(body(), live_, threshold_, rgba_); }
 
   void follow(std::uint64_t row) {
-    auto masks = file_.read_rows<Mask>(base_ + "/live", row, 1, body().lattice.masses.size());
-    if (masks == masks_) return;
-    masks_ = std::move(masks);
-    live_.copy(body(), masks_);
+    auto recorded = file_.read_rows<Mask>(base_ + "/live", row, 1, body().nodes().size());
+    if (recorded == recorded_) return;
+    recorded_ = std::move(recorded);
+    live_.copy(body(), recorded_);
     look();
   }
 
@@ -94,8 +93,7 @@ class ExportedBody {
   }
 
   VtpArray yielded_share(std::uint64_t row, const std::vector<std::uint32_t>& vertices) const {
-    const auto shares =
-        file_.read_rows<std::uint8_t>(base_ + "/yielded", row, 1, body().lattice.masses.size());
+    const auto shares = file_.read_rows<std::uint8_t>(base_ + "/yielded", row, 1, body().nodes().size());
     VtpArray array{"yielded_share", 1, {}};
     for (const std::uint32_t v : vertices)
       array.values.push_back(moves(v) ? static_cast<float>(shares[number_of(v)]) / 255.0F : 0.0F);
@@ -134,7 +132,7 @@ class ExportedBody {
   std::unique_ptr<BodyModel> moving_;
   LiveElements live_;
   std::vector<std::uint32_t> number_;  // of the mass in a storage cell, as the record counts
-  std::vector<Mask> masks_;
+  std::vector<Mask> recorded_;         // live elements of each node
   Surface surface_;
   bool follows_breaks_ = false;
 };

@@ -18,9 +18,9 @@ namespace {
 /// Facets whose four corners are masses, by mass number, for viewers.
 std::vector<std::uint32_t> mass_facets(const BodyModel& moving) {
   const Surface surface = make_surface(moving, std::nullopt, 0);
-  std::vector<std::uint32_t> number(static_cast<std::size_t>(moving.body().lattice.n_cells()), 0);
+  std::vector<std::uint32_t> number(static_cast<std::size_t>(moving.body().capacity()), 0);
   std::uint32_t next = 0;
-  for (const Index cell : moving.body().lattice.masses) number[static_cast<std::size_t>(cell)] = next++;
+  for (const Index cell : moving.body().nodes()) number[static_cast<std::size_t>(cell)] = next++;
   std::vector<std::uint32_t> facets;
   for (const auto& facet : surface.facets) {
     bool all_move = true;
@@ -63,9 +63,8 @@ void Recorder::make_files(const World& world, const SceneSource& source) {
     const std::string base = "/bodies/" + moving.body().name;
     const auto facets = mass_facets(moving);
     std::vector<float> rest;
-    for (const Index cell : moving.body().lattice.masses)
-      for (int a = 0; a < 3; ++a)
-        rest.push_back(static_cast<float>(moving.body().lattice.rest_position(cell)[a]));
+    for (const Index cell : moving.body().nodes())
+      for (int a = 0; a < 3; ++a) rest.push_back(static_cast<float>(moving.body().rest_position(cell)[a]));
     body_names_.push_back(moving.body().name);
     hdf5_->write<float>(base + "/rest", {rest.size() / 3, 3}, rest.data());
     hdf5_->write<std::uint32_t>(base + "/facets", {facets.size() / 4, 4}, facets.data());

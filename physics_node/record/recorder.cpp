@@ -22,11 +22,11 @@ Recorder::Recorder(const World& world, const SceneSource& source, const std::str
   make_files(world, source);
   if (spec_.positions) {
     for (std::size_t b = 0; b < world.n_bodies(); ++b)
-      conditions_.emplace_back(static_cast<std::size_t>(world.body(b).body().lattice.n_masses()));
+      conditions_.emplace_back(static_cast<std::size_t>(world.body(b).body().n_nodes()));
     for (std::size_t s = 0; s < n_snapshots; ++s) {
       auto snapshot = std::make_unique<Snapshot>();
       for (std::size_t b = 0; b < world.n_bodies(); ++b) {
-        const auto n = static_cast<std::size_t>(world.body(b).body().lattice.n_masses());
+        const auto n = static_cast<std::size_t>(world.body(b).body().n_nodes());
         snapshot->position.emplace_back(3 * n);
         snapshot->flags.emplace_back(n);
         const std::size_t n_yielding = any_yields(world.body(b).body()) ? n : 0;
@@ -131,14 +131,14 @@ void Recorder::take_snapshot(const World& world, Snapshot& snapshot) noexcept {
   snapshot.t = snapshot_t_ = world.t();
   for (std::size_t b = 0; b < world.n_bodies(); ++b) {
     std::size_t n = 0;
-    const std::vector<Index>& masses = world.body(b).body().lattice.masses;
+    const auto masses = world.body(b).body().nodes();
     world.body(b).conditions(masses, conditions_[b]);
     for (const Index cell : masses) {
       const Vec3 p = world.body(b).position(cell);
       for (int a = 0; a < 3; ++a)
         snapshot.position[b][3 * n + static_cast<std::size_t>(a)] = static_cast<float>(p[a]);
       if (!snapshot.live[b].empty()) {
-        snapshot.live[b][n] = world.body(b).mask(cell);
+        snapshot.live[b][n] = world.body(b).adjacency().live_elements(cell);
         snapshot.yielded[b][n] = static_cast<std::uint8_t>(255 * conditions_[b][n].yielded_share + 0.5);
       }
       snapshot.flags[b][n] = conditions_[b][n].flags;

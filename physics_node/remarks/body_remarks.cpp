@@ -27,14 +27,13 @@ void add_holds(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
     const Body& body = bodies[b]->body();
     const BodySpec& spec = scene.bodies[b];
     if (is_tool(scene, body)) continue;
-    if (body.n_held == body.lattice.n_masses())
+    if (body.n_held == body.n_nodes())
       remarks.push_back(who(scene, b) +
                         " is held at all of its masses: nothing of it moves; hold a face, or a smaller box");
     for (const FixedBox& box : spec.fixed_boxes) {
       const Eigen::AlignedBox3d held(box.min, box.max);
-      const bool any = std::any_of(body.lattice.masses.begin(), body.lattice.masses.end(), [&](Index cell) {
-        return held.contains(body.lattice.rest_position(cell));
-      });
+      const bool any = std::any_of(body.nodes().begin(), body.nodes().end(),
+                                   [&](Index cell) { return held.contains(body.rest_position(cell)); });
       if (!any)
         remarks.push_back(who(scene, b) +
                           ": a box of \"fixed\" holds none of its masses; lengths are in millimetres");
@@ -88,10 +87,10 @@ void add_planes(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
     if (is_tool(scene, body)) continue;
     for (const Behind& plane : planes) {
       double deepest = 0;
-      for (const Index cell : body.lattice.masses)
+      for (const Index cell : body.nodes())
         if (body.inverse_mass[static_cast<std::size_t>(cell)] > 0)
-          deepest = std::max(deepest, (plane.point - body.lattice.rest_position(cell)).dot(plane.normal));
-      if (deepest > 0.5 * body.lattice.spacing())
+          deepest = std::max(deepest, (plane.point - body.rest_position(cell)).dot(plane.normal));
+      if (deepest > 0.5 * body.spacing())
         remarks.push_back(fmt::format("{} begins {:.3g} mm {}; move it by its at_mm", who(scene, b),
                                       1e3 * deepest, plane.what));
     }
@@ -108,8 +107,8 @@ void add_overlaps(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
       const auto box = box_of(outer);
       if (box.intersection(box_of(inner)).isEmpty()) continue;
       std::vector<Vec3> places;
-      for (const Index cell : inner.lattice.masses)
-        if (const Vec3 p = inner.lattice.rest_position(cell); box.contains(p)) places.push_back(p);
+      for (const Index cell : inner.nodes())
+        if (const Vec3 p = inner.rest_position(cell); box.contains(p)) places.push_back(p);
       if (places.empty()) continue;
       const Enclosure enclosure(*bodies[b]);
       const std::size_t stride = 1 + places.size() / most_looked_at;

@@ -20,7 +20,7 @@ bool hits(const Vec3& p, const Vec3& d, const Vec3& a, const Vec3& b, const Vec3
 }  // namespace
 
 Enclosure::Enclosure(const BodyModel& body)
-    : surface_(make_surface(body, std::nullopt, 0xffffffffU)), spacing_(body.body().lattice.spacing()) {
+    : surface_(make_surface(body, std::nullopt, 0xffffffffU)), spacing_(body.body().spacing()) {
   bins_.reserve(surface_.rest.size());
   for (std::uint32_t v = 0; v < surface_.rest.size(); ++v) {
     box_.extend(surface_.rest[v]);

@@ -25,7 +25,7 @@ Remarks remarks_about(const World& world) {
 
 Eigen::AlignedBox3d box_of(const Body& body) {
   Eigen::AlignedBox3d box;
-  for (const Index cell : body.lattice.masses) box.extend(body.lattice.rest_position(cell));
+  for (const Index cell : body.nodes()) box.extend(body.rest_position(cell));
   if (!body.cells) return box;
   const Cells& cells = *body.cells;
   for (int k = 0; k < cells.size.z(); ++k)

@@ -21,9 +21,9 @@ nlohmann::json triple(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
 
 nlohmann::json body_part(const BodyModel& moving, const Fragments* fragments) {
   const BodyCounts counts = moving.counts();
-  const auto n_masses = static_cast<double>(moving.body().lattice.n_masses());
+  const auto n_masses = static_cast<double>(moving.body().n_nodes());
   const auto elements = static_cast<double>(std::max<std::int64_t>(counts.elements, 1));
-  nlohmann::json part = {{"masses", moving.body().lattice.n_masses()},
+  nlohmann::json part = {{"masses", moving.body().n_nodes()},
                          {"held_masses", moving.body().n_held},
                          {"elements", counts.elements},
                          {"live_elements", counts.live_elements},

@@ -109,7 +109,7 @@ std::string inside_text(const World& world, const InsideOthers& inside) {
   for (std::size_t b = 0; b < world.n_bodies(); ++b) {
     if (inside.most(b) == 0) continue;
     list += fmt::format("{}{} of {} masses of \"{}\"", list.empty() ? "" : ", ", inside.most(b),
-                        world.body(b).body().lattice.n_masses(), world.body(b).body().name);
+                        world.body(b).body().n_nodes(), world.body(b).body().name);
   }
   return fmt::format("bodies go into each other: up to {} were inside another body; {}", list, remedy(world));
 }

@@ -1,5 +1,7 @@
 #include "physics_node/step/momentum_account.h"
 
+#include <Eigen/Geometry>
+
 namespace palpate::physics {
 
 void MomentumAccount::restart(const Start& start) noexcept {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "physics_node/lattice/lattice.h"
+#include "common/math/vec3.h"
 
 namespace palpate::physics {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "physics_node/step/element_step.h"
+#include "physics_node/step/explicit_step.h"
 #include "physics_node/step/node_motion.h"
 
 namespace palpate::physics {
@@ -16,6 +16,9 @@ struct StepOutcome {
   int newton_iterations = 0;  // of backward_euler
   int cg_iterations = 0;
 };
+
+/// What comes to a body from outside: forces of tools that press, or impulses of contact, floor and tools that lead, too.
+enum class Disturbance { forces, impulses };
 
 /// A fixed plane; tissue stays where n . x >= height.
 struct Plane {
@@ -34,10 +37,8 @@ class Stepper {
   /// A step: elements act, yield and break, forces act, masses move. An explicit integrator adds the forces when the elements have
   /// moved the masses (NodeMotion::kick); backward_euler solves for both.
   virtual StepOutcome advance(const ExplicitStep& step, std::span<const NodalForce> forces) noexcept = 0;
-  /// Makes room for ExplicitStep::exact; once, while loading.
-  virtual void prepare_books() = 0;
-  /// Makes room for remember_velocities() and the exact books; once, while loading.
-  virtual void prepare_contact() = 0;
+  /// Makes room for ExplicitStep::exact and, for impulses, remember_velocities(); while loading.
+  virtual void prepare_for(Disturbance from_outside) = 0;
   /// Before a step in which something may touch: so that contact knows the velocities at its beginning. See NodeMotion::read().
   virtual void remember_velocities() noexcept = 0;
   /// Masses that were behind the plane when the step began, and approached it, are reflected: v_n := -e v_n.

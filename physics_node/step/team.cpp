@@ -1,10 +1,9 @@
 #include "physics_node/step/team.h"
 
-#include <pthread.h>
-
 #include <algorithm>
 #include <chrono>
-#include <csignal>
+
+#include "common/process/silent_thread.h"
 
 namespace palpate::physics {
 namespace {
@@ -37,11 +36,7 @@ void await_change(std::atomic<std::uint32_t>& value, std::uint32_t old, int spin
 }  // namespace
 
 Team::Team(int threads) : workers_(static_cast<std::size_t>(std::max(threads, 1) - 1)) {
-  sigset_t all, before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);  // a worker begins with the mask of its maker
-  for (Worker& worker : workers_) worker.thread = std::thread([this, &worker] { serve(worker); });
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  for (Worker& worker : workers_) worker.thread = silent_thread([this, &worker] { serve(worker); });
 }
 
 Team::~Team() {

@@ -1,11 +1,12 @@
 #pragma once
-// Which elements of a body live, what broke in the last step, and what its nodes have been through.
+// How the nodes of a body hang together, what of it changed in the last step, and what its nodes have been through.
 
 #include <cstdint>
 #include <span>
 
+#include "physics_node/body/adjacency.h"
 #include "physics_node/body/body.h"
-#include "physics_node/step/fresh_breaks.h"
+#include "physics_node/body/topology_events.h"
 #include "physics_node/step/mass_flags.h"
 
 namespace palpate::physics {
@@ -14,7 +15,7 @@ namespace palpate::physics {
 struct Condition {
   std::uint8_t flags = 0;  // mass_flags.h
   double yielded_share =
-      0;  // of its live elements, [0, 1]; of a node without any, whether one had yielded before it broke
+      0;  // of its live elements, [0, 1]; of a node without any, whether one had yielded before
 };
 
 class Topology {
@@ -22,28 +23,22 @@ class Topology {
   virtual ~Topology() = default;
   const Body& body() const noexcept { return *body_; }
 
-  /// Live elements of every storage cell, as bits  (n_cells)
-  std::span<const Mask> masks() const noexcept { return masks_; }
-  Mask mask(Index cell) const noexcept { return masks_[static_cast<std::size_t>(cell)]; }
-
-  /// Elements that broke in the last step, in storage order; invalidated by the next step in which an element breaks.
-  virtual std::span<const Break> fresh_breaks() const noexcept = 0;
-  /// The list is not all: anything may have changed. After a reset and a restore at once and still after the next step, and
-  /// after a step in which more broke than the list holds. Never where nothing yields.
-  virtual bool fresh_overflow() const noexcept = 0;
+  /// As it is now.
+  const Adjacency& adjacency() const noexcept { return adjacency_; }
+  virtual TopologyEvents events() const noexcept = 0;
   /// Elements broken since the start.
   virtual std::int64_t breaks() const noexcept = 0;
-  /// @param out  one for each of the cells
-  virtual void conditions(std::span<const Index> cells, std::span<Condition> out) const noexcept = 0;
+  /// @param out  one for each of the nodes
+  virtual void conditions(std::span<const Index> nodes, std::span<Condition> out) const noexcept = 0;
 
  protected:
-  explicit Topology(const Body& body) : body_(&body) {}
+  explicit Topology(const Body& body) : body_(&body), adjacency_(body.lattice) {}
   /// Once, by the maker: what it steps.
-  void show(std::span<const Mask> masks) { masks_ = masks; }
+  void show(const Adjacency& now) { adjacency_ = now; }
 
  private:
   const Body* body_;
-  std::span<const Mask> masks_;
+  Adjacency adjacency_;
 };
 
 }  // namespace palpate::physics

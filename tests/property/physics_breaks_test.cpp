@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
-#include <tuple>
+#include <utility>
 
 #include "physics_node/world.h"
 #include "tests/support/physics/small_worlds.h"
@@ -21,7 +21,7 @@ Recipe brittle_box(const char* lattice, double width_mm = 50) {
   return recipe;
 }
 
-using Ends = std::tuple<Index, Index, int>;
+using Ends = std::pair<Index, Index>;
 
 /// Elements by what the masks of their first ends say.
 std::set<Ends> live_elements(const BodyModel& moving) {
@@ -29,9 +29,9 @@ std::set<Ends> live_elements(const BodyModel& moving) {
   std::set<Ends> live;
   for (const Index cell : lattice.masses)
     for (int d = 0; d < lattice.n_half; ++d)
-      if ((moving.mask(cell) >> d & 1) != 0) {
+      if ((moving.adjacency().live_elements(cell) >> d & 1) != 0) {
         const auto& offset = lattice.offset[static_cast<std::size_t>(lattice.row_kind(cell))];
-        live.insert({cell, cell + offset[static_cast<std::size_t>(d)], d});
+        live.insert({cell, cell + offset[static_cast<std::size_t>(d)]});
       }
   return live;
 }
@@ -53,17 +53,17 @@ TEST(FreshBreaks, AreWhatTheMasksLost) {
       const std::set<Ends> after = live_elements(*moving);
       std::set<Ends> lost;
       Index last = 0;
-      for (const Break& one : moving->fresh_breaks()) {
-        EXPECT_TRUE(lost.insert({one.first, one.other, one.half}).second) << lattice;
-        EXPECT_LE(last, std::min(one.first, one.other)) << "not in storage order";
-        last = std::min(one.first, one.other);
+      for (const EdgeGone& one : moving->events().edges_gone) {
+        EXPECT_TRUE(lost.insert({one.a, one.b}).second) << lattice;
+        EXPECT_LE(last, std::min(one.a, one.b)) << "not in storage order";
+        last = std::min(one.a, one.b);
       }
       std::set<Ends> sum = after;
       sum.insert(lost.begin(), lost.end());
       EXPECT_EQ(sum, before) << lattice << " step " << n;
       EXPECT_EQ(after.size() + lost.size(), before.size()) << lattice << " step " << n;
       EXPECT_EQ(static_cast<std::size_t>(now), lost.size());
-      EXPECT_FALSE(moving->fresh_overflow());
+      EXPECT_FALSE(moving->events().overflow);
       broken += now;
       before = after;
     }
@@ -82,7 +82,7 @@ TEST(FreshBreaks, ComeInOneOrderForAnyNumberOfThreads) {
     Team team(threads);
     for (int n = 0; n < 30; ++n) {
       moving->advance({.dt = 2e-4, .team = &team, .threads = threads}, {});
-      for (const Break& one : moving->fresh_breaks()) all.emplace_back(one.first, one.other, one.half);
+      for (const EdgeGone& one : moving->events().edges_gone) all.emplace_back(one.a, one.b);
     }
     lists.push_back(all);
   }
@@ -109,24 +109,24 @@ TEST(FreshBreaks, SayWhenTheyAreNotAll) {
 TEST(FreshBreaks, KnowThatAStateWasReplaced) {
   const auto moving = make_body_model(body_of(brittle_box("fcc")), Precision::double_);
   const ExplicitStep step{.dt = 2e-4};
-  EXPECT_TRUE(moving->fresh_overflow());
+  EXPECT_TRUE(moving->events().overflow);
   moving->advance(step, {});
   moving->advance(step, {});
   for (const bool restore : {true, false}) {
-    EXPECT_FALSE(moving->fresh_overflow());
+    EXPECT_FALSE(moving->events().overflow);
     if (restore) {
       moving->restore();
     } else {
       moving->reset();
     }
-    EXPECT_TRUE(moving->fresh_overflow());
+    EXPECT_TRUE(moving->events().overflow);
     moving->advance(step, {});
-    EXPECT_TRUE(moving->fresh_overflow());
+    EXPECT_TRUE(moving->events().overflow);
     moving->advance(step, {});
-    EXPECT_FALSE(moving->fresh_overflow());
+    EXPECT_FALSE(moving->events().overflow);
   }
   const auto elastic = make_body_model(body_of(Recipe{}), Precision::double_);
-  EXPECT_FALSE(elastic->fresh_overflow());
+  EXPECT_FALSE(elastic->events().overflow);
 }
 
 TEST(Momentum, IsNotChangedByABreak) {

@@ -66,7 +66,7 @@ double broken_share_where(const BodyModel& body, const Holds& holds) {
     if (!holds(lattice.rest_position(cell))) continue;
     const Mask at_start = lattice.mask[static_cast<std::size_t>(cell)];
     all += std::popcount(at_start);
-    broken += std::popcount(at_start) - std::popcount(body.mask(cell));
+    broken += std::popcount(at_start) - std::popcount(body.adjacency().live_elements(cell));
   }
   return all > 0 ? broken / all : 0;
 }

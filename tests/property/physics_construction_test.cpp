@@ -10,7 +10,7 @@
 #include "common/math/units.h"
 #include "physics_node/body/trim.h"
 #include "physics_node/step/body_model.h"
-#include "physics_node/step/element_step.h"
+#include "physics_node/step/lattice/element_step.h"
 #include "tests/support/physics/small_worlds.h"
 #include "tests/support/physics/tool_angles.h"
 

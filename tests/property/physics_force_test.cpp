@@ -1,8 +1,8 @@
 // The force of the elements is that of their energy, in both precisions.
 #include <gtest/gtest.h>
 
-#include "physics_node/step/element_step.h"
-#include "physics_node/step/measure.h"
+#include "physics_node/step/lattice/element_step.h"
+#include "physics_node/step/lattice/measure.h"
 #include "tests/support/physics/small_worlds.h"
 
 namespace palpate::physics::test {

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "common/scene/load_scene.h"
-#include "physics_node/step/element_context.h"
+#include "physics_node/step/lattice/element_context.h"
 #include "physics_node/world.h"
 #include "tests/support/physics/pressed_world.h"
 #include "tests/support/physics/small_worlds.h"

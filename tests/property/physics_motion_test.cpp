@@ -1,9 +1,9 @@
 // Laws of free motion: momentum, rigid motion, energy.
 #include <gtest/gtest.h>
 
-#include "physics_node/step/element_step.h"
-#include "physics_node/step/measure.h"
-#include "physics_node/step/stable_step.h"
+#include "physics_node/step/lattice/element_step.h"
+#include "physics_node/step/lattice/measure.h"
+#include "physics_node/step/lattice/stable_step.h"
 #include "tests/support/physics/small_worlds.h"
 
 namespace palpate::physics::test {

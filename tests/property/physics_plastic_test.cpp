@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "physics_node/step/element_step.h"
+#include "physics_node/step/lattice/element_step.h"
 #include "tests/support/physics/small_worlds.h"
 
 namespace palpate::physics::test {

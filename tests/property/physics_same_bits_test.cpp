@@ -7,7 +7,7 @@
 #include "common/scene/load_scene.h"
 #include "common/scene/material_spec.h"
 #include "common/scene/scene.h"
-#include "physics_node/step/element_context.h"
+#include "physics_node/step/lattice/element_context.h"
 #include "physics_node/world.h"
 #include "tests/support/physics/pressed_world.h"
 #include "tests/support/physics/small_worlds.h"

@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "common/scene/material_spec.h"
-#include "physics_node/step/element_step.h"
-#include "physics_node/step/measure.h"
-#include "physics_node/step/stable_step.h"
+#include "physics_node/step/lattice/element_step.h"
+#include "physics_node/step/lattice/measure.h"
+#include "physics_node/step/lattice/stable_step.h"
 #include "tests/support/physics/small_worlds.h"
 
 namespace palpate::physics::test {

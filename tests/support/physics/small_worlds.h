@@ -8,7 +8,7 @@
 #include "common/math/vec3.h"
 #include "common/scene/scene_fwd.h"
 #include "physics_node/body/body.h"
-#include "physics_node/step/state.h"
+#include "physics_node/step/lattice/state.h"
 
 namespace palpate::physics::test {
 

@@ -215,7 +215,7 @@ TEST(Floor, MeetsEveryMassOfATurnedBodyAtItsOwnHeight) {
   std::int64_t below = 0;
   for (const Index cell : body.lattice.masses) below += body.lattice.rest_position(cell).z() < height ? 1 : 0;
   const auto moving = make_body_model(body, Precision::double_);
-  moving->prepare_contact();
+  moving->prepare_for(Disturbance::impulses);
   moving->remember_velocities();
   EXPECT_EQ(moving->bounce_off({Vec3::UnitZ(), height}, 1, dt).masses, below);
   EXPECT_EQ(moving->bounce_off({Vec3::UnitZ(), height}, 1, dt).masses, 0) << "they all rise now";

@@ -31,7 +31,7 @@ TEST_P(ClosedSurface, EveryEdgeIsInAnEvenNumberOfBoundaryFacets) {
   const Facets facets(candidates);
   std::set<Facets::Corners> known(facets.all().begin(), facets.all().end());
   const Lattice& lattice = moving->body().lattice;
-  const auto mask = [&](Index cell) { return moving->mask(cell); };
+  const auto mask = [&](Index cell) { return moving->adjacency().live_elements(cell); };
   const auto patterns = triangle_patterns(lattice);
   std::map<std::pair<Index, Index>, int> edges;
   for (const Index cell : lattice.masses)
@@ -69,7 +69,7 @@ TEST(Candidates, AreTheMassesWithFewerElementsThanDeepInside) {
   const Candidates candidates(*moving, false);
   std::size_t expected = 0;
   for (const Index cell : moving->body().lattice.masses)
-    expected += __builtin_popcount(moving->mask(cell)) < 12 ? 1U : 0U;
+    expected += __builtin_popcount(moving->adjacency().live_elements(cell)) < 12 ? 1U : 0U;
   EXPECT_EQ(candidates.size(), expected);
   EXPECT_LT(candidates.size(), static_cast<std::size_t>(moving->body().lattice.n_masses()));
 }

@@ -23,7 +23,7 @@ std::unique_ptr<BodyModel> moving(const Recipe& recipe) {
 double filled_volume(const BodyModel& body) {
   const Lattice& lattice = body.body().lattice;
   const auto patterns = volume_patterns(lattice);
-  const auto mask = [&](Index cell) { return body.mask(cell); };
+  const auto mask = [&](Index cell) { return body.adjacency().live_elements(cell); };
   double sum = 0;
   for (const Index cell : lattice.masses)
     for (const VolumePattern& volume : patterns[static_cast<std::size_t>(lattice.row_kind(cell))]) {

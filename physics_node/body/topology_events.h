@@ -1,0 +1,28 @@
+#pragma once
+// What a step did to the connections of a body. A new kind of event is one more span here.
+
+#include <cstddef>
+#include <span>
+
+#include "physics_node/lattice/lattice_types.h"
+
+namespace palpate::physics {
+
+/// An element between two nodes that is no more. No two elements join the same nodes.
+struct EdgeGone {
+  Index a = 0, b = 0;
+};
+
+struct TopologyEvents {
+  static constexpr std::size_t most = 65536;  // of one kind
+  /// In the last step, in an order that does not depend on the number of threads; invalidated by the next step in which an
+  /// element breaks.
+  std::span<const EdgeGone> edges_gone;
+  /// The list is not all: anything may have changed. After a reset and a restore at once and still after the next step, and
+  /// after a step in which more broke than the list holds. Never where nothing yields.
+  bool overflow = false;
+
+  bool none() const noexcept { return edges_gone.empty() && !overflow; }
+};
+
+}  // namespace palpate::physics

@@ -1,0 +1,28 @@
+#pragma once
+// Which nodes of a body something else can meet.
+
+#include "physics_node/body/adjacency.h"
+#include "physics_node/body/body.h"
+
+namespace palpate::physics {
+
+/// A node that is joined to fewer others than deep inside (EQUATIONS C-12).
+class ExposedNodes {
+ public:
+  /// @param open_ones  also nodes that lack nothing but that space reaches, as at the bottom of a pit of the fcc surface or in
+  ///   an inner corner of voxels. Deviation: in the paper a mass touches only where it lacks an element itself.
+  ExposedNodes(const Body& body, bool open_ones) : lattice_(&body.lattice), open_ones_(open_ones) {}
+
+  bool contains(Index node, const Adjacency& now) const noexcept {
+    return now.degree(node) < complete_degree(node) || (open_ones_ && lies_open(node));
+  }
+
+ private:
+  int complete_degree(Index node) const noexcept;
+  bool lies_open(Index node) const noexcept;
+
+  const Lattice* lattice_;
+  bool open_ones_;
+};
+
+}  // namespace palpate::physics

@@ -1,0 +1,41 @@
+#pragma once
+// The triangles of a body that something else can run into: their elements live, and they are not inside the tissue. Unlike the
+// facets of a boundary they hold sheets that nothing fills.
+
+#include <algorithm>
+
+#include "physics_node/body/adjacency.h"
+#include "physics_node/body/body.h"
+#include "physics_node/lattice/triangles.h"
+
+namespace palpate::physics {
+
+class ExposedTriangles {
+ public:
+  explicit ExposedTriangles(const Body& body)
+      : lattice_(&body.lattice), patterns_(triangle_patterns(body.lattice)) {}
+
+  /// No node is the first corner of more.
+  std::size_t most_of_a_node() const noexcept {
+    std::size_t most = 0;
+    for (const auto& patterns : patterns_) most = std::max(most, patterns.size());
+    return most;
+  }
+  /// Calls take(b, c) for each whose first corner is `a`; every triangle has one first corner.
+  /// @param wanted  called with another corner: false leaves the triangle out
+  template <class Wanted, class Take>
+  void each(Index a, const Adjacency& now, const Wanted& wanted, const Take& take) const noexcept {
+    const auto live = [&](Index node) { return now.live_elements(node); };
+    for (const TrianglePattern& triangle : patterns_[static_cast<std::size_t>(lattice_->row_kind(a))]) {
+      if (!holds(triangle.edges[0], a, live)) continue;
+      const Index b = a + triangle.corner[0], c = a + triangle.corner[1];
+      if (wanted(b) && wanted(c) && is_exposed(triangle, a, live)) take(b, c);
+    }
+  }
+
+ private:
+  const Lattice* lattice_;
+  TrianglePatterns patterns_;
+};
+
+}  // namespace palpate::physics

@@ -1,0 +1,47 @@
+#pragma once
+// The volumes that a body fills now, as tetrahedra: what it takes to know whether a place is inside it. What broke open has no
+// inside.
+
+#include <array>
+
+#include "physics_node/body/build_lattice.h"
+#include "physics_node/lattice/volumes.h"
+#include "physics_node/step/body_model.h"
+
+namespace palpate::physics {
+
+class FilledVolumes {
+ public:
+  /// @param moving  outlives this
+  explicit FilledVolumes(const BodyModel& moving)
+      : moving_(&moving), patterns_(volume_patterns(moving.body().lattice)) {
+    const Body& body = moving.body();
+    if (body.cells) shift_ = lattice_corner(*body.cells, body.lattice);
+  }
+
+  /// Calls take(corners) for each tetrahedron of the volumes whose first corner is this node: where its corners are now.
+  template <class Take>
+  void each(Index node, const Take& take) const noexcept {
+    const Body& body = moving_->body();
+    const Lattice& lattice = body.lattice;
+    const auto live = [&](Index n) { return moving_->adjacency().live_elements(n); };
+    for (const VolumePattern& volume : patterns_[static_cast<std::size_t>(lattice.row_kind(node))]) {
+      if (!is_filled(volume, lattice, node, live)) continue;
+      if (body.cells) {  // elements of the cells beside it may close a volume in an empty cell
+        const Vec3i at = shift_ + lattice.grid_of(node) + volume.lowest;
+        if (!body.cells->is_deformable(at.x(), at.y(), at.z())) continue;
+      }
+      std::array<Vec3, 6> x;
+      for (std::size_t c = 0; c < volume.corner.size(); ++c)
+        x[c] = moving_->position(node + volume.corner[c]);
+      for (const auto& t : volume.tetrahedra) take(std::array<Vec3, 4>{x[t[0]], x[t[1]], x[t[2]], x[t[3]]});
+    }
+  }
+
+ private:
+  const BodyModel* moving_;
+  VolumePatterns patterns_;
+  Vec3i shift_ = Vec3i::Zero();  // from grid coordinates to cells, of voxels
+};
+
+}  // namespace palpate::physics

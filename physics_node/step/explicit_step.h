@@ -1,0 +1,19 @@
+#pragma once
+// What a step of a body is asked to do.
+
+#include "common/math/vec3.h"
+#include "physics_node/step/team.h"
+
+namespace palpate::physics {
+
+struct ExplicitStep {
+  double dt = 0;                // [s]
+  Vec3 gravity = Vec3::Zero();  // [m/s^2]
+  Team* team = nullptr;         // null: no team
+  int threads = 1;              // of the team that this step may use
+  bool verlet = false;          // velocity_verlet; else symplectic Euler
+  bool watch = false;           // note speeds, accelerations and energies: Books::watch(), sleep
+  bool exact = false;           // book dampers exactly, where velocities may jump: see lattice/element_step.h
+};
+
+}  // namespace palpate::physics

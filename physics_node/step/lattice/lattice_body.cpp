@@ -1,0 +1,296 @@
+#include "physics_node/step/body_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/math/state_hash.h"
+#include "physics_node/step/lattice/bounce.h"
+#include "physics_node/step/lattice/implicit_step.h"
+#include "physics_node/step/lattice/measure.h"
+#include "physics_node/step/lattice/saved_state.h"
+#include "physics_node/step/lattice/sleep.h"
+#include "physics_node/step/lattice/state.h"
+
+namespace palpate::physics {
+namespace {
+
+/// Do dampers or drag take energy from it?
+bool has_losses(const Body& body) {
+  return any_damped(body) ||
+         std::any_of(body.laws.begin(), body.laws.end(), [](const ElementLaw& law) { return law.drag > 0; });
+}
+
+template <class Real>
+class LatticeBody final : public BodyModel {
+ public:
+  LatticeBody(Body body, Integrator integrator)
+      : BodyModel(body_),
+        body_(std::move(body)),
+        state_(body_),
+        sleep_(body_),
+        saved_{{body_, state_}, {body_, state_}} {
+    NodeMotion::show({state_.u[0].data(), state_.u[1].data(), state_.u[2].data()},
+                     {state_.v[0].data(), state_.v[1].data(), state_.v[2].data()});
+    Topology::show({body_.lattice, {state_.mask.data(), state_.mask.size()}});
+    if (integrator == Integrator::velocity_verlet)
+      for (auto& axis : state_.v_half) axis = ZeroedArray<Real>(n_cells());
+    if (integrator == Integrator::backward_euler) implicit_ = std::make_unique<ImplicitStep<Real>>(body_);
+    reset();
+  }
+
+  StepOutcome advance(const ExplicitStep& step, std::span<const NodalForce> forces) noexcept override {
+    return implicit_ ? solve(step, forces) : integrate(step, forces);
+  }
+
+  double power(std::span<const NodalForce> forces) const noexcept override {
+    double sum = 0;
+    for (const auto& nodal : forces)
+      if (state_.inverse_mass[static_cast<std::size_t>(nodal.cell)] > 0)
+        sum += nodal.force.dot(vector_of(moving_velocity(state_), nodal.cell));
+    return sum;
+  }
+
+  void kick(std::span<const NodalForce> forces, double dt) noexcept override {
+    for (const auto& nodal : forces) {
+      const auto c = static_cast<std::size_t>(nodal.cell);
+      if (state_.inverse_mass[c] == 0) continue;
+      sleep_.wake_cell(body_, state_, nodal.cell);
+      const bool verlet = state_.v_half[0].size() > 0;
+      const Three<Real>& moving = moving_velocity(state_);
+      momentum_.push(dt * nodal.force, position(nodal.cell) - dt * vector_of(moving, nodal.cell), dt);
+      for (std::size_t a = 0; a < 3; ++a) {
+        const Real dv =
+            static_cast<Real>(dt * nodal.force[static_cast<Eigen::Index>(a)]) * state_.inverse_mass[c];
+        // With velocity_verlet v is half a step ahead of the velocity that moves the mass.
+        state_.v[a][c] += verlet ? Real(1.5) * dv : dv;
+        state_.u[a][c] += static_cast<Real>(dt) * dv;
+        if (verlet) state_.v_half[a][c] += dv;
+      }
+    }
+  }
+
+  void push(std::span<const NodalPush> pushes, double dt) noexcept override {
+    if (implicit_) dt = 0;
+    for (const NodalPush& one : pushes) push_one(one, dt);
+  }
+
+  void prepare_for(Disturbance from_outside) override {
+    if (from_outside == Disturbance::impulses) make_room(v_before_);
+    if (!implicit_ && has_losses(body_)) make_room(state_.v_seen);
+  }
+  void remember_velocities() noexcept override {
+    if (v_before_[0].size() == 0) return;
+    const Three<Real>& moving = moving_velocity(state_);
+    for (std::size_t r = 0; r < body_.lattice.rows.size(); ++r) {
+      const RowSegment& row = body_.lattice.rows[r];
+      for (std::size_t a = 0; a < 3; ++a)
+        std::copy_n(moving[a].data() + row.first, row.count, v_before_[a].data() + row.first);
+    }
+  }
+
+  Bounces bounce_off(const Plane& plane, double e, double dt) noexcept override {
+    if (implicit_) return bounce<Real>(body_, state_, state_.v, nullptr, plane, e, 0, momentum_);
+    return bounce(body_, state_, moving_velocity(state_), &v_before_, plane, e, dt, momentum_);
+  }
+
+  void sleep_and_wake(double frame_seconds) noexcept override { sleep_.look(body_, state_, frame_seconds); }
+  void wake_all() noexcept override { sleep_.wake_all(body_, state_); }
+  double sleeping_fraction() const noexcept override {
+    return static_cast<double>(sleep_.sleeping_masses()) / static_cast<double>(body_.lattice.n_masses());
+  }
+
+  bool is_finite() const noexcept override {
+    // NaN and infinity survive multiplication by zero, so one sum tells of all.
+    Real sum = 0;
+    for (std::size_t r = 0; r < body_.lattice.rows.size(); ++r) {
+      if (state_.row_state[r] == RowState::asleep) continue;
+      const auto first = static_cast<std::size_t>(body_.lattice.rows[r].first);
+      const std::size_t last = first + static_cast<std::size_t>(body_.lattice.rows[r].count);
+      for (std::size_t a = 0; a < 3; ++a)
+        for (std::size_t i = first; i < last; ++i) sum += Real(0) * (state_.u[a][i] + state_.v[a][i]);
+    }
+    return sum == Real(0);
+  }
+
+  Watch watch() const noexcept override {
+    Watch sum;
+    for (const RowLedger& row : state_.ledger) {
+      sum.kinetic += row.kinetic;
+      sum.between += row.between;
+      sum.elastic += row.elastic;
+      sum.fallen += row.fallen;
+      sum.fallen_before += row.fallen_before;
+      sum.speed = std::max(sum.speed, row.speed2);
+    }
+    sum.speed = std::sqrt(sum.speed);
+    return sum;
+  }
+
+  void save(bool good) noexcept override {
+    if (good) good_ = 1 - good_;
+    saved_[1 - good_].take(body_, state_);
+  }
+  void restore() noexcept override {
+    sleep_.wake_all(body_, state_);
+    saved_[good_].bring_back(body_, state_);
+    save(false);
+  }
+
+  void reset() noexcept override {
+    sleep_.wake_all(body_, state_);
+    state_.reset(body_);
+    momentum_ = {};
+    restart_momentum();
+    for (const Index cell : body_.lattice.masses)
+      for (std::size_t a = 0; a < 3; ++a)
+        if (state_.v_half[a].size() > 0)
+          state_.v_half[a][static_cast<std::size_t>(cell)] = state_.v[a][static_cast<std::size_t>(cell)];
+    save(false);
+    save(true);
+  }
+
+  void place(Index cell, const Vec3& displacement, const Vec3& velocity) noexcept override {
+    const auto c = static_cast<std::size_t>(cell);
+    if (state_.inverse_mass[c] == 0) return;
+    sleep_.wake_cell(body_, state_, cell);
+    for (std::size_t a = 0; a < 3; ++a) {
+      state_.u[a][c] = static_cast<Real>(displacement[static_cast<Eigen::Index>(a)]);
+      state_.v[a][c] = static_cast<Real>(velocity[static_cast<Eigen::Index>(a)]);
+      if (state_.v_half[a].size() > 0) state_.v_half[a][c] = state_.v[a][c];
+    }
+    state_.forget_last_step();
+  }
+
+  void read(std::span<const std::uint32_t> which, std::span<const Index> cells, std::span<const Vec3> rest,
+            double dt, std::span<Vec3> x, std::span<Vec3> v, std::span<Vec3> v_move) const noexcept override {
+    const Three<Real>& moving = moving_velocity(state_);
+    const bool known = v_before_[0].size() > 0 && !implicit_;
+    for (const std::uint32_t n : which) {
+      v_move[n] = vector_of(moving, cells[n]);
+      v[n] = known ? Vec3(0.5 * (v_move[n] + vector_of(v_before_, cells[n]))) : v_move[n];
+      x[n] = rest[n] + vector_of(state_.u, cells[n]);
+      if (!implicit_) x[n] -= dt * v_move[n];
+    }
+  }
+  TopologyEvents events() const noexcept override {
+    return {state_.fresh.list, any_yields(body_) && state_.fresh.overflow};
+  }
+  std::int64_t breaks() const noexcept override { return state_.breaks; }
+  void conditions(std::span<const Index> cells, std::span<Condition> out) const noexcept override {
+    const bool yields = any_yields(body_);
+    for (std::size_t n = 0; n < cells.size(); ++n) {
+      const Index cell = cells[n];
+      out[n] = {};
+      if (adjacency().has_lost(cell)) out[n].flags |= mass_broken;
+      if (yields && has_yielded(body_, state_, cell)) out[n].flags |= mass_yielded;
+      if (yields) out[n].yielded_share = yielded_share(body_, state_, cell);
+    }
+  }
+
+  Energies energies(const Vec3& gravity) const override { return measure_energies(body_, state_, gravity); }
+  Losses due() const override { return measure_due(body_, state_); }
+  Losses losses() const override { return measure_losses(state_); }
+  Momenta momenta() const override { return measure_momenta(body_, state_.u, state_.v).momenta; }
+  bool touched() const noexcept override { return momentum_.hits() > 0; }
+  void restart_momentum() noexcept override {
+    momentum_.restart(measure_momenta(body_, state_.u, moving_velocity(state_)));
+  }
+  MomentumBalance momentum_balance() const override {
+    return momentum_.balance(measure_momenta(body_, state_.u, moving_velocity(state_)).momenta);
+  }
+  BodyCounts counts() const override { return measure_counts(body_, state_); }
+
+  std::uint64_t hash(std::uint64_t seed) const noexcept override {
+    for (const auto& row : body_.lattice.rows) {
+      const auto first = static_cast<std::size_t>(row.first);
+      const auto count = static_cast<std::size_t>(row.count);
+      for (std::size_t a = 0; a < 3; ++a) {
+        seed = hash_state(&state_.u[a][first], count * sizeof(Real), seed);
+        seed = hash_state(&state_.v[a][first], count * sizeof(Real), seed);
+      }
+      seed = hash_state(&state_.mask[first], count * sizeof(Mask), seed);
+      if (!any_yields(body_)) continue;
+      for (std::size_t d = 0; d < static_cast<std::size_t>(body_.lattice.n_half); ++d) {
+        seed = hash_state(&state_.l_c[d][first], count * sizeof(Real), seed);
+        seed = hash_state(&state_.hardening[d][first], count * sizeof(Real), seed);
+      }
+    }
+    return seed;
+  }
+
+ private:
+  StepOutcome integrate(const ExplicitStep& step, std::span<const NodalForce> forces) noexcept {
+    if (step.verlet && step.dt != state_.dt_before) begin_leapfrog();
+    momentum_.step(step.gravity, step.verlet && !state_.v_half_known ? 0.5 * step.dt : step.dt, step.dt);
+    const StepOutcome outcome{.broken = element_step(body_, state_, step)};  // sleeping rows are skipped
+    kick(forces, step.dt);
+    return outcome;
+  }
+
+  StepOutcome solve(const ExplicitStep& step, std::span<const NodalForce> forces) noexcept {
+    for (const NodalForce& nodal : forces) sleep_.wake_cell(body_, state_, nodal.cell);
+    for (const NodalForce& nodal : forces)
+      momentum_.hit(step.dt * nodal.force, position(nodal.cell));  // before it moves on with it
+    momentum_.step(step.gravity, step.dt, step.dt);
+    const ImplicitReport report = implicit_->step(body_, state_, step, forces);
+    // Commits yield and break where the step ended, and lets the ledger watch.
+    ExplicitStep look = step;
+    look.dt = 0;
+    return {.broken = element_step(body_, state_, look),
+            .solved = report.converged,
+            .work = report.work,
+            .newton_iterations = report.newton_iterations,
+            .cg_iterations = report.cg_iterations};
+  }
+
+  void push_one(const NodalPush& one, double dt) noexcept {
+    const auto c = static_cast<std::size_t>(one.cell);
+    if (state_.inverse_mass[c] == 0) return;
+    sleep_.wake_cell(body_, state_, one.cell);
+    const bool verlet = state_.v_half[0].size() > 0;
+    momentum_.push(one.dv / static_cast<double>(state_.inverse_mass[c]),
+                   position(one.cell) - dt * vector_of(moving_velocity(state_), one.cell), dt);
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double d = one.dv[static_cast<Eigen::Index>(a)];
+      state_.v[a][c] += static_cast<Real>(d);
+      state_.u[a][c] += static_cast<Real>(dt * d);
+      if (verlet) state_.v_half[a][c] += static_cast<Real>(d);
+      // The impulse acts before the elements do: who reads the mean of this and the velocity after them finds all of it.
+      if (v_before_[a].size() > 0) v_before_[a][c] += static_cast<Real>(d);
+    }
+  }
+
+  /// With another step the velocity half a step ago is another one: the step starts from the one now. Its momentum is another
+  /// too, by what acted meanwhile.
+  void begin_leapfrog() noexcept {
+    const Momenta before = measure_momenta(body_, state_.u, state_.v_half).momenta;
+    const Momenta after = measure_momenta(body_, state_.u, state_.v).momenta;
+    momentum_.shift(after, before);
+    state_.v_half_known = false;
+  }
+
+  void make_room(Three<Real>& v) const {
+    for (auto& axis : v)
+      if (axis.size() == 0) axis = ZeroedArray<Real>(n_cells());
+  }
+  std::size_t n_cells() const { return static_cast<std::size_t>(body_.lattice.n_cells()); }
+
+  Body body_;
+  LatticeState<Real> state_;
+  Three<Real> v_before_;  // that moved the masses in the step before the last; only for contact
+  Sleep sleep_;
+  MomentumAccount momentum_;
+  SavedState<Real> saved_[2];
+  std::size_t good_ = 0;                          // the other one is to prove itself
+  std::unique_ptr<ImplicitStep<Real>> implicit_;  // only for backward_euler
+};
+
+}  // namespace
+
+std::unique_ptr<BodyModel> make_body_model(Body body, Precision precision, Integrator integrator) {
+  if (precision == Precision::single_)
+    return std::make_unique<LatticeBody<float>>(std::move(body), integrator);
+  return std::make_unique<LatticeBody<double>>(std::move(body), integrator);
+}
+
+}  // namespace palpate::physics

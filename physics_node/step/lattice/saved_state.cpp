@@ -1,0 +1,74 @@
+#include "physics_node/step/lattice/saved_state.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace palpate::physics {
+namespace {
+
+template <class T>
+void copy_rows(const Body& body, const ZeroedArray<T>& from, ZeroedArray<T>& to) noexcept {
+  for (const RowSegment& row : body.lattice.rows)
+    std::copy_n(from.data() + row.first, row.count, to.data() + row.first);
+}
+
+}  // namespace
+
+template <class Real>
+SavedState<Real>::SavedState(const Body& body, const LatticeState<Real>& state) : ledger_(state.ledger) {
+  const auto n = static_cast<std::size_t>(body.lattice.n_cells());
+  for (auto& axis : u_) axis = ZeroedArray<Real>(n);
+  if (!any_yields(body)) return;
+  mask_ = ZeroedArray<Mask>(n);
+  for (std::size_t h = 0; h < static_cast<std::size_t>(body.lattice.n_half); ++h) {
+    l_c_[h] = ZeroedArray<Real>(n);
+    hardening_[h] = ZeroedArray<Real>(n);
+  }
+}
+
+template <class Real>
+void SavedState<Real>::take(const Body& body, const LatticeState<Real>& state) noexcept {
+  for (std::size_t a = 0; a < 3; ++a) copy_rows(body, state.u[a], u_[a]);
+  ledger_ = state.ledger;
+  if (!any_yields(body)) return;
+  std::int64_t yields = 0;
+  for (const RowLedger& row : ledger_) yields += row.yields;
+  if (yields == yields_ && state.breaks == breaks_) return;
+  yields_ = yields;
+  breaks_ = state.breaks;
+  copy_rows(body, state.mask, mask_);
+  for (std::size_t h = 0; h < static_cast<std::size_t>(body.lattice.n_half); ++h) {
+    copy_rows(body, state.l_c[h], l_c_[h]);
+    copy_rows(body, state.hardening[h], hardening_[h]);
+  }
+}
+
+template <class Real>
+void SavedState<Real>::bring_back(const Body& body, LatticeState<Real>& state) const noexcept {
+  for (std::size_t a = 0; a < 3; ++a) {
+    copy_rows(body, u_[a], state.u[a]);
+    for (auto* three : {&state.v, &state.v_half, &state.f})
+      for (const RowSegment& row : body.lattice.rows)
+        if ((*three)[a].size() > 0) std::fill_n((*three)[a].data() + row.first, row.count, Real(0));
+  }
+  state.forget_last_step();
+  state.ledger = ledger_;
+  for (RowLedger& row : state.ledger) {
+    row.speed2 = row.kinetic = row.between = 0;
+    row.acceleration2 =
+        std::numeric_limits<double>::max();  // not known: nothing may sleep before the next look
+  }
+  state.breaks = breaks_;
+  state.fresh.replace_all();
+  if (!any_yields(body)) return;
+  copy_rows(body, mask_, state.mask);
+  for (std::size_t h = 0; h < static_cast<std::size_t>(body.lattice.n_half); ++h) {
+    copy_rows(body, l_c_[h], state.l_c[h]);
+    copy_rows(body, hardening_[h], state.hardening[h]);
+  }
+}
+
+template class SavedState<float>;
+template class SavedState<double>;
+
+}  // namespace palpate::physics

@@ -1,0 +1,95 @@
+#include "physics_node/step/lattice/state.h"
+
+#include <algorithm>
+
+#include "physics_node/step/lattice/element_slots.h"
+
+namespace palpate::physics {
+
+template <class Real>
+LatticeState<Real>::LatticeState(const Body& body) {
+  const auto n = static_cast<std::size_t>(body.lattice.n_cells());
+  const auto n_half = static_cast<std::size_t>(body.lattice.n_half);
+  std::size_t colour = 0;
+  for (auto* three : {&u, &v, &f})
+    for (auto& array : *three) array = ZeroedArray<Real>(n, colour++);
+  mask = ZeroedArray<Mask>(n, colour++);
+  inverse_mass = ZeroedArray<Real>(n, colour++);
+  if (any_yields(body)) {
+    for (std::size_t h = 0; h < n_half; ++h) {
+      l_c[h] = ZeroedArray<Real>(n, colour++);
+      hardening[h] = ZeroedArray<Real>(n, colour++);
+    }
+  }
+  for (const Index cell : body.lattice.masses) {
+    const auto c = static_cast<std::size_t>(cell);
+    inverse_mass[c] = static_cast<Real>(body.inverse_mass[c]);
+  }
+  make_slots(body, all, level, up);
+  if (!body.law_of.empty()) varied = make_varied_constants<Real>(body, colour);
+  row_state.resize(body.lattice.rows.size());
+  ledger.resize(body.lattice.rows.size());
+  if (any_yields(body)) fresh.reserve(body.lattice.n_elements());
+  reset(body);
+}
+
+template <class Real>
+void LatticeState<Real>::reset(const Body& body) {
+  const bool yields = any_yields(body);
+  for (const Index cell : body.lattice.masses) {
+    const auto c = static_cast<std::size_t>(cell);
+    const bool held = body.inverse_mass[c] == 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const auto start = static_cast<Real>(body.velocity[static_cast<Eigen::Index>(a)]);
+      u[a][c] = f[a][c] = 0;
+      v[a][c] = held ? Real(0) : start;
+    }
+    mask[c] = body.lattice.mask[c];
+    for (std::size_t h = 0; yields && h < static_cast<std::size_t>(body.lattice.n_half); ++h) {
+      if (l_c[h][c] != 0) l_c[h][c] = 0;  // only what was written: untouched pages stay free
+      if (hardening[h][c] != 0) hardening[h][c] = 0;
+    }
+  }
+  forget_last_step();
+  breaks = 0;
+  fresh.replace_all();
+  std::fill(row_state.begin(), row_state.end(), RowState::awake);
+  std::fill(ledger.begin(), ledger.end(), RowLedger{});
+}
+
+template <class Real>
+bool has_yielded(const Body& body, const LatticeState<Real>& state, Index cell) noexcept {
+  const auto n_half = static_cast<std::size_t>(body.lattice.n_half);
+  const auto& offset = body.lattice.offset[static_cast<std::size_t>(body.lattice.row_kind(cell))];
+  for (std::size_t d = 0; d < 2 * n_half; ++d) {
+    if ((body.lattice.mask[static_cast<std::size_t>(cell)] >> d & 1) == 0) continue;
+    const Index owner = d < n_half ? cell : cell + offset[d];
+    if (state.hardening[d % n_half][static_cast<std::size_t>(owner)] > 0) return true;
+  }
+  return false;
+}
+
+template <class Real>
+double yielded_share(const Body& body, const LatticeState<Real>& state, Index cell) noexcept {
+  const auto n_half = static_cast<std::size_t>(body.lattice.n_half);
+  const auto& offset = body.lattice.offset[static_cast<std::size_t>(body.lattice.row_kind(cell))];
+  const Mask live = state.mask[static_cast<std::size_t>(cell)];
+  if (live == 0) return has_yielded(body, state, cell) ? 1 : 0;
+  int alive = 0, yielded = 0;
+  for (std::size_t d = 0; d < 2 * n_half; ++d) {
+    if ((live >> d & 1) == 0) continue;
+    const Index owner = d < n_half ? cell : cell + offset[d];
+    ++alive;
+    yielded += state.hardening[d % n_half][static_cast<std::size_t>(owner)] > 0 ? 1 : 0;
+  }
+  return static_cast<double>(yielded) / alive;
+}
+
+template struct LatticeState<float>;
+template struct LatticeState<double>;
+template bool has_yielded(const Body&, const LatticeState<float>&, Index) noexcept;
+template bool has_yielded(const Body&, const LatticeState<double>&, Index) noexcept;
+template double yielded_share(const Body&, const LatticeState<float>&, Index) noexcept;
+template double yielded_share(const Body&, const LatticeState<double>&, Index) noexcept;
+
+}  // namespace palpate::physics

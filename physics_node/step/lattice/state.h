@@ -1,0 +1,74 @@
+#pragma once
+// What changes of a lattice body: structure of arrays over storage cells, in the precision of the scene.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "physics_node/body/body.h"
+#include "physics_node/step/lattice/element_context.h"
+#include "physics_node/step/lattice/fresh_breaks.h"
+#include "physics_node/step/zeroed_array.h"
+
+namespace palpate::physics {
+
+template <class Real>
+using Three = std::array<ZeroedArray<Real>, 3>;  // x, y, z
+template <class Real>
+Vec3 vector_of(const Three<Real>& three, Index cell) noexcept {
+  const auto c = static_cast<std::size_t>(cell);
+  return {static_cast<double>(three[0][c]), static_cast<double>(three[1][c]),
+          static_cast<double>(three[2][c])};
+}
+template <class Real>
+using ByHalf = std::array<ZeroedArray<Real>, max_half>;  // by half direction
+
+/// Constants of each element, at the end from which its direction is of the first half; only where materials meet.
+template <class Real>
+struct VariedConstants {
+  ByHalf<Real> k1, k2, c, yield, snap;  // as in ElementSlot  (n_cells)
+  ZeroedArray<Real> drag;               // of each mass, where it differs [N s/m]  (n_cells)
+};
+
+template <class Real>
+struct LatticeState {
+  Three<Real> u, v;           // displacement from rest [m], velocity [m/s]               (n_cells)
+  Three<Real> f;              // force gathered so far; zero between steps [N]            (n_cells)
+  Three<Real> v_half;         // velocity half a step ago; only for velocity_verlet       (n_cells)
+  bool v_half_known = false;  // false: the next step of velocity_verlet is the first
+  Three<Real> v_seen;  // that dampers saw in the last step; only where something may touch or press (n_cells)
+  bool v_seen_known = false;
+  double dt_before = 0;            // of the last explicit step; 0: there was none [s]
+  ZeroedArray<Mask> mask;          // live elements                                            (n_cells)
+  ByHalf<Real> l_c;                // plastic stretch [m]; only where a material yields        (n_cells)
+  ByHalf<Real> hardening;          // l - L at yield, less that at first yield [m]; only there (n_cells)
+  ZeroedArray<Real> inverse_mass;  // constant, in this precision                       (n_cells)
+  VariedConstants<Real> varied;
+
+  std::array<SlotList<Real>, max_row_kinds> all, level, up;  // constant: see ElementContext
+  std::vector<RowState> row_state;                           // by row
+  std::vector<RowLedger> ledger;                             // by row
+  std::int64_t breaks = 0;                                   // of all rows, when the masks were last mirrored
+  FreshBreaks fresh;                                         // of the last step; only where a material yields
+
+  explicit LatticeState(const Body& body);
+  void reset(const Body& body);
+  /// No step came before this state: what the next one begins with is what there is.
+  void forget_last_step() noexcept { v_half_known = v_seen_known = false, dt_before = 0; }
+};
+
+/// The velocity that moved the masses in the last step, whose momentum forces change and nothing else.
+template <class Real>
+const Three<Real>& moving_velocity(const LatticeState<Real>& state) noexcept {
+  return state.v_half[0].size() > 0 ? state.v_half : state.v;
+}
+
+/// What a mass has been through.
+template <class Real>
+bool has_yielded(const Body& body, const LatticeState<Real>& state, Index cell) noexcept;
+
+/// How many of a mass's live elements have yielded, [0, 1]; of a mass without any, whether one had before it broke.
+template <class Real>
+double yielded_share(const Body& body, const LatticeState<Real>& state, Index cell) noexcept;
+
+}  // namespace palpate::physics
