@@ -23,6 +23,7 @@ std::vector<SourceFile> read_house(const std::filesystem::path& root);
 std::vector<std::string> include_breaches(const SourceFile& file);  // directions and doors
 std::vector<std::string> text_breaches(const SourceFile& file);     // sizes, words, paths, flags
 std::vector<std::string> data_breaches(const SourceFile& file);     // data and binaries
+std::vector<std::string> seam_breaches(const SourceFile& file);     // lattices and interfaces of physics_node
 
 /// The same of pages that list what stands in other files (docs/reference, docs/contributing.md), for the whole house.
 std::vector<std::string> page_breaches(const std::vector<SourceFile>& files);

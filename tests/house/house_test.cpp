@@ -171,6 +171,29 @@ TEST_F(PlantedHouse, RefusesRoomsWithoutUnitTests) {
   EXPECT_FALSE(is_fine("tests/unit/common/math/sum_test.cpp", "// excused, and tested\n"));
 }
 
+TEST_F(PlantedHouse, RefusesFieldsOfALatticeOutsideItsRooms) {
+  const std::string reads = "const auto left = lattice.mask[0];\n",
+                    computes = "const auto b = a + offset[d];\n";
+  EXPECT_EQ(breach("physics_node/fragments/flood.cpp", reads),
+            "physics_node/fragments/flood.cpp:1: \"mask\" is of a lattice; ask Adjacency, TopologyEvents or "
+            "the boundary");
+  EXPECT_THAT(breach("physics_node/step/leap.h", computes), HasSubstr("\"offset[\" is of a lattice"));
+  for (const char* room : {"lattice", "body", "boundary", "step/lattice"})
+    EXPECT_TRUE(is_fine("physics_node/" + std::string(room) + "/leap.cpp", reads + computes)) << room;
+  EXPECT_TRUE(is_fine("render_node/gl/leap.cpp", reads));
+}
+
+TEST_F(PlantedHouse, RefusesWideInterfaces) {
+  const auto face = [](int n) {
+    std::string text = "class Face {\n";
+    for (int i = 0; i < n; ++i) text += "  virtual int f" + std::to_string(i) + "() = 0;\n";
+    return text + "};\n";
+  };
+  EXPECT_TRUE(is_fine("physics_node/step/face.h", face(12) + face(12)));
+  EXPECT_EQ(breach("physics_node/step/face.h", face(13)),
+            "physics_node/step/face.h:14: Face has more than 12 virtual members; split it by who uses them");
+}
+
 TEST_F(PlantedHouse, LooksAwayFromWhatGitIgnores) {
   EXPECT_TRUE(is_fine("build/ready/a.o", "x"));
   EXPECT_TRUE(is_fine("data/cranium.h5", "x"));

@@ -58,6 +58,7 @@ std::vector<std::string> house_breaches(const fs::path& root) {
     append(breaches, include_breaches(file));
     append(breaches, text_breaches(file));
     append(breaches, data_breaches(file));
+    append(breaches, seam_breaches(file));
   }
   append(breaches, page_breaches(files));
   append(breaches, link_breaches(files));
