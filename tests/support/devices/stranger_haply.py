@@ -20,6 +20,7 @@ DEPTH, MOTORS, FORCE, N_PACKETS, PACKETS, KEPT = 8, 20, 24, 32, 40, 1 << 16
 with open(sys.argv[1], "r+b") as shared:
     bus = mmap.mmap(shared.fileno(), 0)
 pressed_since = None
+clients = 0
 
 
 def tell_hardware(force):
@@ -43,8 +44,10 @@ def state():
 
 
 async def serve(socket):
-    global pressed_since
-    pressed_since = None  # a new hand begins above
+    global pressed_since, clients
+    if clients == 0:
+        pressed_since = None  # a new hand begins above; a second client sees the same one
+    clients += 1
     await socket.send(json.dumps({"session_id": 1, "inverse3": [
         {"device_id": "0001", "config": {}, "state": state(), "status": {}}]}))
     try:
@@ -56,6 +59,8 @@ async def serve(socket):
             await socket.send(json.dumps({"inverse3": [{"device_id": "0001", "state": state()}]}))
     except websockets.ConnectionClosed:
         pass
+    finally:
+        clients -= 1
 
 
 async def main():
