@@ -85,6 +85,12 @@ void StickFaces::list(const Stick& stick, double reach) noexcept {
   const double spacing = model_->body().spacing();
   // Why: from the middle of a facet to its corners, stretched twice.
   facets_around(stick, reach + 2 * spacing, *surface_, *model_, near_);
+  listed_revision_ = surface_->revision();
+}
+
+bool StickFaces::has_changed(const Stick& stick, double reach) const noexcept {
+  const double around = 0.5 * stick.D.norm() + reach + 2 * model_->body().spacing();
+  return surface_->changed_near(stick.axis_point(0.5), around, listed_revision_, *model_);
 }
 
 LeadWork StickFaces::give_way(std::uint32_t facet, const Corners& corner, const FaceHit& hit,

@@ -38,6 +38,8 @@ class StickFaces {
   /// Lists the faces within `reach` of the axis. Contract: allocates nothing.
   void list(const Stick& stick, double reach) noexcept;
   std::size_t size() const noexcept { return near_.size(); }
+  /// Has a facet opened or gone within `reach` since they were listed?
+  bool has_changed(const Stick& stick, double reach) const noexcept;
   /// A step of dt in which the stick went from `before` to `now`, after the elements have moved everything.
   /// @param sum  takes the impulses on the stick, about `origin`; @param contacts  counts the faces
   LeadWork lead(const Stick& before, const Stick& now, const Vec3& origin, double dt, ContactSum& sum,
@@ -52,6 +54,7 @@ class StickFaces {
   BodyModel* model_;
   double radius_;  // at which a face gives way [m]
   std::vector<std::uint32_t> near_;
+  std::uint64_t listed_revision_ = 0;  // of the surface
 };
 
 }  // namespace palpate::physics

@@ -96,14 +96,17 @@ void StickTool::find_contact(double t) noexcept {
   if (!seen_) return;
   const Stick now = stick_at(to_);
   surface_.look(now, t);
-  if (!search_.due(now, t)) return;
+  const double reach = radius_ + 2 * StickSearch::margin;
+  const bool changed = std::any_of(faces_.begin(), faces_.end(),
+                                   [&](const StickFaces& faces) { return faces.has_changed(now, reach); });
+  if (!search_.due(now, t) && !changed) return;
   n_near_ = 0;
   for (Near& near : near_) {
     list(near);
     n_near_ += near.n;
   }
   for (StickFaces& faces : faces_) {
-    faces.list(now, radius_ + 2 * StickSearch::margin);
+    faces.list(now, reach);
     n_near_ += faces.size();
   }
 }

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "physics_node/contact/stick_faces.h"
 #include "physics_node/contact/tool_contact.h"
 #include "tests/support/physics/small_worlds.h"
 
@@ -186,6 +187,33 @@ TEST_P(BoundaryFollows, IsFelt) {
     EXPECT_EQ(std::count(torn.begin(), torn.end(), share.cell), 0) << "a crumb bears nothing";
   PatchFacet facets[max_patch_facets];
   EXPECT_GT(contact.write_facets(plane.point, 0, facets, max_patch_facets, false), 4u);
+}
+
+/// What opens beside a stick is listed in the next frame, and what opens elsewhere makes nobody look.
+TEST_P(BoundaryFollows, TellsAStickWhatHasOpenedBesideIt) {
+  const Body& body = body_->body();
+  const auto nearest = [&](const Vec3& p) {
+    return *std::min_element(body.nodes().begin(), body.nodes().end(), [&](Index a, Index b) {
+      return (body.rest_position(a) - p).norm() < (body.rest_position(b) - p).norm();
+    });
+  };
+  const Stick stick{.A = Vec3(-0.005, 0, 0), .D = Vec3(0.01, 0, 0), .radius = 0.001};
+  constexpr double reach = 0.002;
+  StickFaces faces(boundary_, *body_, stick.radius);
+  tear({nearest(Vec3(0.06, 0.06, 0.05))});  // the first state is a new one: all may have changed
+  settle();
+  faces.list(stick, reach);
+  ASSERT_EQ(faces.size(), 0u) << "deep inside";
+  EXPECT_FALSE(faces.has_changed(stick, reach));
+  tear({nearest(Vec3(-0.06, -0.06, -0.05))});
+  boundary_.update();
+  EXPECT_FALSE(faces.has_changed(stick, reach));
+  tear({nearest(Vec3::Zero())});
+  boundary_.update();
+  EXPECT_TRUE(faces.has_changed(stick, reach));
+  faces.list(stick, reach);
+  EXPECT_GT(faces.size(), 4u);
+  EXPECT_FALSE(faces.has_changed(stick, reach));
 }
 
 /// One that cannot break holds nothing more and does nothing.
