@@ -13,12 +13,13 @@ namespace palpate {
 std::array<int, 3> check_size(const std::string& where, const std::array<std::int64_t, 3>& size) {
   const auto text = fmt::format("{} x {} x {}", size[0], size[1], size[2]);
   if (*std::min_element(size.begin(), size.end()) < 1)
-    throw InputError(where + ": its size is " + text + " cells; each must be at least 1");
+    throw InputError(fmt::format("{}: its size is {} cells; each must be at least 1", where, text));
   // One factor after the other, so that the product cannot overflow.
   std::int64_t cells = 1;
   for (const auto n : size) {
     if (n >= volume_cells_limit / cells + 1 || cells * n >= volume_cells_limit)
-      throw InputError(where + ": its size is " + text + " cells; fewer than 1e9 in all are accepted");
+      throw InputError(
+          fmt::format("{}: its size is {} cells; fewer than 1e9 in all are accepted", where, text));
     cells *= n;
   }
   return {static_cast<int>(size[0]), static_cast<int>(size[1]), static_cast<int>(size[2])};

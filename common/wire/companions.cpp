@@ -17,7 +17,7 @@ std::optional<Identity> identity_of(const dds_builtintopic_participant_t& partic
   std::size_t size = 0;
   if (participant.qos == nullptr || !dds_qget_userdata(participant.qos, &data, &size) || data == nullptr)
     return {};
-  const auto identity = identity_from({static_cast<const char*>(data), size});
+  auto identity = identity_from({static_cast<const char*>(data), size});
   dds_free(data);
   return identity;
 }

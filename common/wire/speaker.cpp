@@ -26,7 +26,7 @@ std::optional<Identity> identity_of(const dds_builtintopic_endpoint_t& writer) {
   void* data = nullptr;
   std::size_t size = 0;
   if (writer.qos == nullptr || !dds_qget_userdata(writer.qos, &data, &size) || data == nullptr) return {};
-  const auto identity = identity_from({static_cast<const char*>(data), size});
+  auto identity = identity_from({static_cast<const char*>(data), size});
   dds_free(data);
   return identity;
 }
