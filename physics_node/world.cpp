@@ -76,7 +76,7 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
   for (const WallSpec& wall : scene.walls) planes_.push_back({wall.normal, wall.normal.dot(wall.point)});
   choice_ = choose_threads(scene, spare_cores, n_masses, n_pieces);
   if (choice_.most() > 1) team_ = std::make_unique<Team>(choice_.most());
-  gathered_.reserve(toolbox_.pressing.size() * ToolCoupling::most_forces);
+  gathered_.reserve(toolbox_.pressing.size() * PointTool::most_forces);
 
   frame_dt_ = 1.0 / scene.physics->frame_Hz;
   n_substeps_ = static_cast<int>(steps_a_frame(scene, stable_dt_));

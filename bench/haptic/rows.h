@@ -65,17 +65,17 @@ Row world_raw_is_unstable(Runs& runs);         // S0
 Row stick_is_steady(Runs& runs);               // S12
 Row stick_with_torques_is_steady(Runs& runs);  // S12
 
-// rows_world_more.cpp
+// rows_world_links.cpp
 Row world_wall_is_stable(Runs& runs);           // S1
 Row world_bears_a_stiff_spring(Runs& runs);     // S3
 Row world_bears_unruly_links(Runs& runs);       // N1
 Row world_teleports_push_gently();              // S7
 Row world_edge_has_no_ghost(const Runs& runs);  // S8
 
-// rows_six.cpp
+// rows_torque.cpp
 Row torque_is_bounded(const Runs& runs);  // S12
 
-// rows_exact.cpp
+// rows_closed_form.cpp; and the list of all rows
 Row proxy_is_exact(const Runs& runs);        // S9
 Row calibration_is_exact(const Runs& runs);  // S13
 Row rubbish_is_harmless(const Runs& runs);   // F3

@@ -1,5 +1,5 @@
 #pragma once
-// What a process can do to be on time every millisecond. Each step may be refused; a refusal is told, not hidden.
+// What a process can do to be on time every millisecond. Each step may be refused; a refusal is reported, not hidden.
 
 #include <string>
 

@@ -1,5 +1,5 @@
 #pragma once
-// What render_node is told: the visible surface of every body, then only what changes in it and the blocks of vertices
+// What physics sends to the eye: the visible surface of every body, then only what changes in it and the blocks of vertices
 // that moved. Free of DDS: the messages go to whoever asks.
 
 #include <functional>

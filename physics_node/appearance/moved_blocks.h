@@ -1,5 +1,5 @@
 #pragma once
-// Which vertices of one body have moved, or changed their state, since a reader was last told of them.
+// Which vertices of one body have moved, or changed their state, since they were last sent.
 
 #include <functional>
 #include <vector>
@@ -16,10 +16,10 @@ inline Array3f float_of(const Vec3& p) {
 
 class MovedBlocks {
  public:
-  /// Of so many vertices, none of which has been told of.
+  /// Of so many vertices, none of which has been sent.
   void begin(std::size_t n_vertices);
   void grow(std::size_t n_vertices);
-  /// A vertex has been told of elsewhere.
+  /// A vertex has been sent by other means.
   void told(std::size_t vertex, const Array3f& position) { sent_[vertex] = position; }
   /// All blocks are written again next time.
   void resend();

@@ -1,6 +1,6 @@
 #pragma once
 // A surface under the numbers that its reader knows. Of a later surface of the same body, whatever is in both keeps its number,
-// so that only what changed need be told.
+// so that only what changed need be sent.
 
 #include <vector>
 

@@ -12,7 +12,7 @@ namespace {
 
 void add_point(const ToolSpec& spec, std::uint32_t n, const BodyModels& bodies,
                const std::vector<TouchableBody>& touchable, Toolbox& box) {
-  auto point = std::make_unique<ToolCoupling>(spec, n, touchable);
+  auto point = std::make_unique<PointTool>(spec, n, touchable);
   box.pressing.push_back(point.get());
   box.tools.push_back(std::move(point));
   for (const auto& body : bodies) body->prepare_for(Disturbance::forces);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "physics_node/contact/led_tool.h"
-#include "physics_node/contact/tool_coupling.h"
+#include "physics_node/contact/point_tool.h"
 
 namespace palpate::physics {
 

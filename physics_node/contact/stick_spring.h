@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "physics_node/contact/norton_spring.h"
+#include "physics_node/contact/point_tool.h"
 #include "physics_node/contact/secant_stiffness.h"
 #include "physics_node/contact/stick_plane.h"
-#include "physics_node/contact/tool_coupling.h"
 
 namespace palpate::physics {
 

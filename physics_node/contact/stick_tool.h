@@ -8,7 +8,7 @@
 // the test is a swept capsule (C-33) and the side by which a mass leaves is the one it came from (C-35).
 //
 // Between hand and stick is the spring K that is between hand and proxy of every tool: the stick is where the proxy is,
-// p = x + F / K. The hand is offered one plane to rest on, a Norton equivalent (tool_coupling.h), and the same with what turns the
+// p = x + F / K. The hand is offered one plane to rest on, a Norton equivalent (point_tool.h), and the same with what turns the
 // stick (norton_spring.h) as it feels it through that spring: at x = p - F / K,   K_s = K_t - K_t E (K + E^T K_t E)^-1 E^T K_t,
 // E the three ways. Where no surface is found, the tangent of the contacts stands in (tangent_estimate.h).
 // With force_model = "direct" there is no such spring: the stick is where the hand is.

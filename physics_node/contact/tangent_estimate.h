@@ -11,8 +11,8 @@
 //
 //   W := W - K xi,   then   W += a (W_t - W),  K += a (K_t - K)      xi the hand's motion in the frame
 //
-// so that on elastic tissue the wrench told belongs to the pose told. K_t itself is the tangent that is told. Source: ours; the linear local model of slow tissue
-// is Cavusoglu & Tendick 2000.
+// so that on elastic tissue the wrench sent belongs to the pose sent with it. K_t itself is the tangent that is sent. Source:
+// ours; the linear local model of slow tissue is Cavusoglu & Tendick 2000.
 
 #include "physics_node/collision/contact_sum.h"
 #include "physics_node/contact/low_pass.h"

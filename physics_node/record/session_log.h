@@ -53,7 +53,7 @@ class SessionLog {
   struct Entry {
     enum class Kind : std::uint32_t { input, hash, breaks, command, status, done } kind = Kind::done;
     std::uint32_t tool = 0;
-    std::uint64_t frame = 0;  // frames done before what is told here
+    std::uint64_t frame = 0;  // frames done before this entry
     bool fresh = false;
     ToolState state;
     std::array<std::uint64_t, 2> counts{};
@@ -81,7 +81,7 @@ class SessionLog {
 
   Hdf5File& file_;
   std::unique_ptr<SpscRing<Entry, n_entries>> entries_;
-  bool lost_ = false;                       // an entry found no room: nothing is told any more
+  bool lost_ = false;                       // an entry found no room: nothing is logged any more
   std::vector<std::optional<Entry>> told_;  // newest input of each tool
   std::int64_t broken_ = 0, restored_ = 0;
 

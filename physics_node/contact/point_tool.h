@@ -31,11 +31,11 @@ struct TouchableBody {
   std::unique_ptr<Boundary> surface;
 };
 
-class ToolCoupling final : public PressingTool {
+class PointTool final : public PressingTool {
  public:
   static constexpr std::size_t most_forces = 16384;
 
-  ToolCoupling(const ToolSpec& tool, std::uint32_t index, const std::vector<TouchableBody>& bodies);
+  PointTool(const ToolSpec& tool, std::uint32_t index, const std::vector<TouchableBody>& bodies);
 
   /// Takes the newest state of the hand, or none where nothing fresh has come: then the force dies away.
   /// @param dt  of the frame [s]

@@ -1,4 +1,4 @@
-#include "physics_node/contact/tool_coupling.h"
+#include "physics_node/contact/point_tool.h"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace {
 
 using namespace test;
 
-TEST(ToolCoupling, CarriesASteadyForceIntoTheMasses) {
+TEST(PointTool, CarriesASteadyForceIntoTheMasses) {
   World world(pressed_slab());
   const auto hand = steady_hand({0, 0, 1.5});
   run(world, hand, 700);
@@ -28,7 +28,7 @@ TEST(ToolCoupling, CarriesASteadyForceIntoTheMasses) {
   EXPECT_GT(forces_of_tool(world).size(), 4u);
 }
 
-TEST(ToolCoupling, LetsGoWhenTheHandFallsSilent) {
+TEST(PointTool, LetsGoWhenTheHandFallsSilent) {
   World world(pressed_slab());
   run(world, steady_hand({0, 0, 1.5}), 1000);
   run(world, std::nullopt, 100);
@@ -40,7 +40,7 @@ TEST(ToolCoupling, LetsGoWhenTheHandFallsSilent) {
   EXPECT_TRUE(forces_of_tool(world).empty());
 }
 
-TEST(ToolCoupling, IgnoresTheForceOfAHandThatIsNotEngaged) {
+TEST(PointTool, IgnoresTheForceOfAHandThatIsNotEngaged) {
   World world(pressed_slab());
   auto hand = steady_hand({0, 0, 1.5});
   hand->engaged = 0;
@@ -48,7 +48,7 @@ TEST(ToolCoupling, IgnoresTheForceOfAHandThatIsNotEngaged) {
   EXPECT_EQ(world.tool(0).force(), Vec3(Vec3::Zero()));
 }
 
-TEST(ToolCoupling, OffersThePlaneWhereItWouldBeWithoutTheForce) {
+TEST(PointTool, OffersThePlaneWhereItWouldBeWithoutTheForce) {
   World world(pressed_slab());
   run(world, steady_hand({0, 0, 1.0}), 1000);
   ContactPatch patch;
@@ -64,7 +64,7 @@ TEST(ToolCoupling, OffersThePlaneWhereItWouldBeWithoutTheForce) {
 }
 
 /// Facets beside the tip lean toward it in its dimple; what they lean by is the tissue's own answer, which must not come back.
-TEST(ToolCoupling, OffersTheNormalThatHeldTissueHasAtRest) {
+TEST(PointTool, OffersTheNormalThatHeldTissueHasAtRest) {
   World world(pressed_slab());
   run(world, steady_hand({0, 0, 1.5}), 1000);
   ContactPatch patch;
@@ -81,7 +81,7 @@ TEST(ToolCoupling, OffersTheNormalThatHeldTissueHasAtRest) {
 }
 
 /// Frames of 50 ms of a force that grows: the displacement of a frame's beginning belongs to the force of the last frame.
-TEST(ToolCoupling, LearnsTheSameStiffnessFromAForceThatGrowsAsFromOneThatStands) {
+TEST(PointTool, LearnsTheSameStiffnessFromAForceThatGrowsAsFromOneThatStands) {
   Scene scene = pressed_slab();
   scene.physics->frame_Hz = 20;
   World world(scene);
@@ -95,7 +95,7 @@ TEST(ToolCoupling, LearnsTheSameStiffnessFromAForceThatGrowsAsFromOneThatStands)
   EXPECT_LT(most, 1.1 * patch.facets[0].stiffness);
 }
 
-TEST(ToolCoupling, TellsForceAndMomentAboutTheSetPoint) {
+TEST(PointTool, TellsForceAndMomentAboutTheSetPoint) {
   World world(pressed_slab());
   auto hand = steady_hand({0, 0, 1.0});
   hand->p_WT = {0.01, 0.02, slab_top};
@@ -108,7 +108,7 @@ TEST(ToolCoupling, TellsForceAndMomentAboutTheSetPoint) {
   EXPECT_GT(wrench.n_contacts, 0u);
 }
 
-TEST(ToolCoupling, IsFreeBeforeTheHandIsSeen) {
+TEST(PointTool, IsFreeBeforeTheHandIsSeen) {
   World world(pressed_slab());
   run(world, std::nullopt, 10);
   ContactPatch patch;
@@ -119,7 +119,7 @@ TEST(ToolCoupling, IsFreeBeforeTheHandIsSeen) {
 
 /// The upper two layers are torn away at once: the patch of the next frame but one offers what lies beneath, and the force of the
 /// hand is borne there.
-TEST(ToolCoupling, OffersWhatHasOpened) {
+TEST(PointTool, OffersWhatHasOpened) {
   Recipe recipe = pressed_slab_recipe();
   recipe.material += "\nyield_ratio = 1.3\nbreak_ratio = 1.5";
   World world(scene_of(recipe));
@@ -155,7 +155,7 @@ TEST(ToolCoupling, OffersWhatHasOpened) {
   EXPECT_NEAR(patch.facets[0].corners[0][2], slab_top, 0.0005);
 }
 
-TEST(ToolCoupling, PressesAfterAResetAsItDidAtFirst) {
+TEST(PointTool, PressesAfterAResetAsItDidAtFirst) {
   World world(pressed_slab());
   const auto press = [&world] {
     run(world, steady_hand({0, 0, 1.5}), 150);

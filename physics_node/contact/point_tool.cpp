@@ -1,4 +1,4 @@
-#include "physics_node/contact/tool_coupling.h"
+#include "physics_node/contact/point_tool.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +16,7 @@ constexpr double negligible_force = 1e-6;  // [N]; below this the tissue is let 
 
 }  // namespace
 
-ToolCoupling::ToolCoupling(const ToolSpec& tool, std::uint32_t index,
-                           const std::vector<TouchableBody>& bodies)
+PointTool::PointTool(const ToolSpec& tool, std::uint32_t index, const std::vector<TouchableBody>& bodies)
     : PressingTool(index, tool.set_point), model_(force_model_of(tool)), stiffness_(tool.stiffness) {
   contacts_.reserve(bodies.size());
   for (const auto& body : bodies) {
@@ -27,7 +26,7 @@ ToolCoupling::ToolCoupling(const ToolSpec& tool, std::uint32_t index,
   forces_.reserve(most_forces);
 }
 
-void ToolCoupling::reset() noexcept {
+void PointTool::reset() noexcept {
   seen_ = engaged_ = false;
   force_.setZero();
   raw_force_.setZero();
@@ -36,7 +35,7 @@ void ToolCoupling::reset() noexcept {
   K_o_ = {};
 }
 
-void ToolCoupling::take(const ToolState* state, double dt) noexcept {
+void PointTool::take(const ToolState* state, double dt) noexcept {
   frame_dt_ = dt;
   acted_ = force_;
   Vec3 target = Vec3::Zero();
@@ -62,7 +61,7 @@ void ToolCoupling::take(const ToolState* state, double dt) noexcept {
   if (target.isZero() && force_.norm() < negligible_force) force_.setZero();
 }
 
-void ToolCoupling::compute_force(double t) noexcept {
+void PointTool::compute_force(double t) noexcept {
   force_.setZero();
   proxy_ = tip_;
   double least = std::numeric_limits<double>::infinity();
@@ -81,7 +80,7 @@ void ToolCoupling::compute_force(double t) noexcept {
   proxy_ = tip_ + depth * plane.normal;
 }
 
-void ToolCoupling::find_contact(double t) noexcept {
+void PointTool::find_contact(double t) noexcept {
   forces_.clear();
   moving_share_ = 0;
   indentation_.setZero();
@@ -107,7 +106,7 @@ void ToolCoupling::find_contact(double t) noexcept {
   follow_stiffness();
 }
 
-void ToolCoupling::follow_stiffness() noexcept {
+void PointTool::follow_stiffness() noexcept {
   const double F_n = acted_.norm();
   if (!K_o_.begun() || F_n <= negligible_force) {
     K_o_.begin(half_space_stiffness(moving_[touched_]->body(), 0.5 * contacts_[touched_].reach()));
@@ -117,7 +116,7 @@ void ToolCoupling::follow_stiffness() noexcept {
     K_o_.follow(moving_share_ * F_n, -indentation_.dot(acted_) / F_n / moving_share_, frame_dt_);
 }
 
-void ToolCoupling::write_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) noexcept {
+void PointTool::write_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) noexcept {
   begin_patch(patch, frame, now_ns);
   if (!seen_ || contacts_.empty()) return;
   ToolContact& contact = contacts_[touched_];
