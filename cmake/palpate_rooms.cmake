@@ -1,5 +1,5 @@
-# For a build that is thrown away (CMAKE_UNITY_BUILD, presets asan and tsan): the files of a room are compiled as one, or a
-# few where there are many. Most of a unit's time goes into its headers. Names in the unnamed namespaces of a room differ.
+# For a build that is not worked on (PALPATE_ROOMS: deploy/demo.sh, deploy/test.sh): the files of a room are compiled as one, or
+# a few where there are many. Most of a unit's time goes into its headers. Names in the unnamed namespaces of a room differ.
 set(files_at_once 10)
 
 # palpate_rooms(TARGET): groups its files by their folder. Those with options of their own stay alone.
@@ -19,5 +19,5 @@ function(palpate_rooms target)
     math(EXPR part "(${count_${room}} - 1) / ${files_at_once}")
     set_property(SOURCE ${file} TARGET_DIRECTORY ${target} PROPERTY UNITY_GROUP ${room}_${part})
   endforeach()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 endfunction()

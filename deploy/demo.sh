@@ -11,7 +11,7 @@ out=out/head_press
 
 deploy/install_packages.sh deploy/packages.txt deploy/packages-demo.txt
 head=$(deploy/fetch_head.sh)
-step "configure" cmake --preset release
+step "configure" cmake --preset release -DPALPATE_ROOMS=ON
 # What it runs, and no more: no benchmarks, and of the drivers the simulated hand.
 step "build" cmake --build --preset release --parallel "$(nproc)" \
   --target palpate palpate-import palpate-physics palpate-haptic palpate-render

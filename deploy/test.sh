@@ -49,7 +49,7 @@ count_tests() {
 
 must deploy/install_packages.sh deploy/packages.txt deploy/packages-test.txt
 must step "head CT" deploy/fetch_head.sh
-must step "configure" cmake --preset ready
+must step "configure" cmake --preset ready -DPALPATE_ROOMS=ON
 must step "build" cmake --build --preset ready --parallel "$jobs"
 count_tests "tests" ready -j2
 target=address_tests label='^address$'

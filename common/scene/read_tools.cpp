@@ -68,8 +68,8 @@ void check_tool_body(TableReader& reader, const ReadContext& context, const Tool
       reader.complain("body",
                       fmt::format("body \"{}\" is tool \"{}\" already; give each tool a body of its own",
                                   body.name, other.name));
-  const auto marked = [](const std::array<bool, 6>& faces) {
-    return std::count(faces.begin(), faces.end(), true) > 0;
+  const auto marked = [](const std::array<bool, 6>& six) {
+    return std::count(six.begin(), six.end(), true) > 0;
   };
   if (!marked(body.handle_faces))
     reader.complain("body",

@@ -32,8 +32,8 @@ std::string output_of(const std::string& command) {
   return text;
 }
 
-std::string quoted(const fs::path& word) {
-  return "'" + std::regex_replace(word.string(), std::regex("'"), "'\\''") + "'";
+std::string in_quotes(const std::string& word) {
+  return "'" + std::regex_replace(word, std::regex("'"), "'\\''") + "'";
 }
 
 fs::path root() {
@@ -41,37 +41,47 @@ fs::path root() {
   return source == nullptr ? fs::current_path() : fs::path(source);
 }
 
-struct Unit {
-  fs::path file, folder;  // folder: where its compiler ran
-  std::string flags;      // of headers and language
+/// How the files of a room are compiled: the folder where the compiler ran, flags of headers and language.
+struct Compiler {
+  std::string folder, flags;
 };
 
-/// What the build compiles of a room, by name. Kernels for one instruction set are left out: their flags are another machine's.
-std::vector<Unit> units_of(const std::string& room) {
+/// Of the target that is nearest above the room. Whether the build compiles single files or whole rooms at once is the same here.
+Compiler compiler_of(const std::string& room) {
   const char* bin = std::getenv("PALPATE_BIN");
   std::ifstream in(fs::path(bin == nullptr ? "." : bin) / "../compile_commands.json");
-  std::vector<Unit> units;
-  for (const auto& entry : nlohmann::json::parse(in)) {
-    Unit unit{entry["file"].get<std::string>(), entry["directory"].get<std::string>(), ""};
-    const std::string name = unit.file.filename();
-    if (unit.file.parent_path() != root() / room || name.find("_avx") != name.npos) continue;
-    // As CMake writes them: words apart, quoted where they must be.
-    static const std::regex flag(R"re((-isystem |-I|-D|-std=)("(\\.|[^"])*"|\S+))re");
-    const auto command = entry["command"].get<std::string>();
-    for (std::sregex_iterator at(command.begin(), command.end(), flag), end; at != end; ++at)
-      unit.flags += at->str() + " ";
-    units.push_back(unit);
-  }
-  std::sort(units.begin(), units.end(), [](const Unit& a, const Unit& b) { return a.file < b.file; });
-  return units;
+  const auto all = nlohmann::json::parse(in);
+  for (fs::path above = room; !above.empty(); above = above.parent_path())
+    for (const auto& entry : all) {
+      const auto command = entry["command"].get<std::string>();
+      if (command.find(" -o " + above.string() + "/CMakeFiles/") == command.npos) continue;
+      Compiler compiler{entry["directory"].get<std::string>(), ""};
+      // As CMake writes them: words apart, quoted where they must be.
+      static const std::regex flag(R"re((-isystem |-I|-D|-std=)("(\\.|[^"])*"|\S+))re");
+      for (std::sregex_iterator at(command.begin(), command.end(), flag), end; at != end; ++at)
+        compiler.flags += at->str() + " ";
+      return compiler;
+    }
+  return {};
+}
+
+/// Its sources. Kernels for one instruction set are left out: their flags are another machine's.
+std::vector<fs::path> sources_of(const std::string& room) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(root() / room))
+    if (entry.path().extension() == ".cpp" && entry.path().string().find("_avx") == std::string::npos)
+      files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 /// What is found, a line each.
-std::string tidy(const fs::path& file, const Unit& flags) {
-  const std::string all = output_of("cd " + quoted(flags.folder) +
-                                    " && clang-tidy --quiet --config-file=" + quoted(root() / ".clang-tidy") +
-                                    " --header-filter=" + quoted(root().string() + "/.*|.*/palpate_tidy_.*") +
-                                    " " + quoted(file) + " -- " + flags.flags + " -Wno-everything");
+std::string tidy(const fs::path& file, const Compiler& compiler) {
+  const std::string all =
+      output_of("cd " + in_quotes(compiler.folder) +
+                " && clang-tidy --quiet --config-file=" + in_quotes((root() / ".clang-tidy").string()) +
+                " --header-filter=" + in_quotes(root().string() + "/.*|.*/palpate_tidy_.*") + " " +
+                in_quotes(file.string()) + " -- " + compiler.flags + " -Wno-everything");
   std::istringstream in(all);
   std::string found;
   for (std::string line; std::getline(in, line);)
@@ -95,23 +105,23 @@ class Tidy : public testing::TestWithParam<std::string> {
 };
 
 TEST_P(Tidy, FindsNothing) {
-  const auto units = units_of(GetParam());
-  ASSERT_FALSE(units.empty());
-  for (std::size_t first = 0; first < units.size(); first += files_at_once) {
+  const auto files = sources_of(GetParam());
+  const Compiler compiler = compiler_of(GetParam());
+  ASSERT_FALSE(files.empty());
+  ASSERT_NE(compiler.flags, "");
+  for (std::size_t first = 0; first < files.size(); first += files_at_once) {
     const fs::path together = folder / "together.cpp";
     {
       std::ofstream out(together);
-      for (std::size_t n = first; n < std::min(first + files_at_once, units.size()); ++n)
-        out << "#include \"" << units[n].file.string() << "\"\n";
+      for (std::size_t n = first; n < std::min(first + files_at_once, files.size()); ++n)
+        out << "#include \"" << files[n].string() << "\"\n";
     }
-    EXPECT_EQ(tidy(together, units[first]), "");
+    EXPECT_EQ(tidy(together, compiler), "");
   }
 }
 
 /// One fault of each kind that may not pass.
 TEST_F(Tidy, SeesFaults) {
-  const auto units = units_of("common/file");
-  ASSERT_FALSE(units.empty());
   const fs::path bad = folder / "bad.cpp";
   std::ofstream(bad)
       << "#include <cstring>\n#include <string>\n#include <utility>\n#include <vector>\n"
@@ -121,7 +131,7 @@ TEST_F(Tidy, SeesFaults) {
          "unsigned long n(const char* t) { return sizeof(t) / sizeof(t[0]); }\n"
          "int copies(const std::vector<std::string>& all) {\n"
          "  int n = 0;\n  for (const auto one : all) n += one.empty() ? 0 : 1;\n  return n;\n}\n";
-  const std::string found = tidy(bad, units[0]);
+  const std::string found = tidy(bad, compiler_of("common/file"));
   for (const char* check : {"modernize-use-override", "bugprone-use-after-move", "bugprone-sizeof-expression",
                             "performance-for-range-copy"})
     EXPECT_NE(found.find(check), found.npos) << check << " is not among\n" << found;
@@ -139,7 +149,6 @@ std::vector<std::string> rooms() {
         all.push_back(entry.path().parent_path().lexically_relative(root()).string());
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
-  std::erase_if(all, [](const std::string& room) { return units_of(room).empty(); });
   return all;
 }
 
