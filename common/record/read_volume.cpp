@@ -91,8 +91,7 @@ class VolumeReader {
   /// The columns must be directions: of length 1 and not in one plane. Left-handed is allowed: some formats mirror y.
   Eigen::Matrix3d orientation() const {
     const auto rows = numbers("orientation_lps", 9);
-    Eigen::Matrix3d matrix =
-        Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rows.data());
+    Eigen::Matrix3d matrix = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rows.data());
     const bool unit = ((matrix.colwise().norm().array() - 1).abs() < 1e-3).all();
     if (!matrix.allFinite() || !unit || std::abs(matrix.determinant()) < 0.5)
       complain("the columns of its orientation_lps are not directions");
