@@ -223,6 +223,7 @@ TEST_F(FaultMatrix, NoKickNoCrashNoLeakAndAllFindEachOtherAgain) {
   }
   std::printf("%s", table.text().c_str());
   const Footprint growth_of_nodes = growth.largest();
+  const std::string grown = growth.text();
   std::printf(
       "%zu faults, %d in contact; longest to 0 N %.0f ms; rejoined %d of %d within 1 s, longest %.2f s; %llu "
       "writes to "
@@ -251,8 +252,8 @@ TEST_F(FaultMatrix, NoKickNoCrashNoLeakAndAllFindEachOtherAgain) {
   });
   const auto left = left_behind(shared, crew.ever(), domain);
   EXPECT_TRUE(left.empty()) << left.front();
-  EXPECT_EQ(growth_of_nodes.files, 0);
-  EXPECT_EQ(growth_of_nodes.threads, 0);
+  EXPECT_EQ(growth_of_nodes.files, 0) << grown;
+  EXPECT_EQ(growth_of_nodes.threads, 0) << grown;
 }
 
 }  // namespace

@@ -14,17 +14,44 @@ namespace palpate::test {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::size_t looks_compared = 3;  // at either end
+constexpr std::ptrdiff_t looks_compared = 3;  // at either end
 constexpr int ports_per_domain = 250, first_port = 7400;
 
-Footprint lowest(const std::vector<Footprint>& looks, std::size_t from) {
-  Footprint low = looks[from];
-  for (std::size_t i = from; i < from + looks_compared; ++i) {
-    low.files = std::min(low.files, looks[i].files);
-    low.threads = std::min(low.threads, looks[i].threads);
-    low.memory_kB = std::min(low.memory_kB, looks[i].memory_kB);
+Footprint lowest_of_last(const std::vector<Footprint>& looks) {
+  Footprint low = looks.back();
+  for (auto look = looks.end() - looks_compared; look != looks.end(); ++look) {
+    low.files = std::min(low.files, look->files);
+    low.threads = std::min(low.threads, look->threads);
+    low.memory_kB = std::min(low.memory_kB, look->memory_kB);
   }
   return low;
+}
+
+Footprint middle_of_first(const std::vector<Footprint>& looks) {
+  const auto middle = [&](auto Footprint::*of) {
+    std::array values = {looks[0].*of, looks[1].*of, looks[2].*of};
+    std::ranges::sort(values);
+    return values[1];
+  };
+  Footprint first;
+  first.files = middle(&Footprint::files);
+  first.threads = middle(&Footprint::threads);
+  first.memory_kB = middle(&Footprint::memory_kB);
+  return first;
+}
+
+bool has_grown(const std::vector<Footprint>& looks) {
+  const Footprint first = middle_of_first(looks), last = lowest_of_last(looks);
+  return last.files > first.files || last.threads > first.threads;
+}
+
+fs::path task_folder(pid_t pid) { return "/proc/" + std::to_string(pid); }
+
+std::string name_of_task(const fs::path& folder) {
+  std::string name;
+  std::ifstream file(folder / "comm");
+  std::getline(file, name);
+  return name;
 }
 
 const std::array shared_places = {"/dev/shm/", "/tmp/", "/var/tmp/"};
@@ -62,7 +89,7 @@ std::vector<int> udp_ports() {
 }  // namespace
 
 Footprint footprint(pid_t pid) {
-  const fs::path proc = "/proc/" + std::to_string(pid);
+  const fs::path proc = task_folder(pid);
   Footprint found;
   std::error_code gone;
   for (const auto& entry : fs::directory_iterator(proc / "fd", gone)) {
@@ -89,8 +116,10 @@ bool lies_in(const std::vector<fs::path>& folders, const std::string& path) {
   });
 }
 
-void Growth::look(pid_t pid) {
-  looks_[pid].push_back(footprint(pid));
+void Growth::look(pid_t pid) { look(pid, footprint(pid)); }
+
+void Growth::look(pid_t pid, Footprint found) {
+  looks_[pid].push_back(std::move(found));
   shared_.merge(looks_[pid].back().shared);
 }
 
@@ -98,12 +127,28 @@ Footprint Growth::largest(std::size_t least) const {
   Footprint most;
   for (const auto& [pid, looks] : looks_) {
     if (looks.size() < least) continue;
-    const Footprint first = lowest(looks, 0), last = lowest(looks, looks.size() - looks_compared);
+    const Footprint first = middle_of_first(looks), last = lowest_of_last(looks);
     most.files = std::max(most.files, last.files - first.files);
     most.threads = std::max(most.threads, last.threads - first.threads);
     most.memory_kB = std::max(most.memory_kB, last.memory_kB - first.memory_kB);
   }
   return most;
+}
+
+std::string Growth::text(std::size_t least) const {
+  std::string lines;
+  for (const auto& [pid, looks] : looks_) {
+    if (looks.size() < least || !has_grown(looks)) continue;
+    lines +=
+        fmt::format("process {}, {}, files and threads at every look:", pid, name_of_task(task_folder(pid)));
+    for (const Footprint& look : looks) lines += fmt::format(" {}/{}", look.files, look.threads);
+    lines += "; threads now:";
+    std::error_code gone;
+    for (const auto& task : fs::directory_iterator(task_folder(pid) / "task", gone))
+      lines += " " + name_of_task(task.path());
+    lines += '\n';
+  }
+  return lines;
 }
 
 std::size_t Growth::processes(std::size_t least) const {

@@ -28,10 +28,15 @@ bool lies_in(const std::vector<std::filesystem::path>& folders, const std::strin
 class Growth {
  public:
   void look(pid_t pid);
-  /// Lowest of the last looks less the lowest of the first, per process with at least `least` looks: what a moment's open
-  /// file or thread does not show.
+  void look(pid_t pid, Footprint found);
+  /// Lowest of the last three looks less the middle of the first three, per process with at least `least` looks: neither a
+  /// moment's open file or thread nor one that a starting process had not yet made shows.
   Footprint largest(std::size_t least = 8) const;
   std::size_t processes(std::size_t least = 8) const;
+  /// The same in words: a line for each process that lives and has more files or threads, with its program, every look and
+  /// the names of its threads now. (Names are read here alone: to list a process's threads at every look keeps the kernel
+  /// busy for seconds when that process ends.)
+  std::string text(std::size_t least = 8) const;
   const std::set<std::string>& shared() const { return shared_; }
 
  private:

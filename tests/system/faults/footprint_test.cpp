@@ -1,4 +1,4 @@
-// What a session leaves behind is told from what it may read, wherever the clone lies.
+// What a session leaves behind is told from what it may read, wherever the clone lies; what grows from what passes.
 
 #include "tests/system/faults/footprint.h"
 
@@ -51,6 +51,36 @@ TEST_F(Leftovers, AreSeenInTheFootprintOfAProcess) {
   EXPECT_TRUE(footprint(getpid()).shared.contains((folder / "segment").string()));
   open.close();
   EXPECT_FALSE(footprint(getpid()).shared.contains((folder / "segment").string()));
+}
+
+Footprint with_threads(int threads) {
+  Footprint found;
+  found.threads = threads;
+  return found;
+}
+
+int growth_in_threads(std::initializer_list<int> looks) {
+  Growth growth;
+  for (const int threads : looks) growth.look(1, with_threads(threads));
+  EXPECT_EQ(growth.largest().threads > 0, !growth.text().empty());
+  return growth.largest().threads;
+}
+
+TEST(Growth, SeesWhatStaysAndNotWhatPasses) {
+  EXPECT_EQ(growth_in_threads({14, 14, 14, 14, 14, 14, 14, 14}), 0);
+  EXPECT_EQ(growth_in_threads({14, 14, 14, 14, 15, 15, 15, 15}), 1);
+  EXPECT_EQ(growth_in_threads({14, 15, 15, 16, 16, 17, 17, 17}), 2);
+  EXPECT_EQ(growth_in_threads({13, 14, 14, 14, 14, 14, 14, 14}), 0) << "it was still starting";
+  EXPECT_EQ(growth_in_threads({14, 14, 14, 14, 14, 15, 14, 15}), 0) << "for a moment";
+  EXPECT_EQ(growth_in_threads({15, 14, 14, 14, 14, 15, 15, 15}), 1) << "a moment at the start hides nothing";
+}
+
+TEST(Growth, NamesTheProcessAndItsThreads) {
+  Growth growth;
+  for (int threads = 1; threads <= 8; ++threads) growth.look(getpid(), with_threads(threads));
+  EXPECT_NE(growth.text().find("footprint_test, files and threads at every look: 0/1 0/2"), std::string::npos)
+      << growth.text();
+  EXPECT_NE(growth.text().find("threads now: footprint_test"), std::string::npos) << growth.text();
 }
 
 }  // namespace

@@ -55,11 +55,12 @@ class BreakField {
   template <class Of, class N, class Promise>
   void first(Field<Of> field, Field<N> n, Promise promise) {
     name_ = field.name;
+    if (is_done()) return;
     if (n.of(wire_) > 0) spoil(field.of(wire_)[n.of(wire_) - 1], promise);
   }
   template <class Of, class N, class S>
   void each(Field<Of> field, Field<N> n, OfType<S>) {
-    if (n.of(wire_) == 0) return;
+    if (is_done() || n.of(wire_) == 0) return;
     auto& last = field.of(wire_)[n.of(wire_) - 1];
     S::fields(BreakField<std::remove_reference_t<decltype(last)>>(last, which_, breach_,
                                                                   std::string(field.name) + "."));
@@ -68,6 +69,8 @@ class BreakField {
   void rule(const char*, RejectReason, Holds) {}  // by hand, in malformed_test.cpp
 
  private:
+  /// The breach is made; a count that it spoilt is no index any more.
+  bool is_done() const { return which_ < 0; }
   bool is_next(RejectReason reason) {
     if (which_-- != 0) return false;
     breach_ = {list_ + name_, reason};
