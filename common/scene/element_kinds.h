@@ -1,0 +1,12 @@
+#pragma once
+// What a body's elements are, apart from kinds.h: few read it.
+
+namespace palpate {
+
+/// springs: the papers' lattice of springs. fem: finite elements, hexahedra on a voxel lattice.
+enum class ElementModel { springs, fem };
+
+/// What keeps a cell of one point from bending for nothing.
+enum class HourglassKind { physical, isotropic };
+
+}  // namespace palpate
