@@ -101,13 +101,14 @@ LeadWork StickFaces::give_way(std::uint32_t facet, const Corners& corner, const 
   std::array<Vec3, 3> rest, x, v, v_move;
   std::array<double, 3> weight{}, inverse_mass{};
   std::size_t n = 0;
-  double W = 0;
+  double W = 0, held = 0;
   Vec3 x_0 = Vec3::Zero(), v_p = Vec3::Zero(), v_moved = Vec3::Zero();
   for (std::size_t c = 0; c < 3; ++c) {
     const double w = hit.weight[static_cast<Eigen::Index>(c)];
     const Index cell = surface_->mass(facet, corner[c]);
     if (cell < 0) {  // of the scenery, which stays
       x_0 += w * surface_->position(facet, corner[c], *model_);
+      held += w * w / model_->body().law.mass;
       continue;
     }
     which[n] = static_cast<std::uint32_t>(n);
@@ -116,17 +117,21 @@ LeadWork StickFaces::give_way(std::uint32_t facet, const Corners& corner, const 
     weight[n] = w;
     inverse_mass[n] = model_->body().inverse_mass[static_cast<std::size_t>(cell)];
     W += w * w * inverse_mass[n];
+    if (inverse_mass[n] == 0) held += w * w / node_mass(model_->body(), cell);
     ++n;
   }
   LeadWork led;
-  if (!(W > 1e-12)) return led;  // nothing there gives way
+  if (!(W > 0)) return led;  // nothing there gives way
+  // The face is pushed as hard as if its held corners were free: by the corners that are alone, one of weight w would have to move by 1 / w
+  // of the depth. So the stick comes out only as far as they move.
+  const double yielding = W + held;
   model_->read({which.data(), n}, {cells.data(), n}, {rest.data(), n}, dt, {x.data(), n}, {v.data(), n},
                {v_move.data(), n});
   for (std::size_t i = 0; i < n; ++i)
     x_0 += weight[i] * x[i], v_p += weight[i] * v[i], v_moved += weight[i] * v_move[i];
   const Vec3 axis_motion = now.axis_point(hit.t) - before.axis_point(hit.t);
   const double depth = std::min(hit.depth, dt * (exit_speed + axis_motion.norm() / dt + v_moved.norm()));
-  const double J = depth / (dt * W);
+  const double J = depth / (dt * yielding);
   std::array<NodalPush, 3> pushes;
   for (std::size_t i = 0; i < n; ++i) pushes[i] = {cells[i], J * weight[i] * inverse_mass[i] * hit.push};
   model_->push({pushes.data(), n}, dt);
