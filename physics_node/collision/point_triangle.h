@@ -19,7 +19,7 @@ struct ClosestPoint {
 ClosestPoint closest_point(const Eigen::Vector3d& p, const Triangle& t) noexcept;
 
 /// Does the distance fall below `least` while all four points move on straight lines? Errs to the side of yes, by a tenth of
-/// the distance at the start.
+/// the distance at the start, and where that takes more than 200 looks.
 /// @param dp, dt  what they move by [m]
 /// @param distance  at the start [m]
 /// @param least   below that [m]
