@@ -26,6 +26,7 @@ VirtualSession::VirtualSession(const Scene& scene, const VirtualOptions& options
     hands_.push_back(
         std::make_unique<haptic::HapticSession>(scene_, n, options.device, &VirtualSession::clock, this));
     next_tick_ns_.push_back(now_ns_);
+    refusals_.push_back(haptic::ArmRefusal::no_sample);
   }
   if (options_.pictures) eye_ = std::make_unique<VirtualEye>(scene_, world_);
 }
@@ -44,6 +45,7 @@ void VirtualSession::tick_hands(std::int64_t until_ns) {
       next_tick_ns_[n] += period;
       hands_[n]->tick(patches_[n].tick > 0 ? &patches_[n] : nullptr,
                       wrenches_[n].tick > 0 ? &wrenches_[n] : nullptr);
+      if (refusals_[n] != haptic::ArmRefusal::none) refusals_[n] = hands_[n]->controller().refusal();
       known_hands_.take(hands_[n]->tool_state(), now_ns_);
       if (eye_) eye_->take(static_cast<std::uint32_t>(n), hands_[n]->trace());
     }
@@ -78,6 +80,17 @@ void VirtualSession::run(double seconds, const std::function<void(double)>& prog
   wall_s_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
+/// A hand whose motors never came on, in a run that gave it time: why, and what would help; empty: all is well.
+std::string VirtualSession::never_felt(std::size_t hand) const {
+  constexpr double time_to_arm = 0.5;  // [s]
+  if (refusals_[hand] == haptic::ArmRefusal::none || world_.t() < time_to_arm) return {};
+  const char* advice = refusals_[hand] == haptic::ArmRefusal::inside
+                           ? "; let its path begin clear of the tissue by more than the tool's own size"
+                           : "";
+  return fmt::format("{}: its motors never came on: {}{}", scene_.tools[hand].name,
+                     haptic::text_of(refusals_[hand]), advice);
+}
+
 nlohmann::json VirtualSession::finish() {
   if (recorder_) recorder_->finish(world_);
   nlohmann::json summary = physics::physics_summary(world_, recorder_.get(), wall_s_);
@@ -93,6 +106,7 @@ nlohmann::json VirtualSession::finish() {
     summary["haptic"]["force_models"][scene_.tools[n].name] = word_of(felt.model);
     if (const auto line = warning_of(felt); !line.empty())
       hand.push_back(fmt::format("{}: {}", scene_.tools[n].name, line));
+    if (const std::string line = never_felt(n); !line.empty()) hand.push_back(line);
     const haptic::FaultCause cause = hands_[n]->fault_cause();
     if (cause == haptic::FaultCause::none) continue;
     hand.push_back(

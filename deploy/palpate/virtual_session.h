@@ -46,6 +46,7 @@ class VirtualSession {
   static std::int64_t clock(void* self) { return static_cast<VirtualSession*>(self)->now_ns_; }
   void tick_hands(std::int64_t until_ns);
   void tell_hands();
+  std::string never_felt(std::size_t hand) const;
 
   Scene scene_;
   VirtualOptions options_;
@@ -53,6 +54,7 @@ class VirtualSession {
   std::int64_t now_ns_ = 1'000'000'000;  // not zero: zero means "never" in messages
   std::vector<std::unique_ptr<haptic::HapticSession>> hands_;
   std::vector<std::int64_t> next_tick_ns_;
+  std::vector<haptic::ArmRefusal> refusals_;  // of each hand as long as its motors have never come on
   std::vector<ContactPatch> patches_;
   std::vector<ToolWrench> wrenches_;
   physics::Hands known_hands_;  // to the tissue

@@ -74,6 +74,12 @@ TEST_F(RemarksOfScenes, AreSaidByInfoAndSimulateAndKeptInTheSummary) {
   std::ofstream(folder / "scenes" / "near.toml") << text;
   EXPECT_EQ(palpate("info " + test::quoted(folder / "scenes" / "near.toml")), 0) << log;
   EXPECT_THAT(remarks_in_log(), HasSubstr(words));
+  EXPECT_EQ(palpate("simulate " + test::quoted(folder / "scenes" / "near.toml") +
+                    " --no-frames --seconds 1 --out " + test::quoted(folder / "near")),
+            0)
+      << log;
+  EXPECT_THAT(
+      log, HasSubstr("tip: its motors never came on: inside the tissue, move out; let its path begin clear"));
 }
 
 /// Its masses, memory and speed cannot be told without.
