@@ -154,6 +154,7 @@ void World::move_bodies(double dt, bool watch) noexcept {
                          .verlet = scene_.physics->integrator == Integrator::velocity_verlet,
                          .watch = watch,
                          .exact = may_be_struck() || pressed_ || pressed_before_};
+  stiffening_ = 1;
   const Stage stage = is_implicit() ? Stage::integrate : Stage::element_forces;
   const std::int64_t before = report_[stage].total_ns;
   {
@@ -161,6 +162,7 @@ void World::move_bodies(double dt, bool watch) noexcept {
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       const StepOutcome outcome = bodies_[b]->advance(how, gathered(b));
       report_.broken += outcome.broken;
+      stiffening_ = std::max(stiffening_, outcome.stiffening);
       report_.newton_iterations += outcome.newton_iterations;
       report_.cg_iterations += outcome.cg_iterations;
       if (!outcome.solved) ++report_.unsolved;
@@ -294,19 +296,34 @@ void World::find_contacts() noexcept {
   if (collisions_) near_ = collisions_->begin_frame(frame_dt_);
 }
 
+/// Of a whole frame, as things are now.
 int World::substeps_of_frame() const noexcept {
-  if (!near_) return n_substeps_;
-  const double wanted = frame_dt_ / collisions_->wanted_step();
+  double wanted = n_substeps_ * std::sqrt(stiffening_);
+  if (near_) wanted = std::max(wanted, frame_dt_ / collisions_->wanted_step());
   return std::max(n_substeps_, static_cast<int>(std::ceil(std::min<double>(wanted, most_substeps))));
+}
+
+/// As many steps as the frame needs when it begins; where elements stiffen meanwhile, what is left of it is divided anew.
+void World::divide_frame() noexcept {
+  constexpr double rounding = 1e-9;
+  int n_substeps = substeps_of_frame();
+  double begun = 0;  // share of the frame before it was divided last
+  for (int n = 1; n <= n_substeps; ++n) {
+    const double share = begun + (1 - begun) * n / n_substeps;
+    step((1 - begun) * frame_dt_ / n_substeps, share, n == n_substeps);
+    const int wanted = static_cast<int>(std::ceil((1 - share) * substeps_of_frame() - rounding));
+    if (wanted <= n_substeps - n) continue;
+    begun = share;
+    n_substeps = wanted;
+    n = 0;
+  }
 }
 
 void World::frame(std::span<const std::optional<ToolState>> tools) noexcept {
   if (has_stopped()) return;
   take_tools(tools);
   find_contacts();
-  const int n_substeps = substeps_of_frame();
-  const double dt = frame_dt_ / n_substeps;
-  for (int n = 1; n <= n_substeps; ++n) step(dt, static_cast<double>(n) / n_substeps, n == n_substeps);
+  divide_frame();
   for (LedTool* tool : toolbox_.led) tool->end_frame(collisions_.get(), frame_dt_);
   guard();
   if (collisions_ && collisions_->bodies_are_near()) inside_->look_now_and_then();

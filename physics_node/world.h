@@ -83,6 +83,7 @@ class World {
   double tools_power() const noexcept;
   void take_tools(std::span<const std::optional<ToolState>> tools) noexcept;
   void find_contacts() noexcept;
+  void divide_frame() noexcept;
   int substeps_of_frame() const noexcept;
   bool is_implicit() const noexcept;
   /// May a velocity jump in this frame? Then contact wants to know what it was.
@@ -116,6 +117,7 @@ class World {
   double dt_ = 0;  // of a step; frame_dt_ / n_substeps_
   double stable_dt_ = 0;
   int n_substeps_ = 1;
+  double stiffening_ = 1;       // largest of the bodies in the last step: see StepOutcome
   std::unique_ptr<Team> team_;  // null: one thread
   TeamChoice choice_ = TeamChoice::always(1);
   bool any_yields_ = false;

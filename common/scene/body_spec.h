@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/math/vec3.h"
+#include "common/scene/element_kinds.h"
 #include "common/scene/kinds.h"
 #include "common/scene/place.h"
 #include "common/scene/shape_spec.h"
@@ -47,6 +48,8 @@ struct CavitySpec {
 struct BodySpec {
   std::string name;
   LatticeKind lattice = LatticeKind::fcc;
+  ElementModel model = ElementModel::springs;
+  HourglassKind hourglass = HourglassKind::physical;  // of fem
   std::optional<double> spacing;  // [m]; absent only for a volume of voxels, which brings its own
   std::string material;
   std::vector<RegionSpec> regions;  // of other materials; later ones win

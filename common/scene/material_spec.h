@@ -17,6 +17,7 @@ struct MaterialSpec {
   std::optional<double> k1;              // of one element [N/m]      | one of these
   std::optional<double> modulus;         // Young's modulus [Pa]      |
   std::optional<double> lambda;          // force per stretch, k1 L of every element [N] |
+  double poisson_ratio = 0.45;           // of finite elements; springs have one of their own
   double k2_ratio = 1.0;                 // k2 / k1 in [0, 1]
   std::optional<double> viscosity;       // of one element [N s/m]    | at most one; none: no damper
   std::optional<double> viscosity_bulk;  // [Pa s]                    |

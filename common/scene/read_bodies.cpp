@@ -56,6 +56,7 @@ BodySpec read_body(TableReader& reader, ReadContext& context) {
     refuse_unknown_reference(reader, "material", *material, names_of(context.scene.materials));
   }
   read_regions(reader, context, spec);
+  read_elements(reader, context, spec);
   read_cavities(reader, context, spec);
   set_if(spec.at, reader.read_vector_mm("at_mm"));
   set_if(spec.velocity, reader.read_vector("velocity_m_per_s", {.lo = -1e4, .hi = 1e4}));

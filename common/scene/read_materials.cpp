@@ -29,6 +29,7 @@ void read_stiffness(TableReader& reader, MaterialSpec& spec) {
     spec.modulus = Pa_from_kPa(*modulus_kPa);
   spec.lambda = reader.read_number("lambda_N", positive);
   check_group(reader, {"k1_N_per_m", "modulus_kPa", "lambda_N"}, true);
+  set_if(spec.poisson_ratio, reader.read_number("poisson_ratio", {.lo = 0, .hi = 0.495}));
   set_if(spec.k2_ratio, reader.read_number("k2_ratio", {.lo = 0, .hi = 1}));
 }
 

@@ -40,6 +40,8 @@ void read_fixed(TableReader& body, ReadContext& context, BodySpec& spec);
 void read_handle(TableReader& body, BodySpec& spec);
 /// `regions` of a body, whose shape and material are known by now.
 void read_regions(TableReader& body, ReadContext& context, BodySpec& spec);
+/// `model` and `hourglass` of a body, whose lattice and materials are known by now.
+void read_elements(TableReader& body, ReadContext& context, BodySpec& spec);
 /// [[body.cavity]]
 void read_cavities(TableReader& body, ReadContext& context, BodySpec& spec);
 

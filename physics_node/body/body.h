@@ -13,6 +13,7 @@
 #include "physics_node/body/adjacency.h"
 #include "physics_node/body/cells.h"
 #include "physics_node/body/element_law.h"
+#include "physics_node/body/solid_elements.h"
 #include "physics_node/lattice/lattice.h"
 
 namespace palpate::physics {
@@ -26,6 +27,8 @@ struct Body {
   std::vector<ElementLaw> laws;  // of each material in it; laws[0] is `law`
   std::vector<std::uint8_t>
       law_of;  // of each storage cell, an index of laws (n_cells); EMPTY: all masses have `law`
+  std::optional<SolidElements>
+      solid;                         // of a body of finite elements; else its elements are springs of `laws`
   std::optional<Cells> cells;        // of a voxel body; an fcc body has none
   std::vector<float> intensity;      // of each storage cell, of an fcc body in an image; else EMPTY (n_cells)
   std::vector<double> inverse_mass;  // of each storage cell, 0: held or empty [1/kg]  (n_cells)
@@ -55,6 +58,10 @@ struct Body {
 /// The law of the mass in a storage cell.
 inline const ElementLaw& law_at(const Body& body, Index cell) {
   return body.law_of.empty() ? body.law : body.laws[body.law_of[static_cast<std::size_t>(cell)]];
+}
+/// [kg]
+inline double node_mass(const Body& body, Index node) {
+  return body.solid ? body.solid->mass[static_cast<std::size_t>(node)] : law_at(body, node).mass;
 }
 inline bool any_yields(const Body& body) {
   return std::any_of(body.laws.begin(), body.laws.end(), [](const ElementLaw& law) { return law.yields; });

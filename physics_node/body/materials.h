@@ -15,6 +15,9 @@
 
 namespace palpate::physics {
 
+/// The material of this name, which must be there.
+const MaterialSpec& named(const std::vector<MaterialSpec>& materials, const std::string& name);
+
 /// Fills law, laws, law_of and inverse_mass of a body whose lattice and cells are there. Nothing is held yet.
 /// @throws InputError: a region that holds nothing of the body
 void give_materials(Body& body, const BodySpec& spec, const std::vector<MaterialSpec>& materials);

@@ -15,7 +15,7 @@ Vec6 motion(const Pose& from, const Pose& to) noexcept {
 Handle::Handle(const Body& body) : tip_(body.tip), cell_(body.handle) {
   for (const Index cell : cell_) {
     rest_.push_back(body.rest_position(cell));
-    mass_.push_back(law_at(body, cell).mass);
+    mass_.push_back(node_mass(body, cell));
   }
   all_.resize(cell_.size());
   std::iota(all_.begin(), all_.end(), 0U);

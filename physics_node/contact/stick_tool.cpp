@@ -87,7 +87,7 @@ void StickTool::list(Near& near) noexcept {
     if (near.n == near.cell.size()) return;
     near.cell[near.n] = cell;
     near.rest[near.n] = body.rest_position(cell);
-    near.mass[near.n] = law_at(body, cell).mass;
+    near.mass[near.n] = node_mass(body, cell);
     ++near.n;
   }
 }

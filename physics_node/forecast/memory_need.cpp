@@ -28,6 +28,8 @@ namespace {
 // Measured: palpate simulate of a block (voxel) and a ball (fcc) of 0.7 to 0.9 million masses, most resident
 // memory less that of a small scene.
 constexpr double elastic_bytes = 200, elastic_double_bytes = 310;  // of a mass
+// Of finite elements: stiffness and mass of cells and nodes, a second field of forces, and of forces and velocities a step ago.
+constexpr double fem_bytes = 52, fem_double_bytes = 92;
 constexpr double plastic_bytes = 680, plastic_double_bytes = 1030;
 // A point or a stick feels what breaks open: two sites of 9 bytes a mass, and room for a facet.
 constexpr double felt_bytes = 42;
@@ -129,8 +131,10 @@ double bytes_of_masses(double masses, const BodySpec& body, const Scene& scene) 
     plastic = plastic || (!region.material.empty() && yields(region.material, scene));
   const bool doubled = scene.physics->precision == Precision::double_;
   const bool felt = std::any_of(scene.tools.begin(), scene.tools.end(), meets_facets);
-  return masses * (plastic ? (doubled ? plastic_double_bytes : plastic_bytes) + (felt ? felt_bytes : 0.0)
-                           : (doubled ? elastic_double_bytes : elastic_bytes));
+  const double fem = body.model != ElementModel::fem ? 0 : doubled ? fem_double_bytes : fem_bytes;
+  return masses *
+         (fem + (plastic ? (doubled ? plastic_double_bytes : plastic_bytes) + (felt ? felt_bytes : 0.0)
+                         : (doubled ? elastic_double_bytes : elastic_bytes)));
 }
 
 MemoryNeed memory_need(const BodySpec& body, const Scene& scene) {

@@ -11,7 +11,7 @@ std::vector<FragmentMeasure> measure_fragments(const NodeMotion& moving, const F
   for (std::size_t n = 0; n < all.size(); ++n) all[n].label = static_cast<Index>(n);
   for (const Index cell : moving.body().nodes()) {
     FragmentMeasure& one = all[static_cast<std::size_t>(fragments.label(cell))];
-    const double m = law_at(moving.body(), cell).mass;
+    const double m = node_mass(moving.body(), cell);
     const Vec3 x = moving.position(cell);
     const Vec3 mv = m * moving.velocity(cell);
     ++one.masses;

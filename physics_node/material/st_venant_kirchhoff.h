@@ -13,6 +13,7 @@ namespace palpate::physics {
 template <class P>
 struct StVenantKirchhoff {
   using T = typename P::V;
+  using Real = typename P::Number;
   T mu, lambda;  // [Pa]
 
   static Tensor<T> green_strain(const Tensor<T>& h) noexcept {
@@ -36,6 +37,14 @@ struct StVenantKirchhoff {
   /// First Piola-Kirchhoff stress [Pa].
   Tensor<T> stress(const Tensor<T>& h) const noexcept {
     return product<P>(plus_identity<P>(h), second_stress(green_strain(h)));
+  }
+
+  /// Bound of the tangent, |dP| <= stiffness |dH| [Pa]: (3 lambda + 2 mu)(|F|^2 + |E|), with |E| <= (|E|^2 + 1) / 2
+  T stiffness(const Tensor<T>& h) const noexcept {
+    const Tensor<T> e = green_strain(h);
+    const T f2 = P::fma(P::all(2), trace(h), P::all(3)) + double_dot<P>(h, h);
+    return (P::all(3) * lambda + P::all(2) * mu) *
+           (f2 + P::fma(P::all(Real(0.5)), double_dot<P>(e, e), P::all(Real(0.5))));
   }
 
   /// Its change for a change dH of H.

@@ -16,6 +16,7 @@ namespace palpate::physics {
 template <class P>
 struct StableNeoHookean {
   using T = typename P::V;
+  using Real = typename P::Number;
   T mu, lambda;  // [Pa]
 
   /// J - 1 = tr H + tr cof H + det H
@@ -44,6 +45,20 @@ struct StableNeoHookean {
       for (std::size_t j = 0; j < 3; ++j) s[i][j] = P::fma(mu, h[i][j], q * (cof[i][j] - h[j][i]));
     for (std::size_t i = 0; i < 3; ++i) s[i][i] = s[i][i] + on_axes;
     return s;
+  }
+
+  /// Bound of the tangent, |dP| <= stiffness |dH|: 3 (lambda + mu) + (1 + sqrt(3)) mu at rest, more where it is stretched or squeezed [Pa].
+  ///   mu + (lambda + mu) |cof F|^2 + |(lambda + mu)(J - 1) - mu| |F|,   |F| <= (|F|^2 / sqrt(3) + sqrt(3)) / 2
+  T stiffness(const Tensor<T>& h) const noexcept {
+    Tensor<T> cof = cofactor<P>(h);
+    const T t = trace(h), q = P::fma(lambda + mu, volume_change(h, cof), -mu);
+    T f2 = P::fma(P::all(2), t, P::all(3)) + double_dot<P>(h, h);
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) cof[i][j] = cof[i][j] - h[j][i];
+    for (std::size_t i = 0; i < 3; ++i) cof[i][i] = cof[i][i] + (t + P::all(1));
+    constexpr double root3 = 1.7320508075688772;
+    f2 = P::fma(f2, P::all(static_cast<Real>(0.5 / root3)), P::all(static_cast<Real>(0.5 * root3)));
+    return P::fma(lambda + mu, double_dot<P>(cof, cof), P::fma(q > T{} ? q : -q, f2, mu));
   }
 
   /// Its change for a change dH of H.

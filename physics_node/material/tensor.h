@@ -13,6 +13,7 @@ using Tensor = std::array<std::array<T, 3>, 3>;  // by row, then column
 template <class Real>
 struct Scalar {
   using V = Real;
+  using Number = Real;
   static V all(Real value) noexcept { return value; }
   static V fma(V a, V b, V c) noexcept { return a * b + c; }
 };

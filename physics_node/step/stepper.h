@@ -15,6 +15,8 @@ struct StepOutcome {
   double work = 0;            // of the forces, where the step solves for them: backward_euler [J]
   int newton_iterations = 0;  // of backward_euler
   int cg_iterations = 0;
+  /// How much stiffer the stiffest part is than at rest, at most: the stable step is shorter by its root. Springs never are.
+  double stiffening = 1;
 };
 
 /// What comes to a body from outside: forces of tools that press, or impulses of contact, floor and tools that lead, too.

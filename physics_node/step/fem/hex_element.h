@@ -111,8 +111,9 @@ Hourglass<T> hourglass_forces(const HexConstants<Real>& k, const Hourglass<T>& t
 /// What a cell does to its corners, and what energy it holds.
 template <class P>
 struct HexForces {
-  Corners<P> f;          // on each corner [N]
-  typename P::V energy;  // [J]; only where it was asked for
+  Corners<P> f;             // on each corner [N]
+  typename P::V energy;     // [J]; only where it was asked for
+  typename P::V stiffness;  // bound of the law's tangent at the centre [Pa]
 };
 
 /// @param w  displacements of the corners [m]
@@ -134,6 +135,7 @@ inline __attribute__((always_inline)) void hex_forces(const HexConstants<Real>& 
                           {m[0].yz, m[1].yz, m[2].yz},
                           {m[0].xyz, m[1].xyz, m[2].xyz}};
   const Tensor<T> stress = law.stress(h);
+  out.stiffness = law.stiffness(h);
   Hourglass<T> g;
   Tensor<T> f;
   if constexpr (physical) {

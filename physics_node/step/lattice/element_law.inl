@@ -12,18 +12,6 @@
 namespace palpate::physics::PALPATE_KERNEL {
 namespace {
 
-/// A pack of masses at the first end of their elements.
-template <class Real>
-struct Masses {
-  using V = typename Pack<Real>::V;
-  Index i;  // first cell
-  typename Pack<Real>::I mask;
-  V u[3], v[3], f[3];
-  V viscous{};  // power lost in dampers so far [W]
-  V passed{};   // the same as the step before did it: mean force then and now times motion; only exact [W]
-  V elastic{};  // energy so far, only where it is watched [J]
-};
-
 /// Where the masses' numbers stand: in registers, which stores into one of them cannot change.
 template <class Real>
 struct Streams {

@@ -5,19 +5,28 @@
 
 #include "common/math/state_hash.h"
 #include "physics_node/step/lattice/bounce.h"
+#include "physics_node/step/lattice/hexahedra.h"
 #include "physics_node/step/lattice/implicit_step.h"
 #include "physics_node/step/lattice/measure.h"
 #include "physics_node/step/lattice/saved_state.h"
 #include "physics_node/step/lattice/sleep.h"
+#include "physics_node/step/lattice/springs.h"
 #include "physics_node/step/lattice/state.h"
 
 namespace palpate::physics {
 namespace {
 
-/// Do dampers or drag take energy from it?
+/// Do dampers or drag of springs take energy from it?
 bool has_losses(const Body& body) {
+  if (body.solid) return false;
   return any_damped(body) ||
          std::any_of(body.laws.begin(), body.laws.end(), [](const ElementLaw& law) { return law.drag > 0; });
+}
+
+template <class Real>
+std::unique_ptr<LatticeElements<Real>> make_elements(const Body& body) {
+  if (body.solid) return std::make_unique<Hexahedra<Real>>(body);
+  return std::make_unique<Springs<Real>>();
 }
 
 template <class Real>
@@ -27,6 +36,7 @@ class LatticeBody final : public BodyModel {
       : BodyModel(body_),
         body_(std::move(body)),
         state_(body_),
+        elements_(make_elements<Real>(body_)),
         sleep_(body_),
         saved_{{body_, state_}, {body_, state_}} {
     NodeMotion::show({state_.u[0].data(), state_.u[1].data(), state_.u[2].data()},
@@ -187,8 +197,10 @@ class LatticeBody final : public BodyModel {
     }
   }
 
-  Energies energies(const Vec3& gravity) const override { return measure_energies(body_, state_, gravity); }
-  Losses due() const override { return measure_due(body_, state_); }
+  Energies energies(const Vec3& gravity) const override {
+    return elements_->energies(body_, state_, gravity);
+  }
+  Losses due() const override { return elements_->due(body_, state_); }
   Losses losses() const override { return measure_losses(state_); }
   Momenta momenta() const override { return measure_momenta(body_, state_.u, state_.v).momenta; }
   bool touched() const noexcept override { return momentum_.hits() > 0; }
@@ -198,7 +210,11 @@ class LatticeBody final : public BodyModel {
   MomentumBalance momentum_balance() const override {
     return momentum_.balance(measure_momenta(body_, state_.u, moving_velocity(state_)).momenta);
   }
-  BodyCounts counts() const override { return measure_counts(body_, state_); }
+  BodyCounts counts() const override {
+    BodyCounts counts = elements_->counts(body_, state_);
+    counts.shape_rms = measure_shape_rms(body_, state_);
+    return counts;
+  }
 
   std::uint64_t hash(std::uint64_t seed) const noexcept override {
     for (const auto& row : body_.lattice.rows) {
@@ -222,7 +238,7 @@ class LatticeBody final : public BodyModel {
   StepOutcome integrate(const ExplicitStep& step, std::span<const NodalForce> forces) noexcept {
     if (step.verlet && step.dt != state_.dt_before) begin_leapfrog();
     momentum_.step(step.gravity, step.verlet && !state_.v_half_known ? 0.5 * step.dt : step.dt, step.dt);
-    const StepOutcome outcome{.broken = element_step(body_, state_, step)};  // sleeping rows are skipped
+    const StepOutcome outcome = elements_->step(body_, state_, step);  // sleeping rows are skipped
     kick(forces, step.dt);
     return outcome;
   }
@@ -236,7 +252,7 @@ class LatticeBody final : public BodyModel {
     // Commits yield and break where the step ended, and lets the ledger watch.
     ExplicitStep look = step;
     look.dt = 0;
-    return {.broken = element_step(body_, state_, look),
+    return {.broken = elements_->step(body_, state_, look).broken,
             .solved = report.converged,
             .work = report.work,
             .newton_iterations = report.newton_iterations,
@@ -277,6 +293,7 @@ class LatticeBody final : public BodyModel {
 
   Body body_;
   LatticeState<Real> state_;
+  std::unique_ptr<LatticeElements<Real>> elements_;
   Three<Real> v_before_;  // that moved the masses in the step before the last; only for contact
   Sleep sleep_;
   MomentumAccount momentum_;

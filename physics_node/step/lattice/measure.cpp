@@ -156,7 +156,7 @@ MomentumAccount::Start measure_momenta(const Body& body, const Three<Real>& u,
                                        const Three<Real>& v) noexcept {
   MomentumAccount::Start sum;
   for (const Index i : body.lattice.masses) {
-    const double m = law_at(body, i).mass;
+    const double m = node_mass(body, i);
     const Vec3 x = body.lattice.rest_position(i) + vector_of(u, i);
     const Vec3 mv = m * vector_of(v, i);
     sum.momenta.linear += mv;
@@ -177,17 +177,21 @@ BodyCounts measure_counts(const Body& body, const LatticeState<Real>& state) {
     ++counts.live_elements;
     counts.max_stretch = std::max(counts.max_stretch, now.stretch);
   });
-  const bool yields = any_yields(body);
+  if (any_yields(body))
+    for (const Index i : body.lattice.masses) counts.yielded_masses += has_yielded(body, state, i) ? 1 : 0;
+  return counts;
+}
+
+template <class Real>
+double measure_shape_rms(const Body& body, const LatticeState<Real>& state) {
   Eigen::Matrix3Xd rest(3, body.lattice.n_masses());
   Eigen::Matrix3Xd now(3, body.lattice.n_masses());
   Eigen::Index column = 0;
   for (const Index i : body.lattice.masses) {
-    if (yields && has_yielded(body, state, i)) ++counts.yielded_masses;
     rest.col(column) = body.lattice.rest_position(i);
     now.col(column++) = body.lattice.rest_position(i) + vector_of(state.u, i);
   }
-  counts.shape_rms = rigid_fit_rms(rest, now);
-  return counts;
+  return rigid_fit_rms(rest, now);
 }
 
 template Energies measure_energies(const Body&, const LatticeState<float>&, const Vec3&);
@@ -202,5 +206,7 @@ template MomentumAccount::Start measure_momenta(const Body&, const Three<double>
                                                 const Three<double>&) noexcept;
 template BodyCounts measure_counts(const Body&, const LatticeState<float>&);
 template BodyCounts measure_counts(const Body&, const LatticeState<double>&);
+template double measure_shape_rms(const Body&, const LatticeState<float>&);
+template double measure_shape_rms(const Body&, const LatticeState<double>&);
 
 }  // namespace palpate::physics

@@ -24,7 +24,11 @@ Losses measure_losses(const LatticeState<Real>& state);
 template <class Real>
 MomentumAccount::Start measure_momenta(const Body& body, const Three<Real>& u, const Three<Real>& v) noexcept;
 
+/// All but the shape.
 template <class Real>
 BodyCounts measure_counts(const Body& body, const LatticeState<Real>& state);
+/// BodyCounts::shape_rms [m].
+template <class Real>
+double measure_shape_rms(const Body& body, const LatticeState<Real>& state);
 
 }  // namespace palpate::physics

@@ -21,6 +21,7 @@ inline constexpr int vector_bytes = 16;
 
 template <class Real>
 struct Pack {
+  using Number = Real;
   static constexpr int width = vector_bytes / static_cast<int>(sizeof(Real));
   using Integer = std::conditional_t<sizeof(Real) == 4, std::int32_t, std::int64_t>;
   typedef Real V __attribute__((vector_size(vector_bytes)));

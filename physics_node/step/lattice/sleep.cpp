@@ -32,7 +32,7 @@ std::vector<Index> rows_beside(const Lattice& lattice, const RowSegment& row) {
 }  // namespace
 
 Sleep::Sleep(const Body& body)
-    : may_sleep_(body.n_held > 0),
+    : may_sleep_(body.n_held > 0 && !body.solid),
       quiet_s_(body.lattice.rows.size()),
       masses_of_(body.lattice.rows.size(), 0),
       before_(body.lattice.rows.size()) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "physics_node/body/element_constants.h"
+#include "physics_node/step/lattice/hexahedra.h"
 #include "physics_node/step/lattice/lattice_spectrum.h"
 
 namespace palpate::physics {
@@ -50,6 +51,7 @@ StiffestMode stiffest_mode_anyhow(const Body& body) {
 }
 
 StiffestMode stiffest_mode(const Body& body) {
+  if (body.solid) return stiffest_mode_of_hexahedra(body);
   const StiffestMode anyhow = stiffest_mode_anyhow(body);
   if (body.law.damper != Damper::axial || anyhow.omega2 == 0) return anyhow;  // not an axial law
   const StiffestMode ordered = bloch(body);

@@ -25,8 +25,8 @@ LatticeState<Real>::LatticeState(const Body& body) {
     const auto c = static_cast<std::size_t>(cell);
     inverse_mass[c] = static_cast<Real>(body.inverse_mass[c]);
   }
-  make_slots(body, all, level, up);
-  if (!body.law_of.empty()) varied = make_varied_constants<Real>(body, colour);
+  if (!body.solid) make_slots(body, all, level, up);
+  if (!body.solid && !body.law_of.empty()) varied = make_varied_constants<Real>(body, colour);
   row_state.resize(body.lattice.rows.size());
   ledger.resize(body.lattice.rows.size());
   if (any_yields(body)) fresh.reserve(body.lattice.n_elements());

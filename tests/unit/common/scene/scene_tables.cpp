@@ -29,6 +29,14 @@ SceneTable body(const std::string& shape, const std::string& keys) {
           "name = \"b\"\nmaterial = \"m\"\nshape = \"" + shape + "\"\n" + keys, ""};
 }
 
+SceneTable elements() {
+  const std::string tissue = "density_kg_per_m3 = 1\nmodulus_kPa = 10\n";
+  return {"[[body]]", "box", "[material.m]\n" + tissue + "[material.n]\n" + tissue + "[[body]]\n",
+          "name = \"b\"\nmaterial = \"m\"\nshape = \"box\"\nsize_mm = [5, 5, 5]\nspacing_mm = 1\nlattice = "
+          "\"voxel\"\nmodel = \"fem\"\n",
+          ""};
+}
+
 SceneTable tool(const std::string& of, const std::string& keys) {
   return {"[[tool]]", of, least + hand + "[[tool]]\n", "device = \"d\"\n" + keys, ""};
 }
@@ -63,6 +71,7 @@ std::vector<SceneTable> all_tables() {
             "driver = \"simulated\"\nwaypoints = [[0, 0, 0, 0], [1, 0, 0, 0]]\nmax_torque_N_m = 1\n"),
       body("sphere", "radius_mm = 5\nspacing_mm = 1\n"),
       body("box", "size_mm = [5, 5, 5]\nspacing_mm = 1\n"),
+      elements(),
       body("tube", "outer_radius_mm = 60\nlength_mm = 9\nspacing_mm = 1\n"),
       body("knife", knife),
       body("needle", needle),

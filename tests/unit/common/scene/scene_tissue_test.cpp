@@ -220,5 +220,40 @@ TEST(VolumeFile, GivenOnTheCommandLineIsFoundFromThere) {
               HasSubstr("there is no file scan.h5; make it with \"palpate import"));
 }
 
+/// A box of finite elements of one material.
+std::string elements(const std::string& material, const std::string& lattice = "voxel") {
+  return "[material.m]\n" + material +
+         "\n[[body]]\nname = \"b\"\nshape = \"box\"\nsize_mm = [9, 9, 9]\nspacing_mm = 1\n" + "lattice = \"" +
+         lattice + "\"\nmaterial = \"m\"\nmodel = \"fem\"\n";
+}
+
+TEST(Elements, AreReadWithTheirMaterial) {
+  const std::string tissue = "density_kg_per_m3 = 1000\nmodulus_kPa = 10\n";
+  const Scene scene = parsed(elements(tissue + "poisson_ratio = 0.3") + "hourglass = \"isotropic\"");
+  EXPECT_EQ(scene.bodies[0].model, ElementModel::fem);
+  EXPECT_EQ(scene.bodies[0].hourglass, HourglassKind::isotropic);
+  EXPECT_EQ(scene.materials[0].poisson_ratio, 0.3);
+  EXPECT_EQ(parsed(elements(tissue)).bodies[0].hourglass, HourglassKind::physical);
+  EXPECT_EQ(parsed(elements(tissue)).materials[0].poisson_ratio, 0.45);
+}
+
+TEST(Elements, RefuseWhatTheyCannotFollow) {
+  const std::string tissue = "density_kg_per_m3 = 1000\nmodulus_kPa = 10\n";
+  const auto about = [](const std::string& text) { return complaints_about(text); };
+  EXPECT_THAT(about(elements(tissue, "fcc")),
+              ElementsAre(HasSubstr("needs cells; write lattice = \"voxel\"")));
+  EXPECT_THAT(about(elements("mass_g = 1\nmodulus_kPa = 10")),
+              ElementsAre(HasSubstr("[material.m] has no density_kg_per_m3")));
+  EXPECT_THAT(about(elements("density_kg_per_m3 = 1000\nk1_N_per_m = 10")),
+              ElementsAre(HasSubstr("[material.m] has no modulus_kPa")));
+  EXPECT_THAT(about(elements(tissue + "yield_ratio = 1.1\nbreak_ratio = 1.2")),
+              ElementsAre(HasSubstr("yields and breaks, which only springs do so far")));
+  EXPECT_THAT(about(elements(tissue + "viscosity_N_s_per_m = 1")),
+              ElementsAre(HasSubstr("give viscosity_Pa_s")));
+  EXPECT_THAT(about(elements(tissue + "drag_N_s_per_m = 1")), ElementsAre(HasSubstr("give viscosity_Pa_s")));
+  EXPECT_THAT(about(elements(tissue + "viscosity_Pa_s = 1\ndamper = \"relative\"")),
+              ElementsAre(HasSubstr("leave \"damper\" out")));
+}
+
 }  // namespace
 }  // namespace palpate

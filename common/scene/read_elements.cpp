@@ -1,0 +1,61 @@
+// `model` and `hourglass` of a body: springs or finite elements.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/scene/body_spec.h"
+#include "common/scene/material_spec.h"
+#include "common/scene/physics_spec.h"
+#include "common/scene/read_parts.h"
+#include "common/scene/scene.h"
+
+namespace palpate {
+namespace {
+
+/// What of a material finite elements cannot follow, and what would be right; empty: nothing.
+std::string hindrance(const MaterialSpec& material) {
+  if (!material.modulus) return "has no modulus_kPa; give it in place of k1_N_per_m or lambda_N";
+  if (!material.density) return "has no density_kg_per_m3; give it in place of mass_g";
+  if (material.yield_ratio)
+    return "yields and breaks, which only springs do so far; leave yield_ratio and break_ratio out";
+  if (material.viscosity) return "has viscosity_N_s_per_m, which is of one spring; give viscosity_Pa_s";
+  if (material.drag > 0) return "has drag_N_s_per_m, which is of the papers' masses; give viscosity_Pa_s";
+  if (material.damper != Damper::axial) return "has a damper of springs; leave \"damper\" out";
+  return {};
+}
+
+void refuse_materials(TableReader& reader, const ReadContext& context, const BodySpec& spec) {
+  std::vector<std::string> used{spec.material};
+  for (const RegionSpec& region : spec.regions) used.push_back(region.material);
+  for (const MaterialSpec& material : context.scene.materials) {
+    if (std::find(used.begin(), used.end(), material.name) == used.end()) continue;
+    if (const std::string what = hindrance(material); !what.empty())
+      reader.complain("model", fmt::format("model = \"fem\" in {}, but [material.{}] {}", reader.title(),
+                                           material.name, what));
+  }
+}
+
+}  // namespace
+
+void read_elements(TableReader& reader, ReadContext& context, BodySpec& spec) {
+  if (const auto word = reader.read_word("model", {"springs", "fem"}))
+    spec.model = static_cast<ElementModel>(*word);
+  if (const auto word = reader.read_word("hourglass", {"physical", "isotropic"}))
+    spec.hourglass = static_cast<HourglassKind>(*word);
+  const bool fem = spec.model == ElementModel::fem;
+  if (!fem && reader.has("hourglass"))
+    reader.complain("hourglass",
+                    "\"hourglass\" is of finite elements; write model = \"fem\", or leave it out");
+  if (!fem) return;
+  if (spec.lattice != LatticeKind::voxel)
+    reader.complain(
+        "model", fmt::format("model = \"fem\" in {} needs cells; write lattice = \"voxel\"", reader.title()));
+  if (context.scene.physics->integrator != Integrator::symplectic_euler)
+    reader.complain("model",
+                    fmt::format("model = \"fem\" in {} is stepped by symplectic Euler; leave \"integrator\" "
+                                "in [physics] out",
+                                reader.title()));
+  refuse_materials(reader, context, spec);
+}
+
+}  // namespace palpate

@@ -1,0 +1,76 @@
+#include "physics_node/body/give_solid_elements.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "common/error/error.h"
+#include "common/scene/material_spec.h"
+#include "physics_node/body/materials.h"
+#include "physics_node/body/region_map.h"
+
+namespace palpate::physics {
+namespace {
+
+double beta_of(const MaterialSpec& material) {
+  return material.viscosity_bulk.value_or(0.0) / *material.modulus;
+}
+
+bool differ(double a, double b) { return std::abs(a - b) > 1e-9 * std::max(std::abs(a), std::abs(b)); }
+
+void refuse_mixture(const BodySpec& spec, const RegionSpec& region, const MaterialSpec& own,
+                    const MaterialSpec& other) {
+  if (differ(own.poisson_ratio, other.poisson_ratio))
+    throw InputError(fmt::format(
+        "{}: material \"{}\" has poisson_ratio = {}, and \"{}\" of body \"{}\" has {}; finite elements of "
+        "one body share it",
+        region.place.text(), other.name, other.poisson_ratio, own.name, spec.name, own.poisson_ratio));
+  if (differ(beta_of(own), beta_of(other)))
+    throw InputError(fmt::format(
+        "{}: viscosity over modulus is {:.4g} s in material \"{}\" and {:.4g} s in \"{}\" of body "
+        "\"{}\"; finite elements of one body share it",
+        region.place.text(), beta_of(other), other.name, beta_of(own), own.name, spec.name));
+}
+
+}  // namespace
+
+void give_solid_elements(Body& body, const BodySpec& spec, const std::vector<MaterialSpec>& materials) {
+  const MaterialSpec& own = named(materials, spec.material);
+  std::vector<const MaterialSpec*> of_region{&own};
+  SolidElements solid;
+  solid.modulus = *own.modulus;
+  solid.poisson_ratio = own.poisson_ratio;
+  solid.beta = beta_of(own);
+  solid.density = *own.density;
+  solid.hourglass = spec.hourglass;
+  for (const RegionSpec& region : spec.regions) {
+    of_region.push_back(&named(materials, region.material));
+    refuse_mixture(spec, region, own, *of_region.back());
+    solid.density = std::min(solid.density, *of_region.back()->density);
+  }
+  const auto n = static_cast<std::size_t>(body.capacity());
+  solid.stiffness.assign(n, 0.0F);
+  solid.mass.assign(n, 0.0);
+  solid.largest_stiffness = 0;
+  const Cells& cells = *body.cells;
+  const Vec3i corner = lattice_corner(cells, body.lattice);
+  RegionMap map(body, spec);
+  for (int k = 0; k < cells.size.z(); ++k)
+    for (int j = 0; j < cells.size.y(); ++j)
+      for (int i = 0; i < cells.size.x(); ++i) {
+        if (!cells.is_deformable(i, j, k)) continue;
+        const Vec3i at = Vec3i(i, j, k) - corner;
+        const MaterialSpec& material = *of_region[map.of_cell({i, j, k})];
+        const double stiffness = *material.modulus / solid.modulus;
+        solid.stiffness[static_cast<std::size_t>(body.lattice.cell_of(at))] = static_cast<float>(stiffness);
+        solid.largest_stiffness =
+            std::max(solid.largest_stiffness, stiffness * solid.density / *material.density);
+        const double share = *material.density * body.lattice.step.prod() / 8;
+        for (int a = 0; a < 8; ++a)
+          solid.mass[static_cast<std::size_t>(body.lattice.cell_of(at + Vec3i(a & 1, a >> 1 & 1, a >> 2)))] +=
+              share;
+      }
+  body.solid = std::move(solid);
+}
+
+}  // namespace palpate::physics

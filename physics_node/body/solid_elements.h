@@ -1,0 +1,23 @@
+#pragma once
+// What the finite elements of a body are made of.
+
+#include <vector>
+
+#include "common/scene/element_kinds.h"
+
+namespace palpate::physics {
+
+/// Stiffness of a cell and the mass of a node are per cell, as the cells around a node may be of several materials.
+struct SolidElements {
+  double modulus = 0;        // Young's, of the body's own material [Pa]
+  double poisson_ratio = 0;  // of all materials in it
+  double beta = 0;           // viscosity / modulus, of all materials in it [s]
+  double density = 0;        // the least of its materials [kg/m^3]
+  HourglassKind hourglass = HourglassKind::physical;
+  std::vector<float>
+      stiffness;  // modulus of a cell over `modulus`, by the storage cell of its lowest corner; 0: none (n_cells)
+  std::vector<double> mass;      // of each node, an eighth of each cell around it [kg]  (n_cells)
+  double largest_stiffness = 1;  // over density / least density: what bounds the step
+};
+
+}  // namespace palpate::physics

@@ -1,0 +1,126 @@
+// The kernel of hexahedra, compiled once per instruction set: hex_kernel_{sse2,avx2,avx512}.cpp define PALPATE_KERNEL and
+// include this.
+
+#include "physics_node/material/stable_neo_hookean.h"
+#include "physics_node/step/lattice/hex_kernel.h"
+#include "physics_node/step/lattice/pack.h"
+// after pack.h
+#include "physics_node/step/lattice/move_masses.inl"
+
+namespace palpate::physics::PALPATE_KERNEL {
+namespace {
+
+/// Forces of the cells of a run, at w = u + beta v.
+template <class Real, bool physical, bool damped, bool watched>
+void run_forces(const HexContext<Real>& m, std::size_t r) {
+  using P = Pack<Real>;
+  using V = typename P::V;
+  const HexRun run = m.runs[r];
+  Index at[8];
+  for (Index a = 0; a < 8; ++a) at[a] = (a & 1) * run.right + (a >> 1 & 1) * m.up_y + (a >> 2) * m.up_z;
+  V elastic{}, ahead{}, stiffest{};
+  // Whole packs only: cells beyond the run's end have no stiffness.
+  for (Index i = run.first; i < run.first + run.count; i += P::width) {
+    Corners<P> w;
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t a = 0; a < 8; ++a) {
+        w[c][a] = P::load(m.masses.u[c] + i + at[a]);
+        if constexpr (damped) w[c][a] = P::fma_all(P::load(m.masses.v[c] + i + at[a]), m.beta, w[c][a]);
+      }
+    HexForces<P> out;
+    hex_forces<P, StableNeoHookean, physical, watched>(m.k, w, out);
+    const V stiffness = P::load(m.stiffness + i);
+    stiffest = P::larger(stiffest, out.stiffness);
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t a = 0; a < 8; ++a) {
+        Real* f = (a < 4 ? m.masses.f[c] : m.high[c]) + i + at[a];
+        P::store(f, P::fma(stiffness, out.f[c][a], P::load(f)));
+      }
+    if constexpr (watched && damped) {
+      HexForces<P> at_u;
+      for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t a = 0; a < 8; ++a) w[c][a] = P::load(m.masses.u[c] + i + at[a]);
+      hex_forces<P, StableNeoHookean, physical, true>(m.k, w, at_u);
+      ahead = P::fma(stiffness, out.energy - at_u.energy, ahead);
+      elastic = P::fma(stiffness, at_u.energy, elastic);
+    } else if constexpr (watched) {
+      elastic = P::fma(stiffness, out.energy, elastic);
+    }
+  }
+  m.stiffest[r] = static_cast<double>(P::largest(stiffest));
+  if constexpr (watched) m.elastic[r] = static_cast<double>(P::sum(elastic));
+  if constexpr (watched && damped) m.ahead[r] = static_cast<double>(P::sum(ahead));
+}
+
+template <class Real, bool physical, bool damped>
+void forces(const HexContext<Real>& m, Index first_run, Index last_run) {
+  for (auto r = static_cast<std::size_t>(first_run); r < static_cast<std::size_t>(last_run); ++r)
+    m.masses.watch || !m.books ? run_forces<Real, physical, damped, true>(m, r)
+                               : run_forces<Real, physical, damped, false>(m, r);
+}
+
+/// Moves the masses of some rows with what all cells around them gave, and clears it.
+///
+/// The damper's loss. A step changes K = sum of m v(-) . v(+) / 2 and W(w), the elastic energy at w = u + beta v, together by
+///   - beta/2 (f + f') . (v' - v),   exactly for linear elasticity,
+/// so that with `passed` the sum of it, passed + W(w) - W(u) is what was lost of K + W(u): for linear elasticity the damper's own
+/// work, beta v . K v dt, which never is negative.
+template <class Real, bool damped>
+void move(const HexContext<Real>& m, Index first_row, Index last_row) {
+  using P = Pack<Real>;
+  using V = typename P::V;
+  for (auto r = static_cast<std::size_t>(first_row); r < static_cast<std::size_t>(last_row); ++r) {
+    const RowSegment row = m.masses.rows[r];
+    RowLedger& ledger = m.masses.ledger[r];
+    Watched<Real> watched;
+    if (m.masses.watch || m.masses.begins) watched.clear();
+    V lost{};
+    for (Index i = row.first; i < row.first + row.count; i += P::width) {
+      Masses<Real> p;
+      p.i = i;
+      for (int a = 0; a < 3; ++a) {
+        p.u[a] = P::load(m.masses.u[a] + i);
+        p.v[a] = P::load(m.masses.v[a] + i);
+        p.f[a] = P::load(m.high[a] + i) + P::load(m.masses.f[a] + i);
+        P::store(m.high[a] + i, V{});
+        if constexpr (damped) {
+          if (m.books)
+            lost = P::fma(p.f[a] + P::load(m.seen_f[a] + i), p.v[a] - P::load(m.seen_v[a] + i), lost);
+          P::store(m.seen_f[a] + i, p.f[a]);
+          P::store(m.seen_v[a] + i, p.v[a]);
+        }
+      }
+      move_masses<Real, false, false>(m.masses, p, watched);
+    }
+    double elastic = 0, ahead = 0;
+    for (Index n = m.runs_of_row[r]; n < m.runs_of_row[r + 1]; ++n) {
+      elastic += m.elastic[n];
+      if constexpr (damped) ahead += m.ahead[n];
+    }
+    if constexpr (damped) {
+      if (m.books)
+        m.passed[r] += 0.5 * static_cast<double>(m.beta) * static_cast<double>(P::sum(lost));
+      else
+        m.passed[r] = ledger.viscous - ahead;
+      if (m.masses.watch) ledger.viscous = m.passed[r] + ahead;
+    }
+    if (m.masses.begins) ledger.numerical += static_cast<double>(P::sum(watched.begun));
+    if (!m.masses.watch) continue;
+    ledger.elastic = elastic;
+    book_watched(watched, RowState::awake, ledger);
+  }
+}
+
+}  // namespace
+
+template <class Real>
+HexKernel<Real> hex_kernel(HexKind kind) {
+  if (kind.damped)
+    return {kind.physical ? &forces<Real, true, true> : &forces<Real, false, true>, &move<Real, true>};
+  return {kind.physical ? &forces<Real, true, false> : &forces<Real, false, false>, &move<Real, false>};
+}
+
+template HexKernel<float> hex_kernel<float>(HexKind);
+template HexKernel<double> hex_kernel<double>(HexKind);
+
+}  // namespace palpate::physics::PALPATE_KERNEL

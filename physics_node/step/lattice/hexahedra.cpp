@@ -1,0 +1,246 @@
+#include "physics_node/step/lattice/hexahedra.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <numeric>
+
+#include "physics_node/material/stable_neo_hookean.h"
+#include "physics_node/step/rigid_fit.h"
+
+namespace palpate::physics {
+namespace {
+
+using One = Scalar<double>;
+
+HexConstants<double> constants_of(const Body& body) {
+  const SolidElements& solid = *body.solid;
+  return hex_constants<double>(
+      {.modulus = solid.modulus, .poisson_ratio = solid.poisson_ratio, .hourglass = solid.hourglass},
+      body.lattice.step);
+}
+
+HexForces<One> forces_of(const HexConstants<double>& k, HourglassKind hourglass, const Corners<One>& w) {
+  HexForces<One> out;
+  if (hourglass == HourglassKind::physical)
+    hex_forces<One, StableNeoHookean, true, true>(k, w, out);
+  else
+    hex_forces<One, StableNeoHookean, false, true>(k, w, out);
+  return out;
+}
+
+template <class Real>
+HexKernel<Real> choose(const Body& body) {
+  const HexKind kind{.physical = body.solid->hourglass == HourglassKind::physical,
+                     .damped = body.solid->beta > 0};
+  switch (instruction_set()) {
+    case InstructionSet::avx512:
+      return avx512::hex_kernel<Real>(kind);
+    case InstructionSet::avx2:
+      return avx2::hex_kernel<Real>(kind);
+    case InstructionSet::sse2:
+      break;
+  }
+  return sse2::hex_kernel<Real>(kind);
+}
+
+/// Calls visit(stiffness, corners) for each cell, corners as storage cells.
+template <class Visit>
+void for_each_cell(const Body& body, const HexGrid& grid, const Visit& visit) {
+  for (const HexRun& run : grid.runs)
+    for (Index i = run.first; i < run.first + run.count; ++i) {
+      const float stiffness = body.solid->stiffness[static_cast<std::size_t>(i)];
+      if (stiffness <= 0) continue;
+      std::array<Index, 8> corner;
+      for (Index a = 0; a < 8; ++a)
+        corner[static_cast<std::size_t>(a)] =
+            i + (a & 1) * run.right + (a >> 1 & 1) * grid.up_y + (a >> 2) * grid.up_z;
+      visit(static_cast<double>(stiffness), corner);
+    }
+}
+
+/// Energy of all cells at u and how much more it is at w = u + beta v, and their forces on the nodes at w.
+struct Measured {
+  double elastic = 0, ahead = 0;
+  std::vector<Vec3> force;  // (n_cells)
+};
+template <class Real>
+Corners<One> corners_at(const LatticeState<Real>& state, const std::array<Index, 8>& corner, double beta) {
+  Corners<One> w;
+  for (std::size_t a = 0; a < 8; ++a) {
+    const Vec3 at = vector_of(state.u, corner[a]) + beta * vector_of(state.v, corner[a]);
+    for (std::size_t c = 0; c < 3; ++c) w[c][a] = at[static_cast<Eigen::Index>(c)];
+  }
+  return w;
+}
+template <class Real>
+Measured measure(const Body& body, const HexGrid& grid, const LatticeState<Real>& state) {
+  Measured sum;
+  sum.force.assign(static_cast<std::size_t>(body.capacity()), Vec3::Zero());
+  const HexConstants<double> k = constants_of(body);
+  for_each_cell(body, grid, [&](double stiffness, const std::array<Index, 8>& corner) {
+    const HexForces<One> out =
+        forces_of(k, body.solid->hourglass, corners_at(state, corner, body.solid->beta));
+    const double at_u = forces_of(k, body.solid->hourglass, corners_at(state, corner, 0)).energy;
+    sum.elastic += stiffness * at_u;
+    sum.ahead += stiffness * (out.energy - at_u);
+    for (std::size_t a = 0; a < 8; ++a)
+      sum.force[static_cast<std::size_t>(corner[a])] +=
+          stiffness * Vec3(out.f[0][a], out.f[1][a], out.f[2][a]);
+  });
+  return sum;
+}
+
+}  // namespace
+
+template <class Real>
+Hexahedra<Real>::Hexahedra(const Body& body)
+    : grid_(make_hex_grid(body)),
+      elastic_(grid_.runs.size()),
+      ahead_(grid_.runs.size()),
+      stiffest_(grid_.runs.size()),
+      passed_(body.lattice.rows.size()),
+      kernel_(choose<Real>(body)) {
+  const SolidElements& solid = *body.solid;
+  const auto n = static_cast<std::size_t>(body.capacity());
+  constants_ = hex_constants<Real>(
+      {.modulus = solid.modulus, .poisson_ratio = solid.poisson_ratio, .hourglass = solid.hourglass},
+      body.lattice.step);
+  at_rest_ = StableNeoHookean<One>{static_cast<double>(constants_.mu), static_cast<double>(constants_.lambda)}
+                 .stiffness({});
+  std::size_t colour = 8;  // after those of LatticeState
+  stiffness_ = ZeroedArray<Real>(n, colour++);
+  for (const Index cell : body.lattice.masses)
+    stiffness_[static_cast<std::size_t>(cell)] =
+        static_cast<Real>(solid.stiffness[static_cast<std::size_t>(cell)]);
+  for (auto& axis : high_) axis = ZeroedArray<Real>(n, colour++);
+  if (solid.beta == 0) return;
+  for (auto* three : {&seen_v_, &seen_f_})
+    for (auto& axis : *three) axis = ZeroedArray<Real>(n, colour++);
+}
+
+template <class Real>
+StepOutcome Hexahedra<Real>::step(const Body& body, LatticeState<Real>& state,
+                                  const ExplicitStep& step) noexcept {
+  HexContext<Real> m = {};
+  ElementContext<Real>& masses = m.masses;
+  masses.rows = body.lattice.rows.data();
+  masses.row_state = state.row_state.data();
+  masses.ledger = state.ledger.data();
+  masses.inverse_mass = state.inverse_mass.data();
+  for (std::size_t a = 0; a < 3; ++a) {
+    masses.u[a] = state.u[a].data();
+    masses.v[a] = state.v[a].data();
+    masses.f[a] = state.f[a].data();
+    masses.g[a] = static_cast<Real>(step.gravity[static_cast<Eigen::Index>(a)]);
+    m.high[a] = high_[a].data();
+    m.seen_v[a] = seen_v_[a].data();
+    m.seen_f[a] = seen_f_[a].data();
+  }
+  masses.dt = static_cast<Real>(step.dt);
+  masses.dt_before = static_cast<Real>(state.dt_before);
+  masses.begins = step.dt != state.dt_before;
+  masses.watch = step.watch;
+  m.runs = grid_.runs.data();
+  m.runs_of_row = grid_.runs_of_row.data();
+  m.stiffness = stiffness_.data();
+  m.elastic = elastic_.data();
+  m.ahead = ahead_.data();
+  m.stiffest = stiffest_.data();
+  m.passed = passed_.data();
+  m.up_y = grid_.up_y;
+  m.up_z = grid_.up_z;
+  m.beta = static_cast<Real>(body.solid->beta);
+  m.books = state.dt_before > 0;
+  m.k = constants_;
+  const auto layer = [&](std::size_t n) { kernel_.forces(m, grid_.layers[n].begin, grid_.layers[n].end); };
+  const auto plane = [&](std::size_t n) { kernel_.move(m, grid_.planes[n].begin, grid_.planes[n].end); };
+  if (step.team != nullptr) {
+    step.team->each(grid_.layers.size(), step.threads, layer);
+    step.team->each(grid_.planes.size(), step.threads, plane);
+  } else {
+    for (std::size_t n = 0; n < grid_.layers.size(); ++n) layer(n);
+    for (std::size_t n = 0; n < grid_.planes.size(); ++n) plane(n);
+  }
+  state.dt_before = step.dt;
+  return {.stiffening = std::ranges::max(stiffest_) / at_rest_};
+}
+
+template <class Real>
+Energies Hexahedra<Real>::energies(const Body& body, const LatticeState<Real>& state,
+                                   const Vec3& gravity) const {
+  const Measured now = measure(body, grid_, state);
+  Energies e;
+  e.elastic = now.elastic;
+  double power = 0;
+  for (const Index i : body.nodes()) {
+    const double w = body.inverse_mass[static_cast<std::size_t>(i)];
+    if (w == 0) continue;
+    const Vec3 v = vector_of(state.v, i);
+    e.kinetic += 0.5 / w * v.squaredNorm();
+    e.gravitational -= gravity.dot(vector_of(state.u, i)) / w;
+    power += v.dot(gravity) / w + v.dot(now.force[static_cast<std::size_t>(i)]);
+  }
+  e.between = e.kinetic + 0.5 * state.dt_before * power;
+  return e;
+}
+
+template <class Real>
+Losses Hexahedra<Real>::due(const Body& body, const LatticeState<Real>& state) const {
+  Losses due;
+  if (body.solid->beta == 0 || state.dt_before == 0) return due;
+  const Measured now = measure(body, grid_, state);
+  double work = 0;
+  for (const Index i : body.nodes())
+    work += 0.5 * body.solid->beta *
+            (now.force[static_cast<std::size_t>(i)] + vector_of(seen_f_, i))
+                .dot(vector_of(state.v, i) - vector_of(seen_v_, i));
+  due.viscous = work + now.ahead - std::accumulate(ahead_.begin(), ahead_.end(), 0.0);
+  return due;
+}
+
+template <class Real>
+BodyCounts Hexahedra<Real>::counts(const Body& body, const LatticeState<Real>& state) const {
+  BodyCounts counts;
+  const HexConstants<double> k = constants_of(body);
+  for_each_cell(body, grid_, [&](double, const std::array<Index, 8>& corner) {
+    ++counts.elements;
+    ++counts.live_elements;
+    Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
+    for (std::size_t a = 0; a < 8; ++a)
+      for (std::size_t j = 0; j < 3; ++j)
+        f.col(static_cast<Eigen::Index>(j)) +=
+            ((a >> j & 1) != 0 ? k.per_4h[j] : -k.per_4h[j]) * vector_of(state.u, corner[a]);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> squared(f.transpose() * f, Eigen::EigenvaluesOnly);
+    counts.max_stretch = std::max(counts.max_stretch, std::sqrt(squared.eigenvalues()[2]));
+  });
+  return counts;
+}
+
+StiffestMode stiffest_mode_of_hexahedra(const Body& body) {
+  const HexConstants<double> k = constants_of(body);
+  Eigen::Matrix<double, 24, 24> stiffness;
+  const double d = 1e-6 * body.lattice.step.minCoeff();
+  for (std::size_t e = 0; e < 24; ++e) {
+    Corners<One> more{}, less{};
+    more[e / 8][e % 8] = d, less[e / 8][e % 8] = -d;
+    const auto plus = forces_of(k, body.solid->hourglass, more),
+               minus = forces_of(k, body.solid->hourglass, less);
+    for (std::size_t o = 0; o < 24; ++o)
+      stiffness(static_cast<Eigen::Index>(o), static_cast<Eigen::Index>(e)) =
+          (minus.f[o / 8][o % 8] - plus.f[o / 8][o % 8]) / (2 * d);
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 24, 24>> solved(
+      0.5 * (stiffness + stiffness.transpose()), Eigen::EigenvaluesOnly);
+  StiffestMode mode;
+  if (body.n_held == body.n_nodes()) return mode;
+  mode.omega2 = body.solid->largest_stiffness * solved.eigenvalues()[23] * 8 /
+                (body.solid->density * body.lattice.step.prod());
+  mode.gamma = body.solid->beta * mode.omega2;
+  return mode;
+}
+
+template class Hexahedra<float>;
+template class Hexahedra<double>;
+
+}  // namespace palpate::physics

@@ -1,0 +1,44 @@
+#pragma once
+// Finite elements of one point on the cells of a voxel lattice: see step/fem/hex_element.h.
+
+#include <vector>
+
+#include "physics_node/step/lattice/hex_grid.h"
+#include "physics_node/step/lattice/hex_kernel.h"
+#include "physics_node/step/lattice/lattice_elements.h"
+#include "physics_node/step/lattice/stable_step.h"
+
+namespace palpate::physics {
+
+/// A step is two sweeps: cells layer by layer gather forces, masses plane by plane move. Symplectic Euler, and its energy is that of
+/// the leapfrog: see element_step.h. Nothing breaks, and nothing sleeps.
+/// Cost: bench/fem.
+template <class Real>
+class Hexahedra final : public LatticeElements<Real> {
+ public:
+  explicit Hexahedra(const Body& body);
+
+  StepOutcome step(const Body& body, LatticeState<Real>& state, const ExplicitStep& step) noexcept override;
+  Energies energies(const Body& body, const LatticeState<Real>& state, const Vec3& gravity) const override;
+  Losses due(const Body& body, const LatticeState<Real>& state) const override;
+  BodyCounts counts(const Body& body, const LatticeState<Real>& state) const override;
+
+ private:
+  HexGrid grid_;
+  HexConstants<Real> constants_;
+  ZeroedArray<Real> stiffness_;          // (n_cells)
+  Three<Real> high_;                     // (n_cells)
+  Three<Real> seen_v_, seen_f_;          // only where it is damped  (n_cells)
+  std::vector<double> elastic_, ahead_;  // by run: see HexContext [J]
+  std::vector<double> stiffest_;         // by run: the same [Pa]
+  std::vector<double> passed_;           // by row [J]
+  HexKernel<Real> kernel_;
+  double at_rest_ = 0;  // bound of the tangent of the law [Pa]
+};
+
+/// Largest squared frequency near rest, and damping rate. An upper bound: no body vibrates faster than its fastest cell alone would,
+/// w^2 <= largest eigenvalue of a cell's stiffness / (density V / 8). On cubes it allows 0.7 of the step that is stable at rest,
+/// and leaves the rest to cells that are compressed.
+StiffestMode stiffest_mode_of_hexahedra(const Body& body);
+
+}  // namespace palpate::physics
