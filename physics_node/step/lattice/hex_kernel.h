@@ -52,4 +52,18 @@ template <class Real>
 HexKernel<Real> hex_kernel(HexKind kind);
 }
 
+/// Of the widest vectors that this machine has.
+template <class Real>
+HexKernel<Real> hex_kernel_here(HexKind kind) {
+  switch (instruction_set()) {
+    case InstructionSet::avx512:
+      return avx512::hex_kernel<Real>(kind);
+    case InstructionSet::avx2:
+      return avx2::hex_kernel<Real>(kind);
+    case InstructionSet::sse2:
+      break;
+  }
+  return sse2::hex_kernel<Real>(kind);
+}
+
 }  // namespace palpate::physics

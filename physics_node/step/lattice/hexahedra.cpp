@@ -29,21 +29,6 @@ HexForces<One> forces_of(const HexConstants<double>& k, HourglassKind hourglass,
   return out;
 }
 
-template <class Real>
-HexKernel<Real> choose(const Body& body) {
-  const HexKind kind{.physical = body.solid->hourglass == HourglassKind::physical,
-                     .damped = body.solid->beta > 0};
-  switch (instruction_set()) {
-    case InstructionSet::avx512:
-      return avx512::hex_kernel<Real>(kind);
-    case InstructionSet::avx2:
-      return avx2::hex_kernel<Real>(kind);
-    case InstructionSet::sse2:
-      break;
-  }
-  return sse2::hex_kernel<Real>(kind);
-}
-
 /// Calls visit(stiffness, corners) for each cell, corners as storage cells.
 template <class Visit>
 void for_each_cell(const Body& body, const HexGrid& grid, const Visit& visit) {
@@ -100,7 +85,8 @@ Hexahedra<Real>::Hexahedra(const Body& body)
       ahead_(grid_.runs.size()),
       stiffest_(grid_.runs.size()),
       passed_(body.lattice.rows.size()),
-      kernel_(choose<Real>(body)) {
+      kernel_(hex_kernel_here<Real>(
+          {.physical = body.solid->hourglass == HourglassKind::physical, .damped = body.solid->beta > 0})) {
   const SolidElements& solid = *body.solid;
   const auto n = static_cast<std::size_t>(body.capacity());
   constants_ = hex_constants<Real>(
@@ -215,29 +201,6 @@ BodyCounts Hexahedra<Real>::counts(const Body& body, const LatticeState<Real>& s
     counts.max_stretch = std::max(counts.max_stretch, std::sqrt(squared.eigenvalues()[2]));
   });
   return counts;
-}
-
-StiffestMode stiffest_mode_of_hexahedra(const Body& body) {
-  const HexConstants<double> k = constants_of(body);
-  Eigen::Matrix<double, 24, 24> stiffness;
-  const double d = 1e-6 * body.lattice.step.minCoeff();
-  for (std::size_t e = 0; e < 24; ++e) {
-    Corners<One> more{}, less{};
-    more[e / 8][e % 8] = d, less[e / 8][e % 8] = -d;
-    const auto plus = forces_of(k, body.solid->hourglass, more),
-               minus = forces_of(k, body.solid->hourglass, less);
-    for (std::size_t o = 0; o < 24; ++o)
-      stiffness(static_cast<Eigen::Index>(o), static_cast<Eigen::Index>(e)) =
-          (minus.f[o / 8][o % 8] - plus.f[o / 8][o % 8]) / (2 * d);
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 24, 24>> solved(
-      0.5 * (stiffness + stiffness.transpose()), Eigen::EigenvaluesOnly);
-  StiffestMode mode;
-  if (body.n_held == body.n_nodes()) return mode;
-  mode.omega2 = body.solid->largest_stiffness * solved.eigenvalues()[23] * 8 /
-                (body.solid->density * body.lattice.step.prod());
-  mode.gamma = body.solid->beta * mode.omega2;
-  return mode;
 }
 
 template class Hexahedra<float>;

@@ -6,7 +6,6 @@
 #include "physics_node/step/lattice/hex_grid.h"
 #include "physics_node/step/lattice/hex_kernel.h"
 #include "physics_node/step/lattice/lattice_elements.h"
-#include "physics_node/step/lattice/stable_step.h"
 
 namespace palpate::physics {
 
@@ -35,10 +34,5 @@ class Hexahedra final : public LatticeElements<Real> {
   HexKernel<Real> kernel_;
   double at_rest_ = 0;  // bound of the tangent of the law [Pa]
 };
-
-/// Largest squared frequency near rest, and damping rate. An upper bound: no body vibrates faster than its fastest cell alone would,
-/// w^2 <= largest eigenvalue of a cell's stiffness / (density V / 8). On cubes it allows 0.7 of the step that is stable at rest,
-/// and leaves the rest to cells that are compressed.
-StiffestMode stiffest_mode_of_hexahedra(const Body& body);
 
 }  // namespace palpate::physics

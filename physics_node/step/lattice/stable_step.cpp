@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "physics_node/body/element_constants.h"
-#include "physics_node/step/lattice/hexahedra.h"
+#include "physics_node/step/lattice/hex_spectrum.h"
 #include "physics_node/step/lattice/lattice_spectrum.h"
 
 namespace palpate::physics {
