@@ -7,18 +7,40 @@ namespace {
 
 constexpr Index lanes = 16;  // of the widest vector
 
-/// Consecutive items of one plane of z each.
-template <class Items, class First>
-std::vector<HexPiece> by_plane(const Items& items, Index plane, const First& first) {
-  std::vector<HexPiece> pieces;
-  Index last = -1;
-  for (std::size_t n = 0; n < items.size(); ++n) {
-    const Index now = first(items[n]) / plane;
-    if (now != last) pieces.push_back({static_cast<Index>(n), static_cast<Index>(n)});
-    pieces.back().end = static_cast<Index>(n) + 1;
-    last = now;
+// Why: shares of two threads then differ by a tenth at most, and few masses wait.
+constexpr std::size_t most_slabs = 16;
+
+/// Layers of cells and masses, by the planes of z in which they begin.
+std::vector<HexLayer> layers_of(const HexGrid& grid, const Lattice& lattice) {
+  std::vector<HexLayer> layers(static_cast<std::size_t>(lattice.size.z()));
+  const auto at = [&](Index cell) { return static_cast<std::size_t>(cell / grid.up_z); };
+  for (std::size_t n = 0; n < grid.runs.size(); ++n) {
+    HexLayer& layer = layers[at(grid.runs[n].first)];
+    if (layer.last_run == 0) layer.first_run = static_cast<Index>(n);
+    layer.last_run = static_cast<Index>(n) + 1;
   }
-  return pieces;
+  for (std::size_t r = 0; r < lattice.rows.size(); ++r) {
+    HexLayer& layer = layers[at(lattice.rows[r].first)];
+    if (layer.last_row == 0) layer.first_row = static_cast<Index>(r);
+    layer.last_row = static_cast<Index>(r) + 1;
+  }
+  return layers;
+}
+
+/// Slabs of about as many cells each.
+std::vector<HexSlab> slabs_of(const HexGrid& grid) {
+  Index cells = 0;
+  for (const HexRun& run : grid.runs) cells += run.count;
+  std::vector<HexSlab> slabs{{}};
+  Index swept = 0;
+  for (const HexLayer& layer : grid.layers) {
+    for (Index r = layer.first_run; r < layer.last_run; ++r)
+      swept += grid.runs[static_cast<std::size_t>(r)].count;
+    ++slabs.back().end;
+    if (swept * static_cast<Index>(most_slabs) < cells * static_cast<Index>(slabs.size())) continue;
+    if (slabs.back().end < grid.layers.size()) slabs.push_back({slabs.back().end, slabs.back().end});
+  }
+  return slabs;
 }
 
 }  // namespace
@@ -46,8 +68,8 @@ HexGrid make_hex_grid(const Body& body) {
     while (run < grid.runs.size() && grid.runs[run].first < row.first + row.count) ++run;
   }
   grid.runs_of_row.push_back(static_cast<Index>(run));
-  grid.layers = by_plane(grid.runs, grid.up_z, [](const HexRun& r) { return r.first; });
-  grid.planes = by_plane(lattice.rows, grid.up_z, [](const RowSegment& r) { return r.first; });
+  grid.layers = layers_of(grid, lattice);
+  grid.slabs = slabs_of(grid);
   return grid;
 }
 

@@ -15,18 +15,26 @@ struct HexRun {
   Index right = 0;  // from the storage cell of a corner to that of the next along x
 };
 
-/// Runs, or rows of masses, that one thread takes: cells between two planes of masses, or masses of one plane.
-struct HexPiece {
-  Index begin = 0, end = 0;
+/// One plane of masses and the cells between it and the next: what is needed of either, or nothing.
+struct HexLayer {
+  Index first_run = 0, last_run = 0;  // [first, last)
+  Index first_row = 0, last_row = 0;
+};
+
+/// Layers that one thread sweeps: it gathers the forces of a layer, and then at once moves the masses below it, which no other
+/// layer asks for any more, while all of them are at hand. Only its lowest masses wait for the cells below them, of another
+/// thread.
+struct HexSlab {
+  std::size_t begin = 0, end = 0;
 };
 
 struct HexGrid {
   std::vector<HexRun> runs;  // in the order of the storage cells
   std::vector<Index>
       runs_of_row;  // those whose lowest corners lie in row r of the lattice: [r] up to [r + 1]  (n_rows + 1)
-  std::vector<HexPiece> layers;  // of runs
-  std::vector<HexPiece> planes;  // of rows of the lattice
-  Index up_y = 0, up_z = 0;      // from the storage cell of a corner to that of the next along y, along z
+  std::vector<HexLayer> layers;  // upwards
+  std::vector<HexSlab> slabs;
+  Index up_y = 0, up_z = 0;  // from the storage cell of a corner to that of the next along y, along z
 };
 
 HexGrid make_hex_grid(const Body& body);

@@ -139,14 +139,21 @@ StepOutcome Hexahedra<Real>::step(const Body& body, LatticeState<Real>& state,
   m.beta = static_cast<Real>(body.solid->beta);
   m.books = state.dt_before > 0;
   m.k = constants_;
-  const auto layer = [&](std::size_t n) { kernel_.forces(m, grid_.layers[n].begin, grid_.layers[n].end); };
-  const auto plane = [&](std::size_t n) { kernel_.move(m, grid_.planes[n].begin, grid_.planes[n].end); };
-  if (step.team != nullptr) {
-    step.team->each(grid_.layers.size(), step.threads, layer);
-    step.team->each(grid_.planes.size(), step.threads, plane);
+  const auto forces = [&](const HexLayer& l) { kernel_.forces(m, l.first_run, l.last_run); };
+  const auto move = [&](const HexLayer& l) { kernel_.move(m, l.first_row, l.last_row); };
+  const auto sweep = [&](std::size_t n) {
+    const HexSlab slab = grid_.slabs[n];
+    for (std::size_t l = slab.begin; l < slab.end; ++l) {
+      forces(grid_.layers[l]);
+      if (l > slab.begin) move(grid_.layers[l]);
+    }
+  };
+  const auto move_lowest = [&](std::size_t n) { move(grid_.layers[grid_.slabs[n].begin]); };
+  if (step.team != nullptr && step.threads > 1) {
+    step.team->each(grid_.slabs.size(), step.threads, sweep);
+    step.team->each(grid_.slabs.size(), step.threads, move_lowest);
   } else {
-    for (std::size_t n = 0; n < grid_.layers.size(); ++n) layer(n);
-    for (std::size_t n = 0; n < grid_.planes.size(); ++n) plane(n);
+    for (const HexLayer& layer : grid_.layers) forces(layer), move(layer);
   }
   state.dt_before = step.dt;
   return {.stiffening = std::ranges::max(stiffest_) / at_rest_};

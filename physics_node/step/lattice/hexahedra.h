@@ -9,7 +9,7 @@
 
 namespace palpate::physics {
 
-/// A step is two sweeps: cells layer by layer gather forces, masses plane by plane move. Symplectic Euler, and its energy is that of
+/// A step is one sweep upwards, or as many as there are slabs: see HexSlab. Symplectic Euler, and its energy is that of
 /// the leapfrog: see element_step.h. Nothing breaks, and nothing sleeps.
 /// Cost: bench/fem.
 template <class Real>
