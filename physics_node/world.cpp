@@ -163,6 +163,7 @@ void World::move_bodies(double dt, bool watch) noexcept {
       const StepOutcome outcome = bodies_[b]->advance(how, gathered(b));
       report_.broken += outcome.broken;
       stiffening_ = std::max(stiffening_, outcome.stiffening);
+      report_.least_corner_J = std::min(report_.least_corner_J, outcome.least_corner_J);
       report_.newton_iterations += outcome.newton_iterations;
       report_.cg_iterations += outcome.cg_iterations;
       if (!outcome.solved) ++report_.unsolved;

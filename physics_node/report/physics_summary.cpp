@@ -31,6 +31,7 @@ nlohmann::json body_part(const BodyModel& moving, const Fragments* fragments) {
                          {"max_stretch", counts.max_stretch},
                          {"shape_rms_m", counts.shape_rms},
                          {"sleeping_fraction", moving.sleeping_fraction()}};
+  if (counts.least_corner_J) part["min_corner_J"] = *counts.least_corner_J;
   if (any_yields(moving.body()))
     part["yielded_fraction"] = static_cast<double>(counts.yielded_masses) / n_masses;
   const OutcomeMeasures measures = measure_outcome(moving, fragments);

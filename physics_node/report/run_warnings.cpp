@@ -92,6 +92,18 @@ const Kind kinds[] = {
        return fmt::format("{} pairs of masses found no room in the contact list and were not held apart",
                           w.collisions()->tally().overflows);
      }},
+    {[](const World& w) noexcept { return w.report().least_corner_J <= 0; },
+     [](const World& w) {
+       std::string list;
+       for (std::size_t b = 0; b < w.n_bodies(); ++b)
+         if (const auto least = w.body(b).counts().least_corner_J; least && *least <= 0)
+           list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", w.body(b).body().name);
+       return fmt::format(
+           "cells of {} were turned inside out at a corner (det F down to {:.2g}): what is drawn and felt "
+           "there is wrong; "
+           "smaller cells, a larger tip or less depth would do",
+           list, w.report().least_corner_J);
+     }},
     {[](const World& w) noexcept { return w.facets_left_out() > 0; },
      [](const World& w) {
        return fmt::format(

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 #include "physics_node/step/momentum_account.h"
 
@@ -42,8 +43,9 @@ struct BodyCounts {
   std::int64_t elements = 0;  // at the start
   std::int64_t live_elements = 0;
   std::int64_t yielded_masses = 0;
-  double max_stretch = 1;  // largest l / L of a live element
-  double shape_rms = 0;    // root mean square distance to the rest shape after the best rigid fit [m]
+  double max_stretch = 1;                // largest l / L of a live element
+  std::optional<double> least_corner_J;  // of all steps so far: see StepOutcome; only of cells
+  double shape_rms = 0;  // root mean square distance to the rest shape after the best rigid fit [m]
 };
 
 class Books {

@@ -41,6 +41,7 @@ struct StepReport {
   std::int64_t unsolved = 0;   // steps of backward_euler whose equations were not solved to their tolerance
   std::int64_t newton_iterations = 0, cg_iterations = 0;  // of backward_euler, in all
   std::int64_t broken = 0;                                // elements
+  double least_corner_J = 1;                              // of all bodies: see StepOutcome
   double tool_work = 0;                                   // done by tools on tissue [J]
   double contact_lost = 0;   // kinetic energy, in collisions and at floor and walls [J]
   double tool_exchange = 0;  // sum of its magnitude over all steps [J]

@@ -17,6 +17,8 @@ struct StepOutcome {
   int cg_iterations = 0;
   /// How much stiffer the stiffest part is than at rest, at most: the stable step is shorter by its root. Springs never are.
   double stiffening = 1;
+  /// Least J = det F at a corner of a cell in all steps so far that were watched; not above 0: folded. Springs have none.
+  double least_corner_J = 1;
 };
 
 /// What comes to a body from outside: forces of tools that press, or impulses of contact, floor and tools that lead, too.

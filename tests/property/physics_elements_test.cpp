@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "bench/problems/hex_beam.h"
 #include "common/scene/scene.h"
+#include "physics_node/report/run_warnings.h"
 #include "physics_node/world.h"
 #include "tests/support/physics/small_worlds.h"
 
@@ -181,6 +183,34 @@ TEST_P(SolidBody, ComesBackFromHalfItsHeight) {
   EXPECT_EQ(world.report().restored, 0);
   EXPECT_LT(world.body(0).counts().shape_rms, 1e-5);
   EXPECT_LT(world.ledger().balance_error(), 0.02);
+}
+
+TEST_P(SolidBody, SaysHowFarItsCornersWereSqueezedAndWhenTheyFold) {
+  Recipe recipe = box(20, 20, 20, 5);
+  recipe.material += "\nviscosity_Pa_s = 20";
+  World world(scene_of(recipe));
+  BodyModel& body = world.body(0);
+  ASSERT_TRUE(body.counts().least_corner_J.has_value());
+  EXPECT_EQ(*body.counts().least_corner_J, 1);
+  for (const Index node : body.body().nodes())
+    body.place(node, -0.3 * Vec3::UnitZ() * body.body().rest_position(node).z(), Vec3::Zero());
+  body.advance({.dt = 1e-7, .watch = true}, {});
+  EXPECT_NEAR(*body.counts().least_corner_J, 0.7, 1e-4);
+  const auto says_so = [&world] {
+    const std::vector<std::string> warnings = all_warnings(world);
+    return std::any_of(warnings.begin(), warnings.end(), [](const std::string& text) {
+      return text.find("turned inside out at a corner") != std::string::npos;
+    });
+  };
+  EXPECT_FALSE(says_so());
+
+  // Beyond the plane of its three neighbours; it springs back within the frame that follows.
+  body.place(body.body().nodes().front(), Vec3::Constant(0.003), Vec3::Zero());
+  body.advance({.dt = 1e-7, .watch = true}, {});
+  run(world, 0.02);
+  EXPECT_LT(*body.counts().least_corner_J, 0);
+  EXPECT_TRUE(body.is_finite());
+  EXPECT_TRUE(says_so());
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, SolidBody,

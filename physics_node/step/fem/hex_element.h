@@ -108,6 +108,27 @@ Hourglass<T> hourglass_forces(const HexConstants<Real>& k, const Hourglass<T>& t
   return g;
 }
 
+/// Least J - 1 of the eight corners, each from the three edges that meet there: below -1 a corner is folded, which the centre need
+/// not show.
+/// @param w  displacements of the corners [m]
+template <class P, class Real, class T = typename P::V>
+T least_corner_change(const HexConstants<Real>& k, const Corners<P>& w) noexcept {
+  T least = P::all(1);
+  for (std::size_t a = 0; a < 8; ++a) {
+    Tensor<T> h;
+    for (std::size_t j = 0; j < 3; ++j) {
+      const std::size_t from = a & ~(std::size_t{1} << j), to = a | std::size_t{1} << j;
+      for (std::size_t i = 0; i < 3; ++i) h[i][j] = (w[i][to] - w[i][from]) * P::all(4 * k.per_4h[j]);
+    }
+    // J - 1 = tr H + tr cof H + det H
+    const Tensor<T> cof = cofactor<P>(h);
+    const T det = P::fma(h[0][2], cof[0][2], P::fma(h[0][1], cof[0][1], h[0][0] * cof[0][0]));
+    const T change = trace(h) + (trace(cof) + det);
+    least = change < least ? change : least;
+  }
+  return least;
+}
+
 /// What a cell does to its corners, and what energy it holds.
 template <class P>
 struct HexForces {

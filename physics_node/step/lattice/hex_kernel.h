@@ -20,6 +20,7 @@ struct HexContext {
   Real* seen_f[3];
   double* elastic;   // of each run at u, when watched [J]
   double* ahead;     // how much more it would be at u + beta v, when watched; only damped [J]
+  double* least_J;   // least J of a corner of each run, when watched
   double* stiffest;  // bound of the tangent of the law in each run, largest of its cells [Pa]
   double* passed;    // what dampers took from each row of masses and `ahead`, in all; only damped [J]
   Index up_y, up_z;

@@ -19,6 +19,7 @@ void run_forces(const HexContext<Real>& m, std::size_t r) {
   Index at[8];
   for (Index a = 0; a < 8; ++a) at[a] = (a & 1) * run.right + (a >> 1 & 1) * m.up_y + (a >> 2) * m.up_z;
   V elastic{}, ahead{}, stiffest{};
+  V least = P::all(1);  // of J - 1
   // Whole packs only: cells beyond the run's end have no stiffness.
   for (Index i = run.first; i < run.first + run.count; i += P::width) {
     Corners<P> w;
@@ -46,9 +47,16 @@ void run_forces(const HexContext<Real>& m, std::size_t r) {
     } else if constexpr (watched) {
       elastic = P::fma(stiffness, out.energy, elastic);
     }
+    if constexpr (watched) {  // at u
+      const V change = least_corner_change<P>(m.k, w);
+      least = stiffness > V{} && change < least ? change : least;
+    }
   }
   m.stiffest[r] = static_cast<double>(P::largest(stiffest));
-  if constexpr (watched) m.elastic[r] = static_cast<double>(P::sum(elastic));
+  if constexpr (watched) {
+    m.elastic[r] = static_cast<double>(P::sum(elastic));
+    m.least_J[r] = 1 - static_cast<double>(P::largest(-least));
+  }
   if constexpr (watched && damped) m.ahead[r] = static_cast<double>(P::sum(ahead));
 }
 

@@ -83,6 +83,7 @@ Hexahedra<Real>::Hexahedra(const Body& body)
     : grid_(make_hex_grid(body)),
       elastic_(grid_.runs.size()),
       ahead_(grid_.runs.size()),
+      least_J_(grid_.runs.size(), 1.0),
       stiffest_(grid_.runs.size()),
       passed_(body.lattice.rows.size()),
       kernel_(hex_kernel_here<Real>(
@@ -132,6 +133,7 @@ StepOutcome Hexahedra<Real>::step(const Body& body, LatticeState<Real>& state,
   m.stiffness = stiffness_.data();
   m.elastic = elastic_.data();
   m.ahead = ahead_.data();
+  m.least_J = least_J_.data();
   m.stiffest = stiffest_.data();
   m.passed = passed_.data();
   m.up_y = grid_.up_y;
@@ -156,7 +158,8 @@ StepOutcome Hexahedra<Real>::step(const Body& body, LatticeState<Real>& state,
     for (const HexLayer& layer : grid_.layers) forces(layer), move(layer);
   }
   state.dt_before = step.dt;
-  return {.stiffening = std::ranges::max(stiffest_) / at_rest_};
+  if (step.watch) least_corner_J_ = std::min(least_corner_J_, std::ranges::min(least_J_));
+  return {.stiffening = std::ranges::max(stiffest_) / at_rest_, .least_corner_J = least_corner_J_};
 }
 
 template <class Real>
@@ -195,6 +198,7 @@ Losses Hexahedra<Real>::due(const Body& body, const LatticeState<Real>& state) c
 template <class Real>
 BodyCounts Hexahedra<Real>::counts(const Body& body, const LatticeState<Real>& state) const {
   BodyCounts counts;
+  counts.least_corner_J = least_corner_J_;
   const HexConstants<double> k = constants_of(body);
   for_each_cell(body, grid_, [&](double, const std::array<Index, 8>& corner) {
     ++counts.elements;

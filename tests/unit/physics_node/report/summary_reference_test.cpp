@@ -79,6 +79,16 @@ void add_implicit(Keys& keys) {
   add_keys(keys, world, nullptr);
 }
 
+void add_of_finite_elements(Keys& keys) {
+  Recipe recipe;
+  recipe.lattice = "voxel";
+  recipe.material = "density_kg_per_m3 = 1000\nmodulus_kPa = 10";
+  recipe.body = "model = \"fem\"";
+  World world(scene_of(recipe));
+  world.frame({});
+  add_keys(keys, world, nullptr);
+}
+
 std::vector<palpate::test::Row> rows() {
   return palpate::test::rows_under(palpate::test::reference_page("docs/reference/summary.md"), "Physics");
 }
@@ -88,6 +98,7 @@ TEST(SummaryReference, HasTheKeysThatPhysicsWritesAndNoOthers) {
   add_pressed(written);
   add_broken(written);
   add_given_up(written);
+  add_of_finite_elements(written);
   for (const auto& row : rows()) {
     listed.insert(row.at("key"));
     EXPECT_NE(row.at("meaning"), "") << row.at("key");

@@ -143,6 +143,40 @@ TYPED_TEST(Hex, LetsNothingMoveForFree) {
   EXPECT_GT(values[6], 1e-3 * values[23]);
 }
 
+TEST(LeastCornerChange, IsThatOfTheVolumeWhereStrainIsUniform) {
+  const Vec3 edge(0.0025, 0.002, 0.003);
+  const auto k = hex_constants<double>({.modulus = modulus, .poisson_ratio = poisson_ratio}, edge);
+  std::mt19937_64 dice(5);
+  for (int n = 0; n < 50; ++n) {
+    Eigen::Matrix3d h;
+    for (double& entry : h.reshaped()) entry = std::uniform_real_distribution<double>(-0.9, 0.5)(dice);
+    Corners<One> w;
+    for (std::size_t a = 0; a < 8; ++a) {
+      const Vec3 u =
+          h * edge.cwiseProduct(Eigen::Matrix<std::size_t, 3, 1>(a & 1, a >> 1 & 1, a >> 2).cast<double>());
+      for (std::size_t i = 0; i < 3; ++i) w[i][a] = u[static_cast<Eigen::Index>(i)];
+    }
+    const double change = (Eigen::Matrix3d::Identity() + h).determinant() - 1;
+    EXPECT_NEAR(least_corner_change<One>(k, w), std::min(change, 1.0), 1e-12) << "1 is the most it says";
+  }
+}
+
+/// One corner is pushed along the cell's diagonal, beyond the plane of its three neighbours.
+TEST(LeastCornerChange, SeesAFoldedCornerThatTheCentreDoesNot) {
+  const Vec3 edge(0.0025, 0.002, 0.003);
+  const auto k = hex_constants<double>({.modulus = modulus, .poisson_ratio = poisson_ratio}, edge);
+  for (const double t : {0.2, 0.6, 0.9}) {
+    Corners<One> w{};
+    for (std::size_t i = 0; i < 3; ++i) w[i][7] = -t * edge[static_cast<Eigen::Index>(i)];
+    // The corner itself has three edges along the axes, each a diagonal now: F = I - t (1 1 1)^T (1 1 1), J = 1 - 3 t.
+    EXPECT_NEAR(least_corner_change<One>(k, w), -3 * t, 1e-12);
+    Tensor<double> centre{};
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) centre[i][j] = w[i][7] * k.per_4h[j];
+    EXPECT_GT(1 + StableNeoHookean<One>::volume_change(centre, cofactor<One>(centre)), 0.3);
+  }
+}
+
 TEST(PhysicalHex, BendsAsABeamDoes) {
   // Pure bending of one cell about y: u_x = c x z, u_z = -c x^2 / 2 - nu c z^2 / 2, free along y. A beam of E holds E I c^2 L / 2; in plane
   // stress across y as across z the corners alone, which cannot follow the parabola, are stiffer by 1 / (1 - nu^2).
