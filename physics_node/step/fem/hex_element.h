@@ -137,12 +137,19 @@ struct HexForces {
   typename P::V stiffness;  // bound of the law's tangent at the centre [Pa]
 };
 
+/// A cell whose stress does not fade; hex_relaxation.h has the other.
+struct Lasting {
+  static constexpr bool any = false;
+};
+
 /// @param w  displacements of the corners [m]
 /// @param Law  of the material/ folder, with P
-template <class P, template <class> class Law, bool physical, bool with_energy, class Real,
+/// @param memory  what else pulls; only of physical cells
+template <class P, template <class> class Law, bool physical, bool with_energy, class Real, class Memory,
           class T = typename P::V>
 inline __attribute__((always_inline)) void hex_forces(const HexConstants<Real>& k, const Corners<P>& w,
-                                                      HexForces<P>& out) noexcept {
+                                                      HexForces<P>& out, Memory& memory) noexcept {
+  static_assert(physical || !Memory::any);
   const Law<P> law{P::all(k.mu), P::all(k.lambda)};
   const T every = P::all(k.every);
   std::array<Modes<T>, 3> m;
@@ -155,10 +162,11 @@ inline __attribute__((always_inline)) void hex_forces(const HexConstants<Real>& 
                           {m[0].xz, m[1].xz, m[2].xz},
                           {m[0].yz, m[1].yz, m[2].yz},
                           {m[0].xyz, m[1].xyz, m[2].xyz}};
-  const Tensor<T> stress = law.stress(h);
+  Tensor<T> stress = law.stress(h);
   out.stiffness = law.stiffness(h);
   Hourglass<T> g;
   Tensor<T> f;
+  [[maybe_unused]] T remembered;
   if constexpr (physical) {
     f = plus_identity<P>(h);
     const Hourglass<T> t{transposed_times<P>(f, mode.xy), transposed_times<P>(f, mode.xz),
@@ -169,6 +177,15 @@ inline __attribute__((always_inline)) void hex_forces(const HexConstants<Real>& 
       for (std::size_t j = 0; j < 3; ++j)
         out.energy += t.xy[j] * g.xy[j] + t.xz[j] * g.xz[j] + t.yz[j] * g.yz[j] + t.xyz[j] * g.xyz[j];
     }
+    if constexpr (Memory::any) {
+      const T share = P::all(memory.law_share());
+      for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) stress[i][j] = share * stress[i][j];
+        g.xy[i] = share * g.xy[i], g.xz[i] = share * g.xz[i], g.yz[i] = share * g.yz[i],
+        g.xyz[i] = share * g.xyz[i];
+      }
+      remembered = memory.add(k, h, f, t, stress, g);
+    }
   } else if constexpr (with_energy) {
     out.energy = T{};
   }
@@ -177,6 +194,15 @@ inline __attribute__((always_inline)) void hex_forces(const HexConstants<Real>& 
       out.energy += every * (mode.xy[i] * mode.xy[i] + mode.xz[i] * mode.xz[i] + mode.yz[i] * mode.yz[i] +
                              mode.xyz[i] * mode.xyz[i]);
     out.energy = P::fma(P::all(k.volume), law.psi(h), P::all(Real(0.5)) * out.energy);
+    if constexpr (Memory::any) {
+      // The stiffness of all modes alike does not fade.
+      T lasting = T{};
+      for (std::size_t i = 0; i < 3; ++i)
+        lasting += mode.xy[i] * mode.xy[i] + mode.xz[i] * mode.xz[i] + mode.yz[i] * mode.yz[i] +
+                   mode.xyz[i] * mode.xyz[i];
+      lasting = P::all(Real(0.5)) * every * lasting;
+      out.energy = P::fma(P::all(memory.law_share()), out.energy - lasting, lasting + remembered);
+    }
   }
   for (std::size_t i = 0; i < 3; ++i) {
     Modes<T> force;
@@ -200,6 +226,14 @@ inline __attribute__((always_inline)) void hex_forces(const HexConstants<Real>& 
     force.yz = back(g.yz, mode.yz[i]), force.xyz = back(g.xyz, mode.xyz[i]);
     out.f[i] = corners_of(force);
   }
+}
+
+template <class P, template <class> class Law, bool physical, bool with_energy, class Real,
+          class T = typename P::V>
+inline __attribute__((always_inline)) void hex_forces(const HexConstants<Real>& k, const Corners<P>& w,
+                                                      HexForces<P>& out) noexcept {
+  Lasting lasting;
+  hex_forces<P, Law, physical, with_energy>(k, w, out, lasting);
 }
 
 }  // namespace palpate::physics
