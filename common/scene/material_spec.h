@@ -3,24 +3,36 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/scene/kinds.h"
 #include "common/scene/place.h"
 
 namespace palpate {
 
+/// A share of the modulus that fades with a time: a term of a Prony series.
+struct RelaxationSpec {
+  double share = 0;  // in (0, 1)
+  double time = 0;   // [s]
+};
+inline constexpr std::size_t most_relaxation_terms = 4;  // Why: a fit over five decades of time takes as many
+inline constexpr double shortest_relaxation = 1e-3;      // Why: what fades within a frame is a viscosity [s]
+inline constexpr double longest_relaxation = 1e6;        // [s]
+inline constexpr double most_relaxing_share = 0.95;      // Why: the law alone resists being turned inside out
+
 /// Either per mass and spring (the papers' way) or per volume (a tissue). Exactly one of each group is given.
 struct MaterialSpec {
   std::string name;
-  std::optional<double> mass;            // of one mass [kg]          | one of these
-  std::optional<double> density;         // [kg/m^3]                  |
-  std::optional<double> k1;              // of one element [N/m]      | one of these
-  std::optional<double> modulus;         // Young's modulus [Pa]      |
-  std::optional<double> lambda;          // force per stretch, k1 L of every element [N] |
-  double poisson_ratio = 0.45;           // of finite elements; springs have one of their own
-  double k2_ratio = 1.0;                 // k2 / k1 in [0, 1]
-  std::optional<double> viscosity;       // of one element [N s/m]    | at most one; none: no damper
-  std::optional<double> viscosity_bulk;  // [Pa s]                    |
+  std::optional<double> mass;              // of one mass [kg]          | one of these
+  std::optional<double> density;           // [kg/m^3]                  |
+  std::optional<double> k1;                // of one element [N/m]      | one of these
+  std::optional<double> modulus;           // Young's modulus [Pa]      |
+  std::optional<double> lambda;            // force per stretch, k1 L of every element [N] |
+  double poisson_ratio = 0.45;             // of finite elements; springs have one of their own
+  std::vector<RelaxationSpec> relaxation;  // of finite elements; shares below 1 in all
+  double k2_ratio = 1.0;                   // k2 / k1 in [0, 1]
+  std::optional<double> viscosity;         // of one element [N s/m]    | at most one; none: no damper
+  std::optional<double> viscosity_bulk;    // [Pa s]                    |
   Damper damper = Damper::axial;
   double drag = 0;                    // of every mass against the world, -b v [N s/m]
   std::optional<double> yield_ratio;  // y_p > 1 |  both or neither: purely elastic

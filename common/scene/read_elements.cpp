@@ -35,6 +35,28 @@ void refuse_materials(TableReader& reader, const ReadContext& context, const Bod
   }
 }
 
+/// The hourglass modes of the isotropic kind do not fade, and thin parts would stay stiff.
+void refuse_relaxation(TableReader& reader, const ReadContext& context, const BodySpec& spec) {
+  if (spec.hourglass != HourglassKind::isotropic) return;
+  for (const MaterialSpec& material : context.scene.materials)
+    if (material.name == spec.material && !material.relaxation.empty())
+      reader.complain("hourglass",
+                      fmt::format("hourglass = \"isotropic\" in {}, but [material.{}] relaxes; write "
+                                  "\"physical\"",
+                                  reader.title(), material.name));
+}
+
+void refuse_springs(TableReader& reader, const ReadContext& context, const BodySpec& spec) {
+  std::vector<std::string> used{spec.material};
+  for (const RegionSpec& region : spec.regions) used.push_back(region.material);
+  for (const MaterialSpec& material : context.scene.materials)
+    if (!material.relaxation.empty() && std::find(used.begin(), used.end(), material.name) != used.end())
+      reader.complain("material",
+                      fmt::format("{} is of springs, but [material.{}] has a relaxation, which only finite "
+                                  "elements follow; write model = \"fem\", or leave it out",
+                                  reader.title(), material.name));
+}
+
 }  // namespace
 
 void read_elements(TableReader& reader, ReadContext& context, BodySpec& spec) {
@@ -46,7 +68,7 @@ void read_elements(TableReader& reader, ReadContext& context, BodySpec& spec) {
   if (!fem && reader.has("hourglass"))
     reader.complain("hourglass",
                     "\"hourglass\" is of finite elements; write model = \"fem\", or leave it out");
-  if (!fem) return;
+  if (!fem) return refuse_springs(reader, context, spec);
   if (spec.lattice != LatticeKind::voxel)
     reader.complain(
         "model", fmt::format("model = \"fem\" in {} needs cells; write lattice = \"voxel\"", reader.title()));
@@ -56,6 +78,7 @@ void read_elements(TableReader& reader, ReadContext& context, BodySpec& spec) {
                                 "in [physics] out",
                                 reader.title()));
   refuse_materials(reader, context, spec);
+  refuse_relaxation(reader, context, spec);
 }
 
 }  // namespace palpate

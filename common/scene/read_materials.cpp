@@ -46,6 +46,36 @@ void read_damping(TableReader& reader, MaterialSpec& spec) {
   set_if(spec.drag, reader.read_number("drag_N_s_per_m", not_negative));
 }
 
+/// relaxation = [[share, time in s], ...]
+void read_relaxation(TableReader& reader, MaterialSpec& spec) {
+  constexpr std::string_view form = "a list of [share, time_s], such as [[0.3, 0.05], [0.2, 1]]";
+  const toml::array* list = reader.read_array("relaxation", form);
+  if (list == nullptr) return;
+  if (list->size() > most_relaxation_terms)
+    return reader.complain("relaxation", fmt::format("{} terms of \"relaxation\" in {}; at most {}",
+                                                     list->size(), reader.title(), most_relaxation_terms));
+  double shares = 0;
+  for (const toml::node& entry : *list) {
+    const auto pair = numbers_of(entry, 2);
+    if (!pair) return reader.complain_value("relaxation", entry, form);
+    const RelaxationSpec term{.share = (*pair)[0], .time = (*pair)[1]};
+    if (!(term.share > 0 && term.share < 1))
+      return reader.complain_value("relaxation", *entry.as_array()->get(0),
+                                   "a share of the modulus, above 0 and below 1");
+    if (!(term.time >= shortest_relaxation && term.time <= longest_relaxation))
+      return reader.complain_value(
+          "relaxation", *entry.as_array()->get(1),
+          fmt::format("a time from {} to {:.0e} s", shortest_relaxation, longest_relaxation));
+    shares += term.share;
+    spec.relaxation.push_back(term);
+  }
+  if (shares > most_relaxing_share)
+    reader.complain(
+        "relaxation",
+        fmt::format("shares of \"relaxation\" in {} sum up to {}; at most {} of the modulus may fade",
+                    reader.title(), shares, most_relaxing_share));
+}
+
 void read_plasticity(TableReader& reader, MaterialSpec& spec) {
   const Range above_one{.lo = 1, .without_lo = true};
   spec.yield_ratio = reader.read_number("yield_ratio", above_one);
@@ -71,6 +101,7 @@ MaterialSpec read_material(TableReader& reader) {
   check_group(reader, {"mass_g", "density_kg_per_m3"}, true);
   read_stiffness(reader, spec);
   read_damping(reader, spec);
+  read_relaxation(reader, spec);
   read_plasticity(reader, spec);
   reader.refuse_left_over();
   return spec;

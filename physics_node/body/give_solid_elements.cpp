@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/error/error.h"
@@ -25,6 +26,14 @@ void refuse_mixture(const BodySpec& spec, const RegionSpec& region, const Materi
         "{}: material \"{}\" has poisson_ratio = {}, and \"{}\" of body \"{}\" has {}; finite elements of "
         "one body share it",
         region.place.text(), other.name, other.poisson_ratio, own.name, spec.name, own.poisson_ratio));
+  const auto same_term = [](const RelaxationSpec& a, const RelaxationSpec& b) {
+    return !differ(a.share, b.share) && !differ(a.time, b.time);
+  };
+  if (!std::ranges::equal(own.relaxation, other.relaxation, same_term))
+    throw InputError(
+        fmt::format("{}: material \"{}\" relaxes otherwise than \"{}\" of body \"{}\"; finite elements of "
+                    "one body share it",
+                    region.place.text(), other.name, own.name, spec.name));
   if (differ(beta_of(own), beta_of(other)))
     throw InputError(fmt::format(
         "{}: viscosity over modulus is {:.4g} s in material \"{}\" and {:.4g} s in \"{}\" of body "
@@ -43,6 +52,7 @@ void give_solid_elements(Body& body, const BodySpec& spec, const std::vector<Mat
   solid.beta = beta_of(own);
   solid.density = *own.density;
   solid.hourglass = spec.hourglass;
+  for (const RelaxationSpec& term : own.relaxation) solid.relaxation.push_back({term.share, term.time});
   for (const RegionSpec& region : spec.regions) {
     of_region.push_back(&named(materials, region.material));
     refuse_mixture(spec, region, own, *of_region.back());

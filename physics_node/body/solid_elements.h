@@ -7,12 +7,19 @@
 
 namespace palpate::physics {
 
+/// A share of the modulus fades with this time.
+struct Relaxation {
+  double share = 0;
+  double time = 0;  // [s]
+};
+
 /// Stiffness of a cell and the mass of a node are per cell, as the cells around a node may be of several materials.
 struct SolidElements {
-  double modulus = 0;        // Young's, of the body's own material [Pa]
-  double poisson_ratio = 0;  // of all materials in it
-  double beta = 0;           // viscosity / modulus, of all materials in it [s]
-  double density = 0;        // the least of its materials [kg/m^3]
+  double modulus = 0;                  // Young's, of the body's own material [Pa]
+  double poisson_ratio = 0;            // of all materials in it
+  double beta = 0;                     // viscosity / modulus, of all materials in it [s]
+  double density = 0;                  // the least of its materials [kg/m^3]
+  std::vector<Relaxation> relaxation;  // of all materials in it; at most most_relaxation_terms
   HourglassKind hourglass = HourglassKind::physical;
   std::vector<float>
       stiffness;  // modulus of a cell over `modulus`, by the storage cell of its lowest corner; 0: none (n_cells)

@@ -164,6 +164,7 @@ inline __attribute__((always_inline)) void hex_forces(const HexConstants<Real>& 
                           {m[0].xyz, m[1].xyz, m[2].xyz}};
   Tensor<T> stress = law.stress(h);
   out.stiffness = law.stiffness(h);
+  if constexpr (Memory::any) out.stiffness = memory.stiffness(out.stiffness, k, h);
   Hourglass<T> g;
   Tensor<T> f;
   [[maybe_unused]] T remembered;

@@ -15,11 +15,13 @@
 
 #include <span>
 
+#include "common/scene/material_spec.h"
 #include "physics_node/material/st_venant_kirchhoff.h"
 #include "physics_node/step/fem/hex_element.h"
 
 namespace palpate::physics {
 
+inline constexpr std::size_t most_relaxations = most_relaxation_terms;
 inline constexpr std::size_t n_remembered = 18;  // six of a strain, twelve of the hourglass modes
 
 /// E_v as xx, yy, zz, xy, xz, yz; then t_v of xy, xz, yz, xyz, each x, y, z.
@@ -114,6 +116,12 @@ struct Relaxing {
     Real share = 1;
     for (const auto& term : terms) share -= term.share;
     return share;
+  }
+  /// Bound of the tangent of law and terms, from that of the law: see its stiffness() [Pa].
+  T stiffness(T of_law, const HexConstants<Real>& k, const Tensor<T>& h) const noexcept {
+    const Real share = law_share();
+    const StVenantKirchhoff<P> of_terms{P::all(k.mu), P::all(k.lambda)};
+    return P::fma(P::all(share), of_law, P::all(1 - share) * of_terms.stiffness(h));
   }
   /// Adds what the terms pull to stress and hourglass forces. @return their energy
   T add(const HexConstants<Real>& k, const Tensor<T>& h, const Tensor<T>& f, const Hourglass<T>& t,

@@ -2,6 +2,7 @@
 // All that the kernel of hexahedra needs for one step, and where it is.
 
 #include "physics_node/step/fem/hex_constants.h"
+#include "physics_node/step/fem/hex_relaxation.h"
 #include "physics_node/step/lattice/element_context.h"
 #include "physics_node/step/lattice/hex_grid.h"
 
@@ -22,7 +23,14 @@ struct HexContext {
   double* ahead;     // how much more it would be at u + beta v, when watched; only damped [J]
   double* least_J;   // least J of a corner of each run, when watched
   double* stiffest;  // bound of the tangent of the law in each run, largest of its cells [Pa]
-  double* passed;    // what dampers took from each row of masses and `ahead`, in all; only damped [J]
+  double*
+      passed;  // what dampers and terms took from each row of masses, and `ahead`, in all; only damped or relaxing [J]
+  Real* remembered[most_relaxations]
+                  [n_remembered];  // by term; only where it relaxes                (n_cells)
+  RelaxationTerm<Real> terms[most_relaxations];
+  std::size_t n_terms;
+  double* lost_before;  // of each run, by its terms since the last step and until the next: see TermNow [J]
+  double* lost_after;
   Index up_y, up_z;
   Real beta;   // of the damper: forces act as if the body were at u + beta v [s]
   bool books;  // there was a step one step ago
@@ -32,6 +40,7 @@ struct HexContext {
 struct HexKind {
   bool physical = true;
   bool damped = false;
+  bool relaxing = false;  // only physical
 };
 
 template <class Real>

@@ -10,15 +10,46 @@
 namespace palpate::physics::PALPATE_KERNEL {
 namespace {
 
+/// What the cells from i on remember, term by term.
+template <class Real, class V = typename Pack<Real>::V>
+struct RememberedHere {
+  std::array<Remembered<V>, most_relaxations> terms;
+
+  void load(const HexContext<Real>& m, Index i) {
+    for (std::size_t t = 0; t < m.n_terms; ++t)
+      for (std::size_t n = 0; n < n_remembered; ++n) terms[t][n] = Pack<Real>::load(m.remembered[t][n] + i);
+  }
+  /// Only of cells that are there: other lanes may be of another run.
+  void store(const HexContext<Real>& m, Index i, V stiffness) const {
+    for (std::size_t t = 0; t < m.n_terms; ++t)
+      for (std::size_t n = 0; n < n_remembered; ++n) {
+        Real* at = m.remembered[t][n] + i;
+        Pack<Real>::store(at, stiffness > V{} ? terms[t][n] : Pack<Real>::load(at));
+      }
+  }
+};
+
+/// Forces and energy of some cells; with a memory that moves on.
+template <class Real, bool physical, bool relaxing, bool with_energy, class P = Pack<Real>>
+Relaxing<P, Real> cell_forces(const HexContext<Real>& m, const Corners<P>& w, RememberedHere<Real>& here,
+                              HexForces<P>& out) {
+  Relaxing<P, Real> memory{{m.terms, m.n_terms}, here.terms};
+  if constexpr (relaxing)
+    hex_forces<P, StableNeoHookean, physical, with_energy>(m.k, w, out, memory);
+  else
+    hex_forces<P, StableNeoHookean, physical, with_energy>(m.k, w, out);
+  return memory;
+}
+
 /// Forces of the cells of a run, at w = u + beta v.
-template <class Real, bool physical, bool damped, bool watched>
+template <class Real, bool physical, bool damped, bool relaxing, bool watched>
 void run_forces(const HexContext<Real>& m, std::size_t r) {
   using P = Pack<Real>;
   using V = typename P::V;
   const HexRun run = m.runs[r];
   Index at[8];
   for (Index a = 0; a < 8; ++a) at[a] = (a & 1) * run.right + (a >> 1 & 1) * m.up_y + (a >> 2) * m.up_z;
-  V elastic{}, ahead{}, stiffest{};
+  V elastic{}, ahead{}, stiffest{}, lost_before{}, lost_after{};
   V least = P::all(1);  // of J - 1
   // Whole packs only: cells beyond the run's end have no stiffness.
   for (Index i = run.first; i < run.first + run.count; i += P::width) {
@@ -28,9 +59,17 @@ void run_forces(const HexContext<Real>& m, std::size_t r) {
         w[c][a] = P::load(m.masses.u[c] + i + at[a]);
         if constexpr (damped) w[c][a] = P::fma_all(P::load(m.masses.v[c] + i + at[a]), m.beta, w[c][a]);
       }
-    HexForces<P> out;
-    hex_forces<P, StableNeoHookean, physical, watched>(m.k, w, out);
     const V stiffness = P::load(m.stiffness + i);
+    [[maybe_unused]] RememberedHere<Real> here{}, before{};
+    if constexpr (relaxing) here.load(m, i);
+    if constexpr (relaxing && damped && watched) before = here;
+    HexForces<P> out;
+    [[maybe_unused]] const auto memory = cell_forces<Real, physical, relaxing, watched>(m, w, here, out);
+    if constexpr (relaxing) {
+      here.store(m, i, stiffness);
+      lost_before = P::fma(stiffness, memory.lost_before, lost_before);
+      lost_after = P::fma(stiffness, memory.lost_after, lost_after);
+    }
     stiffest = P::larger(stiffest, out.stiffness);
     for (std::size_t c = 0; c < 3; ++c)
       for (std::size_t a = 0; a < 8; ++a) {
@@ -41,7 +80,7 @@ void run_forces(const HexContext<Real>& m, std::size_t r) {
       HexForces<P> at_u;
       for (std::size_t c = 0; c < 3; ++c)
         for (std::size_t a = 0; a < 8; ++a) w[c][a] = P::load(m.masses.u[c] + i + at[a]);
-      hex_forces<P, StableNeoHookean, physical, true>(m.k, w, at_u);
+      cell_forces<Real, physical, relaxing, true>(m, w, before, at_u);
       ahead = P::fma(stiffness, out.energy - at_u.energy, ahead);
       elastic = P::fma(stiffness, at_u.energy, elastic);
     } else if constexpr (watched) {
@@ -57,14 +96,18 @@ void run_forces(const HexContext<Real>& m, std::size_t r) {
     m.elastic[r] = static_cast<double>(P::sum(elastic));
     m.least_J[r] = 1 - static_cast<double>(P::largest(-least));
   }
+  if constexpr (relaxing) {
+    m.lost_before[r] = static_cast<double>(P::sum(lost_before));
+    m.lost_after[r] = static_cast<double>(P::sum(lost_after));
+  }
   if constexpr (watched && damped) m.ahead[r] = static_cast<double>(P::sum(ahead));
 }
 
-template <class Real, bool physical, bool damped>
+template <class Real, bool physical, bool damped, bool relaxing>
 void forces(const HexContext<Real>& m, Index first_run, Index last_run) {
   for (auto r = static_cast<std::size_t>(first_run); r < static_cast<std::size_t>(last_run); ++r)
-    m.masses.watch || !m.books ? run_forces<Real, physical, damped, true>(m, r)
-                               : run_forces<Real, physical, damped, false>(m, r);
+    m.masses.watch || !m.books ? run_forces<Real, physical, damped, relaxing, true>(m, r)
+                               : run_forces<Real, physical, damped, relaxing, false>(m, r);
 }
 
 /// Moves the masses of some rows with what all cells around them gave, and clears it.
@@ -73,7 +116,7 @@ void forces(const HexContext<Real>& m, Index first_run, Index last_run) {
 ///   - beta/2 (f + f') . (v' - v),   exactly for linear elasticity,
 /// so that with `passed` the sum of it, passed + W(w) - W(u) is what was lost of K + W(u): for linear elasticity the damper's own
 /// work, beta v . K v dt, which never is negative.
-template <class Real, bool damped>
+template <class Real, bool damped, bool relaxing>
 void move(const HexContext<Real>& m, Index first_row, Index last_row) {
   using P = Pack<Real>;
   using V = typename P::V;
@@ -100,17 +143,19 @@ void move(const HexContext<Real>& m, Index first_row, Index last_row) {
       }
       move_masses<Real, false, false>(m.masses, p, watched);
     }
-    double elastic = 0, ahead = 0;
+    double elastic = 0, ahead = 0, lost_before = 0, lost_after = 0;
     for (Index n = m.runs_of_row[r]; n < m.runs_of_row[r + 1]; ++n) {
       elastic += m.elastic[n];
       if constexpr (damped) ahead += m.ahead[n];
+      if constexpr (relaxing) lost_before += m.lost_before[n], lost_after += m.lost_after[n];
     }
-    if constexpr (damped) {
+    if constexpr (damped || relaxing) {
       if (m.books)
-        m.passed[r] += 0.5 * static_cast<double>(m.beta) * static_cast<double>(P::sum(lost));
+        m.passed[r] += 0.5 * static_cast<double>(m.beta) * static_cast<double>(P::sum(lost)) + lost_before;
       else
         m.passed[r] = ledger.viscous - ahead;
       if (m.masses.watch) ledger.viscous = m.passed[r] + ahead;
+      m.passed[r] += lost_after;
     }
     if (m.masses.begins) ledger.numerical += static_cast<double>(P::sum(watched.begun));
     if (!m.masses.watch) continue;
@@ -123,9 +168,14 @@ void move(const HexContext<Real>& m, Index first_row, Index last_row) {
 
 template <class Real>
 HexKernel<Real> hex_kernel(HexKind kind) {
+  if (kind.relaxing)
+    return kind.damped ? HexKernel<Real>{&forces<Real, true, true, true>, &move<Real, true, true>}
+                       : HexKernel<Real>{&forces<Real, true, false, true>, &move<Real, false, true>};
   if (kind.damped)
-    return {kind.physical ? &forces<Real, true, true> : &forces<Real, false, true>, &move<Real, true>};
-  return {kind.physical ? &forces<Real, true, false> : &forces<Real, false, false>, &move<Real, false>};
+    return {kind.physical ? &forces<Real, true, true, false> : &forces<Real, false, true, false>,
+            &move<Real, true, false>};
+  return {kind.physical ? &forces<Real, true, false, false> : &forces<Real, false, false, false>,
+          &move<Real, false, false>};
 }
 
 template HexKernel<float> hex_kernel<float>(HexKind);

@@ -20,14 +20,67 @@ HexConstants<double> constants_of(const Body& body) {
       body.lattice.step);
 }
 
-HexForces<One> forces_of(const HexConstants<double>& k, HourglassKind hourglass, const Corners<One>& w) {
-  HexForces<One> out;
-  if (hourglass == HourglassKind::physical)
-    hex_forces<One, StableNeoHookean, true, true>(k, w, out);
-  else
-    hex_forces<One, StableNeoHookean, false, true>(k, w, out);
-  return out;
+/// Terms as a step of dt finds them that comes dt_before after the last.
+template <class Real>
+std::array<RelaxationTerm<Real>, most_relaxations> terms_of(const Body& body, double dt_before, double dt) {
+  std::array<RelaxationTerm<Real>, most_relaxations> terms{};
+  for (std::size_t t = 0; t < body.solid->relaxation.size(); ++t) {
+    const Relaxation& of = body.solid->relaxation[t];
+    terms[t] = {.share = static_cast<Real>(of.share),
+                .kept_before = static_cast<Real>(std::exp(-0.5 * dt_before / of.time)),
+                .kept_after = static_cast<Real>(std::exp(-0.5 * dt / of.time))};
+  }
+  return terms;
 }
+
+/// A cell at one instant, measured for the books.
+struct CellNow {
+  HexForces<One> forces;
+  double lost_before = 0;  // by its terms since the last step [J]
+};
+
+/// Measures cells of one state one by one, in double.
+template <class Real>
+class CellMeter {
+ public:
+  CellMeter(const Body& body, const LatticeState<Real>& state)
+      : body_(body),
+        state_(state),
+        k_(constants_of(body)),
+        terms_(terms_of<double>(body, state.dt_before, 0)) {}
+
+  /// @param beta  at u + beta v
+  CellNow at(const std::array<Index, 8>& corner, double beta) const {
+    Corners<One> w;
+    for (std::size_t a = 0; a < 8; ++a) {
+      const Vec3 x = vector_of(state_.u, corner[a]) + beta * vector_of(state_.v, corner[a]);
+      for (std::size_t c = 0; c < 3; ++c) w[c][a] = x[static_cast<Eigen::Index>(c)];
+    }
+    CellNow now;
+    const std::size_t n_terms = body_.solid->relaxation.size();
+    if (n_terms > 0) {
+      std::array<Remembered<double>, most_relaxations> remembered;
+      for (std::size_t t = 0; t < n_terms; ++t)
+        for (std::size_t n = 0; n < n_remembered; ++n)
+          remembered[t][n] = static_cast<double>(
+              state_.remembered[n_remembered * t + n][static_cast<std::size_t>(corner[0])]);
+      Relaxing<One, double> memory{{terms_.data(), n_terms}, remembered};
+      hex_forces<One, StableNeoHookean, true, true>(k_, w, now.forces, memory);
+      now.lost_before = memory.lost_before;
+    } else if (body_.solid->hourglass == HourglassKind::physical) {
+      hex_forces<One, StableNeoHookean, true, true>(k_, w, now.forces);
+    } else {
+      hex_forces<One, StableNeoHookean, false, true>(k_, w, now.forces);
+    }
+    return now;
+  }
+
+ private:
+  const Body& body_;
+  const LatticeState<Real>& state_;
+  HexConstants<double> k_;
+  std::array<RelaxationTerm<double>, most_relaxations> terms_;
+};
 
 /// Calls visit(stiffness, corners) for each cell, corners as storage cells.
 template <class Visit>
@@ -44,36 +97,36 @@ void for_each_cell(const Body& body, const HexGrid& grid, const Visit& visit) {
     }
 }
 
-/// Energy of all cells at u and how much more it is at w = u + beta v, and their forces on the nodes at w.
+/// Energy of all cells at u and how much more it is at w = u + beta v, their forces on the nodes at w, and what their terms have
+/// lost since the last step.
 struct Measured {
-  double elastic = 0, ahead = 0;
+  double elastic = 0, ahead = 0, lost_before = 0;
   std::vector<Vec3> force;  // (n_cells)
 };
-template <class Real>
-Corners<One> corners_at(const LatticeState<Real>& state, const std::array<Index, 8>& corner, double beta) {
-  Corners<One> w;
-  for (std::size_t a = 0; a < 8; ++a) {
-    const Vec3 at = vector_of(state.u, corner[a]) + beta * vector_of(state.v, corner[a]);
-    for (std::size_t c = 0; c < 3; ++c) w[c][a] = at[static_cast<Eigen::Index>(c)];
-  }
-  return w;
-}
 template <class Real>
 Measured measure(const Body& body, const HexGrid& grid, const LatticeState<Real>& state) {
   Measured sum;
   sum.force.assign(static_cast<std::size_t>(body.capacity()), Vec3::Zero());
-  const HexConstants<double> k = constants_of(body);
+  const CellMeter<Real> meter(body, state);
   for_each_cell(body, grid, [&](double stiffness, const std::array<Index, 8>& corner) {
-    const HexForces<One> out =
-        forces_of(k, body.solid->hourglass, corners_at(state, corner, body.solid->beta));
-    const double at_u = forces_of(k, body.solid->hourglass, corners_at(state, corner, 0)).energy;
+    const CellNow now = meter.at(corner, body.solid->beta);
+    const HexForces<One>& out = now.forces;
+    const double at_u = meter.at(corner, 0).forces.energy;
     sum.elastic += stiffness * at_u;
     sum.ahead += stiffness * (out.energy - at_u);
+    sum.lost_before += stiffness * now.lost_before;
     for (std::size_t a = 0; a < 8; ++a)
       sum.force[static_cast<std::size_t>(corner[a])] +=
           stiffness * Vec3(out.f[0][a], out.f[1][a], out.f[2][a]);
   });
   return sum;
+}
+
+/// Of the tangent of law and terms at rest [Pa].
+double bound_at_rest(const Body& body, const HexConstants<double>& k) {
+  auto terms = terms_of<double>(body, 0, 0);
+  const Relaxing<One, double> memory{{terms.data(), body.solid->relaxation.size()}, {}};
+  return memory.stiffness(StableNeoHookean<One>{k.mu, k.lambda}.stiffness({}), k, {});
 }
 
 }  // namespace
@@ -86,21 +139,23 @@ Hexahedra<Real>::Hexahedra(const Body& body)
       least_J_(grid_.runs.size(), 1.0),
       stiffest_(grid_.runs.size()),
       passed_(body.lattice.rows.size()),
-      kernel_(hex_kernel_here<Real>(
-          {.physical = body.solid->hourglass == HourglassKind::physical, .damped = body.solid->beta > 0})) {
+      kernel_(hex_kernel_here<Real>({.physical = body.solid->hourglass == HourglassKind::physical,
+                                     .damped = body.solid->beta > 0,
+                                     .relaxing = !body.solid->relaxation.empty()})) {
   const SolidElements& solid = *body.solid;
   const auto n = static_cast<std::size_t>(body.capacity());
   constants_ = hex_constants<Real>(
       {.modulus = solid.modulus, .poisson_ratio = solid.poisson_ratio, .hourglass = solid.hourglass},
       body.lattice.step);
-  at_rest_ = StableNeoHookean<One>{static_cast<double>(constants_.mu), static_cast<double>(constants_.lambda)}
-                 .stiffness({});
+  at_rest_ = bound_at_rest(body, constants_of(body));
   std::size_t colour = 8;  // after those of LatticeState
   stiffness_ = ZeroedArray<Real>(n, colour++);
   for (const Index cell : body.lattice.masses)
     stiffness_[static_cast<std::size_t>(cell)] =
         static_cast<Real>(solid.stiffness[static_cast<std::size_t>(cell)]);
   for (auto& axis : high_) axis = ZeroedArray<Real>(n, colour++);
+  if (!solid.relaxation.empty())
+    for (auto* lost : {&lost_before_, &lost_after_}) lost->resize(grid_.runs.size());
   if (solid.beta == 0) return;
   for (auto* three : {&seen_v_, &seen_f_})
     for (auto& axis : *three) axis = ZeroedArray<Real>(n, colour++);
@@ -136,6 +191,12 @@ StepOutcome Hexahedra<Real>::step(const Body& body, LatticeState<Real>& state,
   m.least_J = least_J_.data();
   m.stiffest = stiffest_.data();
   m.passed = passed_.data();
+  m.n_terms = body.solid->relaxation.size();
+  std::ranges::copy(terms_of<Real>(body, state.dt_before, step.dt), m.terms);
+  for (std::size_t n = 0; n < state.remembered.size(); ++n)
+    m.remembered[n / n_remembered][n % n_remembered] = state.remembered[n].data();
+  m.lost_before = lost_before_.data();
+  m.lost_after = lost_after_.data();
   m.up_y = grid_.up_y;
   m.up_z = grid_.up_z;
   m.beta = static_cast<Real>(body.solid->beta);
@@ -184,14 +245,16 @@ Energies Hexahedra<Real>::energies(const Body& body, const LatticeState<Real>& s
 template <class Real>
 Losses Hexahedra<Real>::due(const Body& body, const LatticeState<Real>& state) const {
   Losses due;
-  if (body.solid->beta == 0 || state.dt_before == 0) return due;
+  if ((body.solid->beta == 0 && body.solid->relaxation.empty()) || state.dt_before == 0) return due;
   const Measured now = measure(body, grid_, state);
+  due.viscous = now.lost_before + std::accumulate(lost_after_.begin(), lost_after_.end(), 0.0);
+  if (body.solid->beta == 0) return due;
   double work = 0;
   for (const Index i : body.nodes())
     work += 0.5 * body.solid->beta *
             (now.force[static_cast<std::size_t>(i)] + vector_of(seen_f_, i))
                 .dot(vector_of(state.v, i) - vector_of(seen_v_, i));
-  due.viscous = work + now.ahead - std::accumulate(ahead_.begin(), ahead_.end(), 0.0);
+  due.viscous += work + now.ahead - std::accumulate(ahead_.begin(), ahead_.end(), 0.0);
   return due;
 }
 

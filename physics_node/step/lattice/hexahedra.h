@@ -25,14 +25,15 @@ class Hexahedra final : public LatticeElements<Real> {
  private:
   HexGrid grid_;
   HexConstants<Real> constants_;
-  ZeroedArray<Real> stiffness_;          // (n_cells)
-  Three<Real> high_;                     // (n_cells)
-  Three<Real> seen_v_, seen_f_;          // only where it is damped  (n_cells)
-  std::vector<double> elastic_, ahead_;  // by run: see HexContext [J]
-  std::vector<double> least_J_;          // by run: the same
-  double least_corner_J_ = 1;            // of all watched steps
-  std::vector<double> stiffest_;         // by run: the same [Pa]
-  std::vector<double> passed_;           // by row [J]
+  ZeroedArray<Real> stiffness_;                   // (n_cells)
+  Three<Real> high_;                              // (n_cells)
+  Three<Real> seen_v_, seen_f_;                   // only where it is damped  (n_cells)
+  std::vector<double> elastic_, ahead_;           // by run: see HexContext [J]
+  std::vector<double> least_J_;                   // by run: the same
+  double least_corner_J_ = 1;                     // of all watched steps
+  std::vector<double> stiffest_;                  // by run: the same [Pa]
+  std::vector<double> lost_before_, lost_after_;  // by run: see HexContext; only where it relaxes [J]
+  std::vector<double> passed_;                    // by row [J]
   HexKernel<Real> kernel_;
   double at_rest_ = 0;  // bound of the tangent of the law [Pa]
 };

@@ -225,6 +225,8 @@ class LatticeBody final : public BodyModel {
         seed = hash_state(&state_.v[a][first], count * sizeof(Real), seed);
       }
       seed = hash_state(&state_.mask[first], count * sizeof(Mask), seed);
+      for (const auto& array : state_.remembered)
+        seed = hash_state(&array[first], count * sizeof(Real), seed);
       if (!any_yields(body_)) continue;
       for (std::size_t d = 0; d < static_cast<std::size_t>(body_.lattice.n_half); ++d) {
         seed = hash_state(&state_.l_c[d][first], count * sizeof(Real), seed);

@@ -18,6 +18,8 @@ template <class Real>
 SavedState<Real>::SavedState(const Body& body, const LatticeState<Real>& state) : ledger_(state.ledger) {
   const auto n = static_cast<std::size_t>(body.lattice.n_cells());
   for (auto& axis : u_) axis = ZeroedArray<Real>(n);
+  remembered_.resize(state.remembered.size());
+  for (auto& array : remembered_) array = ZeroedArray<Real>(n);
   if (!any_yields(body)) return;
   mask_ = ZeroedArray<Mask>(n);
   for (std::size_t h = 0; h < static_cast<std::size_t>(body.lattice.n_half); ++h) {
@@ -29,6 +31,7 @@ SavedState<Real>::SavedState(const Body& body, const LatticeState<Real>& state) 
 template <class Real>
 void SavedState<Real>::take(const Body& body, const LatticeState<Real>& state) noexcept {
   for (std::size_t a = 0; a < 3; ++a) copy_rows(body, state.u[a], u_[a]);
+  for (std::size_t m = 0; m < remembered_.size(); ++m) copy_rows(body, state.remembered[m], remembered_[m]);
   ledger_ = state.ledger;
   if (!any_yields(body)) return;
   std::int64_t yields = 0;
@@ -51,6 +54,7 @@ void SavedState<Real>::bring_back(const Body& body, LatticeState<Real>& state) c
       for (const RowSegment& row : body.lattice.rows)
         if ((*three)[a].size() > 0) std::fill_n((*three)[a].data() + row.first, row.count, Real(0));
   }
+  for (std::size_t m = 0; m < remembered_.size(); ++m) copy_rows(body, remembered_[m], state.remembered[m]);
   state.forget_last_step();
   state.ledger = ledger_;
   for (RowLedger& row : state.ledger) {

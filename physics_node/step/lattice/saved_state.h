@@ -20,6 +20,7 @@ class SavedState {
  private:
   Three<Real> u_;
   ByHalf<Real> l_c_, hardening_;
+  std::vector<ZeroedArray<Real>> remembered_;
   ZeroedArray<Mask> mask_;
   std::vector<RowLedger> ledger_;
   std::int64_t yields_ = -1;  // how often elements had yielded when the memory was last copied

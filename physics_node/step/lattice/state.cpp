@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "physics_node/step/fem/hex_relaxation.h"
 #include "physics_node/step/lattice/element_slots.h"
 
 namespace palpate::physics {
@@ -27,6 +28,8 @@ LatticeState<Real>::LatticeState(const Body& body) {
   }
   if (!body.solid) make_slots(body, all, level, up);
   if (!body.solid && !body.law_of.empty()) varied = make_varied_constants<Real>(body, colour);
+  if (body.solid) remembered.resize(n_remembered * body.solid->relaxation.size());
+  for (auto& array : remembered) array = ZeroedArray<Real>(n, colour++);
   row_state.resize(body.lattice.rows.size());
   ledger.resize(body.lattice.rows.size());
   if (any_yields(body)) fresh.reserve(body.lattice.n_elements());
@@ -45,6 +48,7 @@ void LatticeState<Real>::reset(const Body& body) {
       v[a][c] = held ? Real(0) : start;
     }
     mask[c] = body.lattice.mask[c];
+    for (auto& array : remembered) array[c] = 0;
     for (std::size_t h = 0; yields && h < static_cast<std::size_t>(body.lattice.n_half); ++h) {
       if (l_c[h][c] != 0) l_c[h][c] = 0;  // only what was written: untouched pages stay free
       if (hardening[h][c] != 0) hardening[h][c] = 0;

@@ -44,6 +44,8 @@ struct LatticeState {
   ByHalf<Real> hardening;          // l - L at yield, less that at first yield [m]; only there (n_cells)
   ZeroedArray<Real> inverse_mass;  // constant, in this precision                       (n_cells)
   VariedConstants<Real> varied;
+  std::vector<ZeroedArray<Real>>
+      remembered;  // of each cell, by term and entry of Remembered; only where it relaxes (n_cells)
 
   std::array<SlotList<Real>, max_row_kinds> all, level, up;  // constant: see ElementContext
   std::vector<RowState> row_state;                           // by row

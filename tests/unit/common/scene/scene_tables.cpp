@@ -98,6 +98,9 @@ std::vector<SceneTable> all_tables() {
       all.push_back({heading, "", "[material.m]\n", std::string(mass) + stiffness, rest});
   all.push_back({heading, "", "[material.m]\n", "mass_g = 1\nk1_N_per_m = 1\nviscosity_Pa_s = 1\n", rest});
   all.push_back({heading, "", "[material.m]\n",
+                 "density_kg_per_m3 = 1\nmodulus_kPa = 10\nrelaxation = [[0.5, 1]]\n",
+                 rest + "lattice = \"voxel\"\nmodel = \"fem\"\n"});
+  all.push_back({heading, "", "[material.m]\n",
                  "mass_g = 1\nk1_N_per_m = 1\nyield_ratio = 1.1\nbreak_ratio = 3\n", rest});
   for (auto& one : all) {
     if (one.heading == "[[tool]]" && one.of == "body")

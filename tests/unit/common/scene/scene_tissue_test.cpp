@@ -237,6 +237,31 @@ TEST(Elements, AreReadWithTheirMaterial) {
   EXPECT_EQ(parsed(elements(tissue)).materials[0].poisson_ratio, 0.45);
 }
 
+TEST(Elements, ReadWhatTheyForget) {
+  const std::string tissue = "density_kg_per_m3 = 1000\nmodulus_kPa = 10\n";
+  const Scene scene = parsed(elements(tissue + "relaxation = [[0.3, 0.05], [0.2, 1]]"));
+  ASSERT_EQ(scene.materials[0].relaxation.size(), 2U);
+  EXPECT_EQ(scene.materials[0].relaxation[0].share, 0.3);
+  EXPECT_EQ(scene.materials[0].relaxation[1].time, 1);
+  const auto about = [&](const std::string& value) {
+    return complaints_about(elements(tissue + "relaxation = " + value));
+  };
+  EXPECT_THAT(about("0.3"), ElementsAre(HasSubstr("[[0.3, 0.05], [0.2, 1]]")));
+  EXPECT_THAT(about("[0.3, 0.05]"), ElementsAre(HasSubstr("[[0.3, 0.05], [0.2, 1]]")));
+  EXPECT_THAT(about("[[0.3, 0.05, 1]]"), ElementsAre(HasSubstr("[[0.3, 0.05], [0.2, 1]]")));
+  EXPECT_THAT(about("[[0, 1]]"), ElementsAre(HasSubstr("above 0 and below 1")));
+  EXPECT_THAT(about("[[nan, 1]]"), ElementsAre(HasSubstr("relaxation")));
+  EXPECT_THAT(about("[[0.5, 1e-4]]"), ElementsAre(HasSubstr("a time from 0.001 to 1e+06 s")));
+  EXPECT_THAT(about("[[0.5, 1], [0.5, 2]]"), ElementsAre(HasSubstr("at most 0.95 of the modulus may fade")));
+  EXPECT_THAT(about("[[0.1, 1], [0.1, 2], [0.1, 3], [0.1, 4], [0.1, 5]]"),
+              ElementsAre(HasSubstr("at most 4")));
+  EXPECT_THAT(complaints_about(elements(tissue + "relaxation = [[0.5, 1]]") + "hourglass = \"isotropic\""),
+              ElementsAre(HasSubstr("write \"physical\"")));
+  std::string springs = elements(tissue + "relaxation = [[0.5, 1]]");
+  springs.replace(springs.find("fem"), 3, "springs");
+  EXPECT_THAT(complaints_about(springs), ElementsAre(HasSubstr("write model = \"fem\", or leave it out")));
+}
+
 TEST(Elements, RefuseWhatTheyCannotFollow) {
   const std::string tissue = "density_kg_per_m3 = 1000\nmodulus_kPa = 10\n";
   const auto about = [](const std::string& text) { return complaints_about(text); };
