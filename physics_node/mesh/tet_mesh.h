@@ -1,0 +1,36 @@
+#pragma once
+// A mesh of tetrahedra as read or made: places and corners, no motion and no material.
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "common/math/vec3.h"
+#include "physics_node/lattice/lattice_types.h"
+
+namespace palpate::physics {
+
+struct TetMesh {
+  std::vector<Vec3> nodes;                 // [m]
+  std::vector<std::array<Index, 4>> tets;  // corners; turned so that the volume is positive
+  std::vector<int> region;                 // of each tetrahedron: a number that the maker gave it
+};
+
+/// det [x1 - x0, x2 - x0, x3 - x0] / 6: negative where the corners are in the other order [m^3]
+double signed_volume(const TetMesh& mesh, const std::array<Index, 4>& corners) noexcept;
+
+/// Flat, or so nearly that float cannot tell: its volume is below 1e-9 of the cube of its longest edge. Of an equilateral
+/// one that is 0.12; a sliver that still can be stepped has 1e-4.
+bool is_flat(const TetMesh& mesh, const std::array<Index, 4>& corners) noexcept;
+
+/// What `tidy` did.
+struct Tidied {
+  std::size_t turned = 0;  // tetrahedra whose volume was negative
+  std::size_t unused = 0;  // nodes that no tetrahedron has
+};
+
+/// Turns tetrahedra so that volumes are positive, and drops nodes that none has; the others keep their order.
+/// @param mesh  every corner names a node
+Tidied tidy(TetMesh& mesh);
+
+}  // namespace palpate::physics
