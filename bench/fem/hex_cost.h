@@ -3,18 +3,9 @@
 
 #include <vector>
 
-#include "common/scene/element_kinds.h"
-#include "common/scene/kinds.h"
+#include "bench/problems/hex_cube.h"
 
 namespace palpate::bench {
-
-struct HexCubeKind {
-  HourglassKind hourglass = HourglassKind::physical;
-  Precision precision = Precision::single_;
-  bool damped = true;
-  int cells = 40;  // along each side
-  int threads = 1;
-};
 
 struct HexCost {
   HexCubeKind kind;

@@ -1,7 +1,9 @@
 #include "bench/fem/hex_work.h"
 
+#include <array>
+
 #include "physics_node/material/stable_neo_hookean.h"
-#include "physics_node/step/fem/hex_element.h"
+#include "physics_node/step/fem/hex_relaxation.h"
 
 namespace palpate::bench {
 namespace {
@@ -30,25 +32,33 @@ struct CountingPack {
 
 }  // namespace
 
-double flops_per_cell(HourglassKind hourglass, bool damped) {
+double flops_per_cell(const HexCubeKind& kind) {
+  using physics::StableNeoHookean;
+  const physics::HexConstants<double> k;
   physics::HexForces<CountingPack> out;
   counted = 0;
-  if (hourglass == HourglassKind::physical)
-    physics::hex_forces<CountingPack, physics::StableNeoHookean, true, false>(physics::HexConstants<double>{},
-                                                                              {}, out);
-  else
-    physics::hex_forces<CountingPack, physics::StableNeoHookean, false, false>(
-        physics::HexConstants<double>{}, {}, out);
+  if (kind.relaxing) {
+    std::array<physics::RelaxationTerm<double>, 1> term;
+    std::array<physics::Remembered<Counting>, 1> remembered;
+    physics::Relaxing<CountingPack, double> memory{term, remembered};
+    physics::hex_forces<CountingPack, StableNeoHookean, true, false>(k, {}, out, memory);
+  } else if (kind.hourglass == HourglassKind::physical) {
+    physics::hex_forces<CountingPack, StableNeoHookean, true, false>(k, {}, out);
+  } else {
+    physics::hex_forces<CountingPack, StableNeoHookean, false, false>(k, {}, out);
+  }
   const double scaled_and_added = 2 * 24,
                moved = 18 + 3;  // the two sums of a mass, v + dt (f w + g), u + dt v
-  return counted + scaled_and_added + moved + (damped ? 2 * 24 : 0);
+  return counted + scaled_and_added + moved + (kind.damped ? 2 * 24 : 0);
 }
 
-double bytes_per_cell(bool damped, double real_size) {
+double bytes_per_cell(const HexCubeKind& kind) {
   const double forces = 3 + 1 + 2 * 6;     // u; stiffness; low and high, read and written
   const double moves = 4 * 3 + 1 + 2 * 6;  // u, v read and written; inverse mass; low and high
   const double of_damper = 3 + 2 * 6;      // v; what the last step saw
-  return real_size * (forces + moves + (damped ? of_damper : 0));
+  const double of_memory = 2.0 * physics::n_remembered;
+  return (kind.precision == Precision::single_ ? 4 : 8) *
+         (forces + moves + (kind.damped ? of_damper : 0) + (kind.relaxing ? of_memory : 0));
 }
 
 }  // namespace palpate::bench

@@ -19,8 +19,8 @@ constexpr double margin = 0.05;
 constexpr int steps = 10;
 
 struct Kernel {
-  const char *isa, *lattice, *precision, *work;
-  std::string name() const { return std::string(isa) + "/" + lattice + "/" + precision + "/" + work; }
+  const char *isa, *elements, *precision, *work;
+  std::string name() const { return std::string(isa) + "/" + elements + "/" + precision + "/" + work; }
 };
 
 std::vector<Kernel> kernels() {
@@ -32,6 +32,10 @@ std::vector<Kernel> kernels() {
         all.push_back({isa, lattice, "single", work});
       all.push_back({isa, lattice, "double", "undamped"});
     }
+    all.push_back({isa, "hexahedra", "single", "undamped"});
+    if (std::string(isa) == "sse2") continue;  // minutes, and the loops are the same
+    for (const char* work : {"damped", "relaxing", "isotropic"})
+      all.push_back({isa, "hexahedra", "single", work});
   }
   return all;
 }
@@ -45,7 +49,7 @@ struct Count {
 Count count(const Kernel& kernel, int n_steps) {
   const std::string command = std::string("PALPATE_ISA=") + kernel.isa +
                               " " VALGRIND " --tool=callgrind --callgrind-out-file=/dev/null " +
-                              test::quoted(KERNEL_STEPS) + " " + kernel.lattice + " " + kernel.precision +
+                              test::quoted(KERNEL_STEPS) + " " + kernel.elements + " " + kernel.precision +
                               " " + kernel.work + " " + std::to_string(n_steps) + " 2>&1";
   std::string out;
   std::FILE* pipe = popen(command.c_str(), "r");

@@ -1,6 +1,8 @@
 // The kernel of hexahedra, compiled once per instruction set: hex_kernel_{sse2,avx2,avx512}.cpp define PALPATE_KERNEL and
 // include this.
 
+#include <type_traits>
+
 #include "physics_node/material/stable_neo_hookean.h"
 #include "physics_node/step/lattice/hex_kernel.h"
 #include "physics_node/step/lattice/pack.h"
@@ -29,16 +31,26 @@ struct RememberedHere {
   }
 };
 
+/// A body that does not relax: nothing to load, nothing to store.
+struct NothingRemembered {};
+
+template <class V>
+struct LostByTerms {
+  V before{}, after{};
+};
+
 /// Forces and energy of some cells; with a memory that moves on.
-template <class Real, bool physical, bool relaxing, bool with_energy, class P = Pack<Real>>
-Relaxing<P, Real> cell_forces(const HexContext<Real>& m, const Corners<P>& w, RememberedHere<Real>& here,
-                              HexForces<P>& out) {
-  Relaxing<P, Real> memory{{m.terms, m.n_terms}, here.terms};
-  if constexpr (relaxing)
-    hex_forces<P, StableNeoHookean, physical, with_energy>(m.k, w, out, memory);
-  else
+template <class Real, bool physical, bool with_energy, class Here, class P = Pack<Real>,
+          class V = typename P::V>
+inline __attribute__((always_inline)) void cell_forces(const HexContext<Real>& m, const Corners<P>& w,
+                                                       Here& here, HexForces<P>& out, LostByTerms<V>& lost) {
+  if constexpr (std::is_same_v<Here, NothingRemembered>) {
     hex_forces<P, StableNeoHookean, physical, with_energy>(m.k, w, out);
-  return memory;
+  } else {
+    Relaxing<P, Real> memory{{m.terms, m.n_terms}, here.terms};
+    hex_forces<P, StableNeoHookean, physical, with_energy>(m.k, w, out, memory);
+    lost = {memory.lost_before, memory.lost_after};
+  }
 }
 
 /// Forces of the cells of a run, at w = u + beta v.
@@ -46,6 +58,7 @@ template <class Real, bool physical, bool damped, bool relaxing, bool watched>
 void run_forces(const HexContext<Real>& m, std::size_t r) {
   using P = Pack<Real>;
   using V = typename P::V;
+  using Here = std::conditional_t<relaxing, RememberedHere<Real>, NothingRemembered>;
   const HexRun run = m.runs[r];
   Index at[8];
   for (Index a = 0; a < 8; ++a) at[a] = (a & 1) * run.right + (a >> 1 & 1) * m.up_y + (a >> 2) * m.up_z;
@@ -60,15 +73,17 @@ void run_forces(const HexContext<Real>& m, std::size_t r) {
         if constexpr (damped) w[c][a] = P::fma_all(P::load(m.masses.v[c] + i + at[a]), m.beta, w[c][a]);
       }
     const V stiffness = P::load(m.stiffness + i);
-    [[maybe_unused]] RememberedHere<Real> here{}, before{};
+    Here here;
     if constexpr (relaxing) here.load(m, i);
-    if constexpr (relaxing && damped && watched) before = here;
+    [[maybe_unused]] std::conditional_t<watched && damped, Here, NothingRemembered> before;
+    if constexpr (relaxing && watched && damped) before = here;
     HexForces<P> out;
-    [[maybe_unused]] const auto memory = cell_forces<Real, physical, relaxing, watched>(m, w, here, out);
+    LostByTerms<V> lost;
+    cell_forces<Real, physical, watched>(m, w, here, out, lost);
     if constexpr (relaxing) {
       here.store(m, i, stiffness);
-      lost_before = P::fma(stiffness, memory.lost_before, lost_before);
-      lost_after = P::fma(stiffness, memory.lost_after, lost_after);
+      lost_before = P::fma(stiffness, lost.before, lost_before);
+      lost_after = P::fma(stiffness, lost.after, lost_after);
     }
     stiffest = P::larger(stiffest, out.stiffness);
     for (std::size_t c = 0; c < 3; ++c)
@@ -80,7 +95,8 @@ void run_forces(const HexContext<Real>& m, std::size_t r) {
       HexForces<P> at_u;
       for (std::size_t c = 0; c < 3; ++c)
         for (std::size_t a = 0; a < 8; ++a) w[c][a] = P::load(m.masses.u[c] + i + at[a]);
-      cell_forces<Real, physical, relaxing, true>(m, w, before, at_u);
+      if constexpr (relaxing) here = before;
+      cell_forces<Real, physical, true>(m, w, here, at_u, lost);
       ahead = P::fma(stiffness, out.energy - at_u.energy, ahead);
       elastic = P::fma(stiffness, at_u.energy, elastic);
     } else if constexpr (watched) {

@@ -148,7 +148,7 @@ Hexahedra<Real>::Hexahedra(const Body& body)
       {.modulus = solid.modulus, .poisson_ratio = solid.poisson_ratio, .hourglass = solid.hourglass},
       body.lattice.step);
   at_rest_ = bound_at_rest(body, constants_of(body));
-  std::size_t colour = 8;  // after those of LatticeState
+  std::size_t colour = 8 + n_remembered * solid.relaxation.size();  // after those of LatticeState
   stiffness_ = ZeroedArray<Real>(n, colour++);
   for (const Index cell : body.lattice.masses)
     stiffness_[static_cast<std::size_t>(cell)] =
