@@ -26,20 +26,26 @@ struct StableNeoHookean {
   }
 
   /// Energy per volume at rest [J/m^3].
-  T psi(const Tensor<T>& h) const noexcept {
-    const T j = volume_change(h, cofactor<P>(h));
+  T psi(const Tensor<T>& h) const noexcept { return psi(h, volume_change(h, cofactor<P>(h)), lambda + mu); }
+
+  /// The same with another modulus in place of lambda + mu of (J - 1)^2 / 2. @param j  J - 1
+  T psi(const Tensor<T>& h, T j, T of_volume) const noexcept {
     const T shear = P::fma(P::all(0.5), double_dot<P>(h, h), trace(h)) - j;
-    return P::fma(mu, shear, P::all(0.5) * (lambda + mu) * j * j);
+    return P::fma(mu, shear, P::all(0.5) * of_volume * j * j);
   }
 
   /// First Piola-Kirchhoff stress, force per area at rest [Pa].
-  ///   P = mu H + q (cof H - H^T) + (p (1 + t) - mu t) I,   t = tr H, p = (lambda + mu)(J - 1), q = p - mu
   Tensor<T> stress(const Tensor<T>& h) const noexcept {
     const Tensor<T> cof = cofactor<P>(h);
-    const T t = trace(h);
-    const T p = (lambda + mu) * volume_change(h, cof);
+    return stress(h, cof, (lambda + mu) * volume_change(h, cof));
+  }
+
+  /// The same under another p than (lambda + mu)(J - 1), where volume is not a matter of this place alone.
+  ///   P = mu H + q (cof H - H^T) + (p (1 + t) - mu t) I,   t = tr H, q = p - mu
+  /// @param cof  of H
+  Tensor<T> stress(const Tensor<T>& h, const Tensor<T>& cof, T p) const noexcept {
     const T q = p - mu;
-    const T on_axes = P::fma(q, t, p);  // p + p t - mu t
+    const T on_axes = P::fma(q, trace(h), p);  // p + p t - mu t
     Tensor<T> s;
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j) s[i][j] = P::fma(mu, h[i][j], q * (cof[i][j] - h[j][i]));
@@ -48,10 +54,15 @@ struct StableNeoHookean {
   }
 
   /// Bound of the tangent, |dP| <= stiffness |dH|: 3 (lambda + mu) + (1 + sqrt(3)) mu at rest, more where it is stretched or squeezed [Pa].
-  ///   mu + (lambda + mu) |cof F|^2 + |(lambda + mu)(J - 1) - mu| |F|,   |F| <= (|F|^2 / sqrt(3) + sqrt(3)) / 2
   T stiffness(const Tensor<T>& h) const noexcept {
-    Tensor<T> cof = cofactor<P>(h);
-    const T t = trace(h), q = P::fma(lambda + mu, volume_change(h, cof), -mu);
+    const Tensor<T> cof = cofactor<P>(h);
+    return stiffness(h, cof, P::fma(lambda + mu, volume_change(h, cof), -mu));
+  }
+
+  /// The same under another q = p - mu, see stress().
+  ///   mu + (lambda + mu) |cof F|^2 + |q| |F|,   |F| <= (|F|^2 / sqrt(3) + sqrt(3)) / 2
+  T stiffness(const Tensor<T>& h, Tensor<T> cof, T q) const noexcept {
+    const T t = trace(h);
     T f2 = P::fma(P::all(2), t, P::all(3)) + double_dot<P>(h, h);
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j) cof[i][j] = cof[i][j] - h[j][i];

@@ -3,10 +3,10 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <vector>
 
 #include "physics_node/step/fem/hex_stiffness.h"
+#include "physics_node/step/largest_eigenvalue.h"
 #include "physics_node/step/lattice/hex_kernel.h"
 #include "physics_node/step/lattice/state.h"
 
@@ -96,43 +96,13 @@ class ScaledStiffness {
   HexContext<double> m_ = {};
 };
 
-/// Largest eigenvalue, and at most how far it may be from one.
-double largest_by_lanczos(ScaledStiffness& operation) {
-  constexpr int most = 60;
-  constexpr double close = 0.01;  // of it
-  const Eigen::Index n = operation.size();
-  std::mt19937_64 engine(1);
-  Eigen::VectorXd v(n), before = Eigen::VectorXd::Zero(n), w(n);
-  for (double& entry : v) entry = static_cast<double>(engine() >> 11) * 0x1p-52 - 1;
-  v.normalize();
-  std::vector<double> a, b;
-  double largest = 0, residual = 0;
-  for (int k = 0; k < most && k < n; ++k) {
-    operation.apply(v, w);
-    a.push_back(v.dot(w));
-    w -= a.back() * v;
-    if (k > 0) w -= b.back() * before;
-    b.push_back(w.norm());
-    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solved;
-    const auto size = static_cast<Eigen::Index>(a.size());
-    solved.computeFromTridiagonal(Eigen::Map<Eigen::VectorXd>(a.data(), size),
-                                  Eigen::Map<Eigen::VectorXd>(b.data(), size - 1));
-    largest = solved.eigenvalues()[size - 1];
-    residual = b.back() * std::abs(solved.eigenvectors()(size - 1, size - 1));
-    if (residual <= close * largest) break;
-    before = v;
-    v = w / b.back();
-  }
-  return largest + residual;
-}
-
 }  // namespace
 
 StiffestMode stiffest_mode_of_hexahedra(const Body& body) {
   StiffestMode mode;
   if (body.n_held == body.n_nodes()) return mode;
   ScaledStiffness operation(body);
-  mode.omega2 = std::min(largest_of_one_cell(body), largest_by_lanczos(operation));
+  mode.omega2 = std::min(largest_of_one_cell(body), largest_eigenvalue(operation, operation.size()));
   mode.gamma = body.solid->beta * mode.omega2;
   return mode;
 }
