@@ -5,7 +5,10 @@
 #include <cstdlib>
 #include <new>
 
+#include "physics_node/mesh/renumber.h"
+#include "physics_node/mesh/tet_box.h"
 #include "physics_node/record/recorder.h"
+#include "physics_node/step/fem/tetrahedra.h"
 #include "tests/support/image/scratch_folder.h"
 #include "tests/support/physics/pressed_world.h"
 
@@ -53,6 +56,23 @@ TEST(AllocationCount, SeesAnAllocation) {
   delete new int(3);
   in_frame = false;
   EXPECT_EQ(allocations, 1u);
+}
+
+TEST(Tetrahedra, TakeNoMemoryInAStep) {
+  TetModel model{.mesh = make_tet_box({.cells = {8, 8, 8}, .edge = 0.0025}),
+                 .materials = {{}},
+                 .held = {},
+                 .beta = 1e-4};
+  renumber(model.mesh);
+  Tetrahedra<float> body(model);
+  Team team(2);
+  allocations = 0;
+  in_frame = true;
+  for (int n = 0; n < 8; ++n)
+    body.step(
+        {.dt = 5e-5, .gravity = Vec3(0, 0, -9.81), .team = &team, .threads = 1 + n % 2, .watch = n % 4 == 3});
+  in_frame = false;
+  EXPECT_EQ(allocations, 0u);
 }
 
 TEST(World, TakesNoMemoryInAFrameWhateverHappens) {

@@ -1,0 +1,83 @@
+// What a body of tetrahedra has of energy and momentum.
+
+#include <Eigen/Geometry>
+
+#include "common/math/state_hash.h"
+#include "physics_node/step/fem/four_array.h"
+#include "physics_node/step/fem/tetrahedra.h"
+
+namespace palpate::physics {
+
+template <class Real>
+Energies Tetrahedra<Real>::energies(const Vec3& gravity) {
+  Energies e;
+  elements(context(), {}, kernel_.energies);
+  e.elastic = elastic();
+  TetContext<Real> m = context();
+  m.beta = static_cast<Real>(model_.beta);
+  elements(m, {}, kernel_.forces);
+  double power = 0;
+  for (std::size_t n = 0; n < n_nodes(); ++n) {
+    if (inverse_mass_[n] == 0) continue;
+    const double mass = 1 / static_cast<double>(inverse_mass_[n]);
+    const Vec3 v = vector_at(v_, n);
+    e.kinetic += 0.5 * mass * v.squaredNorm();
+    e.gravitational -= mass * gravity.dot(vector_at(u_, n));
+    power += mass * v.dot(gravity);
+    for (Index p = layout_.of_node.begin[n]; p < layout_.of_node.begin[n + 1]; ++p)
+      power += v.dot(
+          vector_at(force_, static_cast<std::size_t>(layout_.of_node.part[static_cast<std::size_t>(p)])));
+  }
+  e.between = e.kinetic + 0.5 * dt_before_ * power;
+  return e;
+}
+
+template <class Real>
+Losses Tetrahedra<Real>::losses() const noexcept {
+  return {.viscous = viscous_, .numerical = numerical_};
+}
+
+template <class Real>
+Watch Tetrahedra<Real>::watch() const noexcept {
+  return watch_;
+}
+
+template <class Real>
+Momenta Tetrahedra<Real>::momenta() const noexcept {
+  Momenta sum;
+  for (std::size_t n = 0; n < n_nodes(); ++n) {
+    if (inverse_mass_[n] == 0) continue;
+    const Vec3 p = vector_at(v_, n) / static_cast<double>(inverse_mass_[n]);
+    sum.linear += p;
+    sum.angular += (model_.mesh.nodes[n] + vector_at(u_, n)).cross(p);
+  }
+  return sum;
+}
+
+template <class Real>
+std::uint64_t Tetrahedra<Real>::hash(std::uint64_t seed) const noexcept {
+  seed = hash_state(u_.data(), 4 * n_nodes() * sizeof(Real), seed);
+  return hash_state(v_.data(), 4 * n_nodes() * sizeof(Real), seed);
+}
+
+template <class Real>
+bool Tetrahedra<Real>::is_finite() const noexcept {
+  for (std::size_t n = 0; n < n_nodes(); ++n)
+    if (!vector_at(u_, n).allFinite() || !vector_at(v_, n).allFinite()) return false;
+  return true;
+}
+
+template Energies Tetrahedra<float>::energies(const Vec3&);
+template Losses Tetrahedra<float>::losses() const noexcept;
+template Watch Tetrahedra<float>::watch() const noexcept;
+template Momenta Tetrahedra<float>::momenta() const noexcept;
+template std::uint64_t Tetrahedra<float>::hash(std::uint64_t) const noexcept;
+template bool Tetrahedra<float>::is_finite() const noexcept;
+template Energies Tetrahedra<double>::energies(const Vec3&);
+template Losses Tetrahedra<double>::losses() const noexcept;
+template Watch Tetrahedra<double>::watch() const noexcept;
+template Momenta Tetrahedra<double>::momenta() const noexcept;
+template std::uint64_t Tetrahedra<double>::hash(std::uint64_t) const noexcept;
+template bool Tetrahedra<double>::is_finite() const noexcept;
+
+}  // namespace palpate::physics

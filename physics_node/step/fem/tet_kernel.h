@@ -1,0 +1,101 @@
+#pragma once
+// All that the kernel of tetrahedra needs for one step, and where it is.
+
+#include "physics_node/step/fem/tet_element.h"
+#include "physics_node/step/fem/tet_layout.h"
+#include "physics_node/step/lattice/element_context.h"
+
+namespace palpate::physics {
+
+/// What a chunk of nodes did in a step; kept by chunk so that no two threads share one.
+struct TetNodeLedger {
+  double passed =
+      0;  // beta/2 (f + f') . (v' - v), what the damper took and what lies between u and u + beta v; only damped [J]
+  double numerical = 0;  // what another dt than before takes; only where it is another [J]
+  // when watched:
+  double speed2 = 0;         // largest [m^2/s^2]
+  double kinetic = 0;        // with the velocities after the step [J]
+  double between = 0;        // sum of m v(-) . v(+) / 2, see lattice/element_step.h [J]
+  double fallen = 0;         // sum of m g . u [J]
+  double fallen_before = 0;  // the same before the step [J]
+};
+
+/// Vectors of nodes and of parts have four entries, x, y, z and one more, so that one is loaded at once.
+template <class Real>
+struct TetContext {
+  const TetBatch<Real>* batches;
+  const TetBlock* blocks;
+  const TetConstants<Real>* constants;  // of each material
+  const Index* node;                    // of each part
+  const Index* share;
+  const Index* node_begin;  // lists of parts
+  const Index* node_part;
+  const Index* share_begin;
+  const Index* share_part;
+  const Real* share_volume;    // 1 / V_n [1/m^3]                              (shares)
+  const double* share_energy;  // lambda V_n / 2 [J]                           (shares)
+  const Real* bound;  // of each lane, 4 / density . largest of TetSharpness: w^2 per modulus [1/(Pa s^2)]
+  Real* u;            // displacement [m]                             (4 nodes)
+  Real* v;            // velocity [m/s]                               (4 nodes)
+  Real* seen_v;       // velocity and force one step ago; only damped (4 nodes)
+  Real* seen_f;
+  const Real* inverse_mass;  // 0: held [1/kg]                               (nodes)
+  Real* force;               // of each part [N]                             (4 parts)
+  Real* swelling;   // of each part, sum of V_t / 4 (J_t - 1); only with nodal pressure [m^3]  (parts)
+  Real* mean;       // j_n; only with nodal pressure                (shares)
+  double* elastic;  // of each block, when asked for [J]
+  double*
+      stiffest;  // of each block: bound of the squared frequency of its tetrahedra as they are, when asked for [1/s^2]
+  double* least_J;            // of each block, when asked for
+  double* elastic_of_shares;  // of each chunk of shares, when asked for [J]
+  TetNodeLedger* ledger;      // of each chunk of nodes
+  Real dt, g[3];
+  Real dt_before;  // of the step before; 0: there was none
+  Real beta;       // forces at u + beta v; 0 for energies at u [s]
+  bool damped, watch;
+  bool begins;  // the step before was of another dt, or there was none
+};
+
+/// Nodes and shares that are done at a time.
+inline constexpr Index tet_chunk = 1024;
+
+template <class Real>
+struct TetKernel {
+  using OfBlock = void (*)(const TetContext<Real>&, std::size_t block);
+  using OfChunk = void (*)(const TetContext<Real>&, std::size_t chunk, Index end);
+  OfBlock swell = nullptr;           // only with nodal pressure: volumes of all tetrahedra to the parts
+  OfChunk average = nullptr;         // only with nodal pressure: parts to shares
+  OfBlock forces = nullptr;          // of all tetrahedra to the parts
+  OfBlock watched_forces = nullptr;  // and energy, stiffness, least J
+  OfBlock energies = nullptr;        // the same without forces
+  OfChunk move = nullptr;            // parts to nodes, which move
+};
+
+namespace sse2 {
+template <class Real>
+TetKernel<Real> tet_kernel(bool nodal);
+}
+namespace avx2 {
+template <class Real>
+TetKernel<Real> tet_kernel(bool nodal);
+}
+namespace avx512 {
+template <class Real>
+TetKernel<Real> tet_kernel(bool nodal);
+}
+
+/// @param set  that this machine runs
+template <class Real>
+TetKernel<Real> tet_kernel_of(InstructionSet set, bool nodal) {
+  switch (set) {
+    case InstructionSet::avx512:
+      return avx512::tet_kernel<Real>(nodal);
+    case InstructionSet::avx2:
+      return avx2::tet_kernel<Real>(nodal);
+    case InstructionSet::sse2:
+      break;
+  }
+  return sse2::tet_kernel<Real>(nodal);
+}
+
+}  // namespace palpate::physics

@@ -1,0 +1,75 @@
+#include "physics_node/step/fem/tet_spectrum.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics_node/material/lame.h"
+#include "physics_node/step/fem/tetrahedra.h"
+#include "physics_node/step/largest_eigenvalue.h"
+
+namespace palpate::physics {
+namespace {
+
+/// y = M^-1/2 K M^-1/2 x on the nodes that may move.
+class ScaledTetStiffness {
+ public:
+  explicit ScaledTetStiffness(const TetModel& model)
+      : body_(model), forces_(model.mesh.nodes.size(), Vec3::Zero()) {
+    double smallest = HUGE_VAL;
+    for (const auto& corners : model.mesh.tets)
+      smallest = std::min(smallest, signed_volume(model.mesh, corners));
+    size_ = 1e-6 * std::cbrt(smallest);
+    for (Index n = 0; n < static_cast<Index>(forces_.size()); ++n)
+      if (body_.inverse_mass(n) > 0) nodes_.push_back(n);
+  }
+
+  Eigen::Index size() const { return 3 * static_cast<Eigen::Index>(nodes_.size()); }
+
+  void apply(const Eigen::VectorXd& x, Eigen::VectorXd& y) {
+    const double one = size_ / x.cwiseAbs().maxCoeff();  // small, so that it is linear
+    double most = 0;
+    for (const Index node : nodes_) most = std::max(most, body_.inverse_mass(node));
+    Eigen::Index n = 0;
+    for (const Index node : nodes_) {
+      const double root = std::sqrt(body_.inverse_mass(node) / most);
+      body_.place(node, one * root * x.segment<3>(3 * n++), Vec3::Zero());
+    }
+    body_.forces(forces_);
+    n = 0;
+    for (const Index node : nodes_) {
+      const double root = std::sqrt(body_.inverse_mass(node) * most);
+      y.segment<3>(3 * n++) = -root / one * forces_[static_cast<std::size_t>(node)];
+    }
+  }
+
+ private:
+  Tetrahedra<double> body_;
+  std::vector<Vec3> forces_;
+  std::vector<Index> nodes_;
+  double size_;
+};
+
+}  // namespace
+
+double fastest_element(const TetModel& model) {
+  double fastest = 0;
+  for (std::size_t t = 0; t < model.mesh.tets.size(); ++t) {
+    const TetMaterial& material = model.materials[static_cast<std::size_t>(model.mesh.region[t])];
+    const Lame lame = lame_of(material.modulus, material.poisson_ratio);
+    const TetSharpness sharpness = sharpness_of(model.mesh, model.mesh.tets[t]);
+    fastest = std::max(
+        fastest, 4 / material.density * (lame.lambda * sharpness.trace + 2 * lame.mu * sharpness.largest));
+  }
+  return fastest;
+}
+
+StiffestMode stiffest_mode_of_tetrahedra(const TetModel& model) {
+  StiffestMode mode;
+  ScaledTetStiffness operation(model);
+  if (operation.size() == 0) return mode;
+  mode.omega2 = std::min(fastest_element(model), largest_eigenvalue(operation, operation.size()));
+  mode.gamma = model.beta * mode.omega2;
+  return mode;
+}
+
+}  // namespace palpate::physics

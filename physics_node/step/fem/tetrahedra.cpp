@@ -1,0 +1,247 @@
+#include "physics_node/step/fem/tetrahedra.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "physics_node/material/lame.h"
+#include "physics_node/step/fem/four_array.h"
+
+namespace palpate::physics {
+namespace {
+
+template <class Real>
+void fill_batches(const TetModel& model, const TetLayout& layout, ZeroedArray<TetBatch<Real>>& batches) {
+  for (std::size_t at = 0; at < layout.tet.size(); ++at) {
+    TetBatch<Real>& batch = batches[at / tet_lanes];
+    const std::size_t lane = at % tet_lanes;
+    for (std::size_t a = 0; a < 4; ++a) batch.corner[lane][a] = layout.corner[4 * at + a];
+    if (layout.tet[at] < 0) continue;
+    const auto& corners = model.mesh.tets[static_cast<std::size_t>(layout.tet[at])];
+    batch.volume[lane] = static_cast<Real>(signed_volume(model.mesh, corners));
+    const auto slopes = slopes_of(model.mesh, corners);
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t j = 0; j < 3; ++j)
+        batch.slope[k][j][lane] = static_cast<Real>(slopes[k][static_cast<Eigen::Index>(j)]);
+  }
+}
+
+/// V_n of each share [m^3].
+std::vector<double> volumes_of_shares(const TetModel& model, const TetLayout& layout) {
+  std::vector<double> volumes(layout.node_of_share.size());
+  for (const TetBlock& block : layout.blocks)
+    for (std::size_t at = block.first_batch * tet_lanes;
+         at < (block.first_batch + block.n_batches) * tet_lanes; ++at) {
+      if (layout.tet[at] < 0) continue;
+      const double volume =
+          signed_volume(model.mesh, model.mesh.tets[static_cast<std::size_t>(layout.tet[at])]);
+      for (std::size_t a = 0; a < 4; ++a) {
+        const Index share = layout.share[block.first_part + layout.corner[4 * at + a]];
+        volumes[static_cast<std::size_t>(share)] += volume / 4;
+      }
+    }
+  return volumes;
+}
+
+std::size_t chunks(std::size_t n) { return (n + tet_chunk - 1) / static_cast<std::size_t>(tet_chunk); }
+
+}  // namespace
+
+template <class Real>
+Tetrahedra<Real>::Tetrahedra(TetModel model, InstructionSet set)
+    : model_(std::move(model)),
+      layout_(lay_out(model_)),
+      batches_(layout_.n_batches()),
+      kernel_(tet_kernel_of<Real>(set, model_.materials.at(0).nodal_pressure)) {
+  fill_batches(model_, layout_, batches_);
+  for (const TetMaterial& material : model_.materials) {
+    const Lame lame = lame_of(material.modulus, material.poisson_ratio);
+    constants_.push_back({.mu = static_cast<Real>(lame.mu), .lambda = static_cast<Real>(lame.lambda)});
+  }
+  std::size_t colour = 0;
+  bound_ = ZeroedArray<Real>(layout_.tet.size(), colour++);
+  for (std::size_t at = 0; at < layout_.tet.size(); ++at) {
+    if (layout_.tet[at] < 0) continue;
+    const auto tet = static_cast<std::size_t>(layout_.tet[at]);
+    const auto material = static_cast<std::size_t>(model_.mesh.region[tet]);
+    const double bound =
+        4 / model_.materials[material].density * sharpness_of(model_.mesh, model_.mesh.tets[tet]).largest;
+    bound_[at] = static_cast<Real>(bound);
+    const auto& k = constants_[material];
+    const StableNeoHookean<Scalar<double>> law{static_cast<double>(k.mu), static_cast<double>(k.lambda)};
+    stiffest_at_rest_ = std::max(stiffest_at_rest_, bound * law.stiffness({}));
+  }
+  const std::size_t n = n_nodes(), parts = layout_.node.size(), shares = layout_.node_of_share.size();
+  inverse_mass_ = ZeroedArray<Real>(n, colour++);
+  const auto masses = masses_of(model_);
+  for (std::size_t i = 0; i < n; ++i)
+    if (model_.held.empty() || !model_.held[i]) inverse_mass_[i] = static_cast<Real>(1 / masses[i]);
+  for (auto* of_nodes : {&u_, &v_}) *of_nodes = Four(4 * n, colour++);
+  if (model_.beta > 0)
+    for (auto* of_nodes : {&seen_v_, &seen_f_}) *of_nodes = Four(4 * n, colour++);
+  force_ = Four(4 * parts, colour++);
+  swelling_ = ZeroedArray<Real>(parts, colour++);
+  mean_ = ZeroedArray<Real>(shares, colour++);
+  share_volume_ = ZeroedArray<Real>(shares, colour++);
+  const auto volumes = volumes_of_shares(model_, layout_);
+  for (std::size_t s = 0; s < shares; ++s) {
+    const TetMaterial& material = model_.materials[layout_.material_of_share[s]];
+    share_volume_[s] = static_cast<Real>(1 / volumes[s]);
+    share_energy_.push_back(0.5 * lame_of(material.modulus, material.poisson_ratio).lambda * volumes[s]);
+  }
+  for (auto* of_blocks : {&elastic_, &stiffest_, &least_J_}) of_blocks->resize(layout_.blocks.size());
+  elastic_of_shares_.resize(chunks(shares));
+  ledger_.resize(chunks(n));
+}
+
+template <class Real>
+TetContext<Real> Tetrahedra<Real>::context() noexcept {
+  TetContext<Real> m = {};
+  m.batches = batches_.data();
+  m.blocks = layout_.blocks.data();
+  m.constants = constants_.data();
+  m.node = layout_.node.data();
+  m.share = layout_.share.data();
+  m.node_begin = layout_.of_node.begin.data();
+  m.node_part = layout_.of_node.part.data();
+  m.share_begin = layout_.of_share.begin.data();
+  m.share_part = layout_.of_share.part.data();
+  m.share_volume = share_volume_.data();
+  m.share_energy = share_energy_.data();
+  m.bound = bound_.data();
+  m.u = u_.data(), m.v = v_.data();
+  m.seen_v = seen_v_.data(), m.seen_f = seen_f_.data();
+  m.inverse_mass = inverse_mass_.data();
+  m.force = force_.data();
+  m.swelling = swelling_.data();
+  m.mean = mean_.data();
+  m.elastic = elastic_.data();
+  m.stiffest = stiffest_.data();
+  m.least_J = least_J_.data();
+  m.elastic_of_shares = elastic_of_shares_.data();
+  m.ledger = ledger_.data();
+  m.damped = model_.beta > 0;
+  return m;
+}
+
+template <class Real>
+template <class Work>
+void Tetrahedra<Real>::each(const ExplicitStep& step, std::size_t n, const Work& work) noexcept {
+  if (step.team == nullptr || step.threads < 2) {
+    for (std::size_t i = 0; i < n; ++i) work(i);
+    return;
+  }
+  const std::size_t pieces = std::min(n, Team::most_pieces);
+  step.team->each(pieces, step.threads, [&](std::size_t p) {
+    for (std::size_t i = p * n / pieces; i < (p + 1) * n / pieces; ++i) work(i);
+  });
+}
+
+template <class Real>
+void Tetrahedra<Real>::elements(const TetContext<Real>& m, const ExplicitStep& step,
+                                typename TetKernel<Real>::OfBlock kernel) noexcept {
+  const std::size_t blocks = layout_.blocks.size();
+  if (kernel_.swell != nullptr) {
+    each(step, blocks, [&](std::size_t b) { kernel_.swell(m, b); });
+    const auto shares = static_cast<Index>(layout_.node_of_share.size());
+    each(step, elastic_of_shares_.size(), [&](std::size_t c) {
+      kernel_.average(m, c, std::min(static_cast<Index>(c + 1) * tet_chunk, shares));
+    });
+  }
+  each(step, blocks, [&](std::size_t b) { kernel(m, b); });
+}
+
+template <class Real>
+double Tetrahedra<Real>::elastic() const noexcept {
+  const double of_tets = std::accumulate(elastic_.begin(), elastic_.end(), 0.0);
+  return std::accumulate(elastic_of_shares_.begin(), elastic_of_shares_.end(), of_tets);
+}
+
+template <class Real>
+StepOutcome Tetrahedra<Real>::step(const ExplicitStep& step) noexcept {
+  TetContext<Real> m = context();
+  for (std::size_t a = 0; a < 3; ++a) m.g[a] = static_cast<Real>(step.gravity[static_cast<Eigen::Index>(a)]);
+  m.dt = static_cast<Real>(step.dt);
+  m.dt_before = static_cast<Real>(dt_before_);
+  m.watch = step.watch;
+  m.begins = step.dt != dt_before_;
+  const bool books_begin = m.damped && dt_before_ == 0, look = step.watch || books_begin;
+  double at_u = 0;
+  if (m.damped && look) {
+    elements(m, step, kernel_.energies);
+    at_u = elastic();
+    if (step.watch) least_of_all_J_ = std::min(least_of_all_J_, std::ranges::min(least_J_));
+  }
+  m.beta = static_cast<Real>(model_.beta);
+  elements(m, step, look ? kernel_.watched_forces : kernel_.forces);
+  const auto nodes = static_cast<Index>(n_nodes());
+  each(step, ledger_.size(),
+       [&](std::size_t c) { kernel_.move(m, c, std::min(static_cast<Index>(c + 1) * tet_chunk, nodes)); });
+  dt_before_ = step.dt;
+
+  for (const TetNodeLedger& chunk : ledger_) passed_ += chunk.passed, numerical_ += chunk.numerical;
+  if (!look) return {.stiffening = stiffening_, .least_corner_J = least_of_all_J_};
+  const double ahead = m.damped ? elastic() - at_u : 0;
+  if (books_begin) passed_ = viscous_ - ahead;
+  if (step.watch) {
+    viscous_ = m.damped ? passed_ + ahead : 0;
+    watch_ = {};
+    watch_.elastic = m.damped ? at_u : elastic();
+    double speed2 = 0;
+    for (const TetNodeLedger& chunk : ledger_) {
+      watch_.kinetic += chunk.kinetic;
+      watch_.between += chunk.between;
+      watch_.fallen += chunk.fallen;
+      watch_.fallen_before += chunk.fallen_before;
+      speed2 = std::max(speed2, chunk.speed2);
+    }
+    watch_.speed = std::sqrt(speed2);
+    stiffening_ = std::ranges::max(stiffest_) / stiffest_at_rest_;
+    if (!m.damped) least_of_all_J_ = std::min(least_of_all_J_, std::ranges::min(least_J_));
+  }
+  return {.stiffening = stiffening_, .least_corner_J = least_of_all_J_};
+}
+
+template <class Real>
+double Tetrahedra<Real>::inverse_mass(Index node) const noexcept {
+  return static_cast<double>(inverse_mass_[static_cast<std::size_t>(node)]);
+}
+
+template <class Real>
+Vec3 Tetrahedra<Real>::displacement(Index node) const noexcept {
+  return vector_at(u_, static_cast<std::size_t>(node));
+}
+
+template <class Real>
+Vec3 Tetrahedra<Real>::velocity(Index node) const noexcept {
+  return vector_at(v_, static_cast<std::size_t>(node));
+}
+
+template <class Real>
+void Tetrahedra<Real>::place(Index node, const Vec3& displacement, const Vec3& velocity) noexcept {
+  set_vector(u_, static_cast<std::size_t>(node), displacement);
+  set_vector(v_, static_cast<std::size_t>(node), velocity);
+  dt_before_ = 0;  // no step came before this state
+}
+
+template <class Real>
+void Tetrahedra<Real>::kick(Index node, const Vec3& impulse) noexcept {
+  set_vector(v_, static_cast<std::size_t>(node), velocity(node) + inverse_mass(node) * impulse);
+}
+
+template <class Real>
+void Tetrahedra<Real>::forces(std::vector<Vec3>& out) noexcept {
+  elements(context(), {}, kernel_.forces);
+  for (std::size_t n = 0; n < n_nodes(); ++n) {
+    out[n] = Vec3::Zero();
+    for (Index e = layout_.of_node.begin[n]; e < layout_.of_node.begin[n + 1]; ++e)
+      out[n] +=
+          vector_at(force_, static_cast<std::size_t>(layout_.of_node.part[static_cast<std::size_t>(e)]));
+  }
+}
+
+template class Tetrahedra<float>;
+template class Tetrahedra<double>;
+
+}  // namespace palpate::physics

@@ -1,0 +1,81 @@
+#pragma once
+// A body of tetrahedra that moves: its state, its step and its books. See tet_element.h and tet_layout.h.
+
+#include <cstdint>
+#include <vector>
+
+#include "physics_node/step/books.h"
+#include "physics_node/step/explicit_step.h"
+#include "physics_node/step/fem/tet_kernel.h"
+#include "physics_node/step/stepper.h"
+#include "physics_node/step/zeroed_array.h"
+
+namespace palpate::physics {
+
+/// Symplectic Euler, and its energy is that of the leapfrog: see lattice/element_step.h. Nothing breaks, and nothing sleeps.
+/// Cost: bench/fem.
+template <class Real>
+class Tetrahedra {
+ public:
+  /// @param model  renumbered; every tetrahedron has a volume and a material
+  /// @param set    that this machine runs; avx2 and avx512 give the same bits, sse2 others
+  explicit Tetrahedra(TetModel model, InstructionSet set = instruction_set());
+
+  /// A step. Of ExplicitStep: `verlet` and `exact` mean nothing here. Allocates, locks and throws nothing.
+  /// @return stiffening and least J of what was watched, of the volume of whole tetrahedra here
+  StepOutcome step(const ExplicitStep& step) noexcept;
+
+  const TetModel& model() const noexcept { return model_; }
+  const TetLayout& layout() const noexcept { return layout_; }
+  std::size_t n_nodes() const noexcept { return model_.mesh.nodes.size(); }
+  /// 0: held [1/kg]
+  double inverse_mass(Index node) const noexcept;
+  Vec3 displacement(Index node) const noexcept;  // [m]
+  Vec3 velocity(Index node) const noexcept;      // [m/s]
+  /// Puts a node somewhere, held or not.
+  void place(Index node, const Vec3& displacement, const Vec3& velocity) noexcept;
+  /// v += impulse / m  [N s]
+  void kick(Index node, const Vec3& impulse) noexcept;
+
+  /// Forces on all nodes as they are, at u without the damper, in the precision of the state [N]. (nodes)
+  void forces(std::vector<Vec3>& out) noexcept;
+  /// What there is now; `between` as the next step finds it with the dt of the last.
+  Energies energies(const Vec3& gravity);
+  /// Lost in the damper, and to steps of another dt, as of the last watched step.
+  Losses losses() const noexcept;
+  Watch watch() const noexcept;
+  Momenta momenta() const noexcept;  // about the origin
+  std::uint64_t hash(std::uint64_t seed) const noexcept;
+  bool is_finite() const noexcept;
+
+ private:
+  using Four = ZeroedArray<Real>;
+  TetContext<Real> context() noexcept;
+  template <class Work>
+  static void each(const ExplicitStep& step, std::size_t n, const Work& work) noexcept;
+  void elements(const TetContext<Real>& m, const ExplicitStep& step,
+                typename TetKernel<Real>::OfBlock kernel) noexcept;
+  double elastic() const noexcept;  // of what was last asked for [J]
+
+  TetModel model_;
+  TetLayout layout_;
+  std::vector<TetConstants<Real>> constants_;
+  ZeroedArray<TetBatch<Real>> batches_;
+  ZeroedArray<Real> bound_, inverse_mass_, share_volume_;
+  std::vector<double> share_energy_;
+  double stiffest_at_rest_ = 0;  // as TetContext::stiffest has it [1/s^2]
+  TetKernel<Real> kernel_;
+
+  Four u_, v_, seen_v_, seen_f_, force_;
+  ZeroedArray<Real> swelling_, mean_;
+  double dt_before_ = 0;  // [s]
+
+  std::vector<double> elastic_, stiffest_, least_J_;  // by block: see TetContext
+  std::vector<double> elastic_of_shares_;             // by chunk: the same
+  std::vector<TetNodeLedger> ledger_;                 // by chunk
+  Watch watch_;
+  double passed_ = 0, viscous_ = 0, numerical_ = 0;  // in all [J]
+  double stiffening_ = 1, least_of_all_J_ = 1;       // of the last watched step; of all
+};
+
+}  // namespace palpate::physics

@@ -1,0 +1,64 @@
+#pragma once
+// Small bodies of tetrahedra for tests.
+
+#include <random>
+
+#include "physics_node/mesh/renumber.h"
+#include "physics_node/mesh/tet_box.h"
+#include "physics_node/step/fem/tetrahedra.h"
+
+namespace palpate::physics::test {
+
+struct TetCube {
+  std::array<int, 3> cells{4, 4, 4};
+  bool nodal = true;
+  double jitter = 0.15;
+  double beta = 0;
+  bool held = false;  // at the bottom
+  bool two_materials = false;
+  double poisson_ratio = 0.45;
+  CubeSplit split = CubeSplit::six;
+};
+
+inline TetModel model_of(const TetCube& cube) {
+  TetModel model;
+  model.mesh =
+      make_tet_box({.cells = cube.cells, .edge = 0.0025, .split = cube.split, .jitter = cube.jitter});
+  model.materials = {{.poisson_ratio = cube.poisson_ratio, .nodal_pressure = cube.nodal}};
+  if (cube.two_materials) {
+    model.materials.push_back(
+        {.modulus = 40e3, .poisson_ratio = 0.3, .density = 1500, .nodal_pressure = cube.nodal});
+    for (std::size_t t = 0; t < model.mesh.tets.size() / 2; ++t) model.mesh.region[t] = 1;
+  }
+  model.beta = cube.beta;
+  renumber(model.mesh);
+  if (cube.held)
+    for (const Vec3& x : model.mesh.nodes) model.held.push_back(x.z() < 1e-9);
+  return model;
+}
+
+/// Numbers in [-1, 1), the same for the same seed.
+class Dice {
+ public:
+  explicit Dice(std::uint64_t seed) : engine_(seed) {}
+  double operator()() { return static_cast<double>(engine_() >> 11) * 0x1p-52 - 1; }
+  Vec3 vector() {
+    const double x = (*this)(), y = (*this)();
+    return {x, y, (*this)()};
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+/// Moves all free nodes at random, by and with at most these along each axis.
+template <class Real>
+void stir(Tetrahedra<Real>& body, double displacement, double velocity, std::uint64_t seed = 1) {
+  Dice dice(seed);
+  for (Index n = 0; n < static_cast<Index>(body.n_nodes()); ++n) {
+    const Vec3 u = displacement * dice.vector(), v = velocity * dice.vector();
+    if (body.inverse_mass(n) > 0) body.place(n, u, v);
+  }
+}
+
+}  // namespace palpate::physics::test
