@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <sstream>
 
 #include "bench/peers/lammps_files.h"
 #include "bench/peers/solver.h"
@@ -17,15 +16,6 @@ namespace palpate::bench {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The program of this name on PATH, or an empty path.
-fs::path on_path(const std::string& name) {
-  const char* path = std::getenv("PATH");
-  std::istringstream folders(path == nullptr ? "" : path);
-  for (std::string folder; std::getline(folders, folder, ':');)
-    if (!folder.empty() && deploy::is_program(fs::path(folder) / name)) return fs::path(folder) / name;
-  return {};
-}
 
 class LammpsSolver final : public Solver {
  public:
@@ -100,11 +90,11 @@ Peer lammps_peer() {
       "Same springs, same scheme, same steps; double precision only (Debian's build has no single or mixed "
       "one, and no threads or vectors for bonds), and general: it stores every bond, we store none.",
       {}};
-  const fs::path lmp = on_path("lmp");
+  const fs::path lmp = deploy::program_on_path("lmp");
   if (lmp.empty()) return peer;
   peer.version = version_of(lmp);
   peer.solvers.push_back(std::make_unique<LammpsSolver>(lmp, fs::path(), 1));
-  const fs::path mpirun = on_path("mpirun");
+  const fs::path mpirun = deploy::program_on_path("mpirun");
   if (!mpirun.empty()) peer.solvers.push_back(std::make_unique<LammpsSolver>(lmp, mpirun, 2));
   return peer;
 }
