@@ -8,6 +8,9 @@ palpate_test(NAME physics_laws_test KIND property
           physics_energy_test.cpp physics_books_test.cpp physics_sleep_test.cpp physics_construction_test.cpp
   LIBS palpate_physics_worlds)
 palpate_test(NAME physics_elements_test KIND property SOURCES physics_elements_test.cpp LIBS palpate_physics_worlds palpate_bench_problems)
+# Finite elements against what is known: closed forms, and CalculiX where it is installed.
+palpate_test(NAME physics_solids_test KIND property SOURCES physics_calculix_test.cpp physics_solids_test.cpp physics_large_strain_test.cpp physics_presses_test.cpp
+  LIBS palpate_physics_worlds palpate_bench_problems palpate_bench_solids)
 # The reference problems of palpate bench, held to the figures that the docs promise.
 palpate_test(NAME physics_closed_forms_test KIND property SOURCES physics_closed_forms_test.cpp
   LIBS palpate_bench_problems)
