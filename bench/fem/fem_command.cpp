@@ -7,6 +7,7 @@
 #include "bench/fem/hex_cost.h"
 #include "bench/fem/hex_work.h"
 #include "bench/fem/spring_beam.h"
+#include "bench/fem/tet_rows.h"
 #include "bench/machine/limits.h"
 #include "bench/machine/result_folder.h"
 #include "bench/problems/hex_beam.h"
@@ -111,7 +112,9 @@ int run_fem(const Options& options) {
               {}};
   nlohmann::json json;
   json["kernel"] = kernel_rows(options.rounds, table);
+  json["tet_kernel"] = tet_kernel_rows(options.rounds, fma_flops_per_s(true), table);
   json["beam"] = beam_rows();
+  json["tet_beam"] = tet_beam_rows();
   folder.write_csv(table);
   folder.write_json(json);
   fmt::print("results: {}\n", options.out);

@@ -2,35 +2,11 @@
 
 #include <array>
 
+#include "bench/fem/counting.h"
 #include "physics_node/material/stable_neo_hookean.h"
 #include "physics_node/step/fem/hex_relaxation.h"
 
 namespace palpate::bench {
-namespace {
-
-thread_local double counted = 0;
-
-/// A number whose operations count, and that is zero.
-struct Counting {
-  friend Counting operator+(Counting, Counting) { return one(); }
-  friend Counting operator-(Counting, Counting) { return one(); }
-  friend Counting operator*(Counting, Counting) { return one(); }
-  Counting operator-() const { return {}; }  // part of a fused operation
-  Counting& operator+=(Counting) { return counted += 1, *this; }
-  friend bool operator>(Counting, Counting) { return true; }
-
- private:
-  static Counting one() { return counted += 1, Counting{}; }
-};
-
-struct CountingPack {
-  using V = Counting;
-  using Number = double;
-  static V all(double) noexcept { return {}; }
-  static V fma(V, V, V) noexcept { return counted += 2, V{}; }
-};
-
-}  // namespace
 
 double flops_per_cell(const HexCubeKind& kind) {
   using physics::StableNeoHookean;
