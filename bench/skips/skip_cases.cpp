@@ -6,6 +6,7 @@
 #include "bench/problems/settings.h"
 #include "common/record/volume.h"
 #include "common/scene/body_spec.h"
+#include "common/scene/element_kinds.h"
 #include "common/scene/material_spec.h"
 #include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
@@ -59,6 +60,54 @@ SkipCase sleep() {
   return c;
 }
 
+/// About 14,000 cells of soft tissue, held below, four steps a frame.
+Scene solid_block() {
+  Scene scene = block();
+  scene.bodies = {box_body(LatticeKind::voxel, Vec3(0.06, 0.06, 0.06), 0.0025)};
+  scene.bodies[0].fixed_faces[4] = true;
+  scene.bodies[0].model = ElementModel::fem;
+  scene.physics->step = 0.25e-3;
+  return scene;
+}
+
+SkipCase solid_damper() {
+  SkipCase c{"damper of elements", "elastic", "the same with viscosity", solid_block(), solid_block()};
+  c.full.materials[0].viscosity_bulk = 0.2;
+  return c;
+}
+
+SkipCase solid_hourglass() {
+  SkipCase c{"bending terms of elements", "isotropic", "physical", solid_block(), solid_block()};
+  c.lean.bodies[0].hourglass = HourglassKind::isotropic;
+  return c;
+}
+
+SkipCase solid_one_material() {
+  SkipCase c{"materials of elements", "one material", "half of it another material", solid_block(),
+             solid_block()};
+  MaterialSpec other = c.full.materials[0];
+  other.name = "other";
+  other.modulus = 5e3;
+  c.full.materials.push_back(other);
+  c.full.bodies[0].regions = {{"other", BoxRegion{Vec3(-1, -1, 0), Vec3(1, 1, 1)}, {}}};
+  return c;
+}
+
+SkipCase solid_memory() {
+  SkipCase c{"memory of elements", "lasting", "the same with one term of relaxation", solid_block(),
+             solid_block()};
+  c.full.materials[0].relaxation = {{.share = 0.5, .time = 0.1}};
+  return c;
+}
+
+SkipCase solid_sleep() {
+  SkipCase c{"elements at rest", "at rest and may sleep", "at rest and may not", solid_block(),
+             solid_block()};
+  c.lean.physics->sleep = true;
+  c.shaken = false;
+  return c;
+}
+
 /// Vessels along the three axes through the middle, and a ball of `radius` cells around it: bright; the rest dark.
 Volume vessels(std::array<int, 3> size, int radius) {
   Volume volume;
@@ -99,11 +148,13 @@ Scene volume_scene(const std::filesystem::path& file, std::array<int, 3> size, i
   return scene;
 }
 
-SkipCase rigid_part(const std::filesystem::path& folder) {
+SkipCase rigid_part(const std::filesystem::path& folder, ElementModel model) {
   constexpr int radius = 13;  // 27^3 cells
-  SkipCase c{"rigid part", "27 x 27 x 27 voxels of tissue alone", "the same in 336 x 336 x 140",
+  SkipCase c{model == ElementModel::fem ? "rigid part beside elements" : "rigid part",
+             "27 x 27 x 27 voxels of tissue alone", "the same in 336 x 336 x 140",
              volume_scene(folder / "small.h5", {29, 29, 29}, radius),
              volume_scene(folder / "large.h5", {336, 336, 140}, radius)};
+  for (Scene* scene : {&c.lean, &c.full}) scene->bodies[0].model = model;
   c.frames = 50;
   return c;
 }
@@ -111,7 +162,17 @@ SkipCase rigid_part(const std::filesystem::path& folder) {
 }  // namespace
 
 std::vector<SkipCase> skip_cases(const std::filesystem::path& folder) {
-  return {damper(), yield(), one_material(), sleep(), rigid_part(folder)};
+  return {damper(),
+          yield(),
+          one_material(),
+          sleep(),
+          rigid_part(folder, ElementModel::springs),
+          solid_damper(),
+          solid_hourglass(),
+          solid_one_material(),
+          solid_memory(),
+          solid_sleep(),
+          rigid_part(folder, ElementModel::fem)};
 }
 
 }  // namespace palpate::bench

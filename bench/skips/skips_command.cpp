@@ -54,7 +54,7 @@ int run_skips(const Options& options) {
     }
     const SceneCost a = middle(lean), b = middle(full);
     fmt::print(
-        "{:22} {:9.1f} us a frame  {:44} {:6.1f} MB\n{:22} {:9.1f} us a frame  {:44} {:6.1f} MB  {:.2f} "
+        "{:26} {:9.1f} us a frame  {:44} {:6.1f} MB\n{:26} {:9.1f} us a frame  {:44} {:6.1f} MB  {:.2f} "
         "times\n",
         c.skip, a.us_per_frame, c.without, a.load_MB, "", b.us_per_frame, c.with, b.load_MB,
         b.us_per_frame / a.us_per_frame);

@@ -87,8 +87,21 @@ TEST_P(SolidBody, KeepsMomentumAngularMomentumAndEnergy) {
   EXPECT_LT((world.body(0).momenta().linear - before.linear).norm(),
             (is_double() ? 1e-12 : 1e-4) * balance.linear);
   EXPECT_GT(start, 0);
-  EXPECT_LT(world.ledger().balance_error(), 3e-3)
+  EXPECT_LT(world.ledger().balance_error(), 8e-3)
       << "cells shaken one against the other, by 5 % of their edges";
+}
+
+TEST_P(SolidBody, KeepsTheEnergyOfShakenCellsToSecondOrder) {
+  std::array<double, 2> error{};
+  for (std::size_t n = 0; n < error.size(); ++n) {
+    Recipe recipe = box(50, 40, 30, 5);
+    recipe.physics = n == 0 ? "safety = 0.8" : "safety = 0.2";
+    World world(scene_of(recipe));
+    shake(world, 0.5, 3);
+    run(world, 0.5);
+    error[n] = world.ledger().balance_error();
+  }
+  EXPECT_LT(error[1], error[0] / 12) << error[0] << " at four times the step";
 }
 
 TEST_P(SolidBody, KeepsTheEnergyOfASmoothMotion) {
@@ -152,6 +165,19 @@ TEST_P(SolidBody, WeighsWhatItsCellsWeigh) {
   EXPECT_NEAR(mass, 0.05 * 0.04 * 0.03 * (0.5 * 1000 + 0.5 * 3000), 1e-12);
   run(world, 0.1);  // and falls as a whole
   EXPECT_NEAR(world.body(0).momenta().linear.z(), -mass * 10 * 0.1, 1e-5 * mass);
+}
+
+TEST_P(SolidBody, TakesNoMoreStepsWhereItFliesThanWhereItRests) {
+  // A round body has gaps in its rows of cells: what lies in a gap is not squeezed, however far the body has gone.
+  const auto steps = [this](const char* velocity) {
+    Recipe recipe = box(60, 60, 60, 5);
+    recipe.shape = Recipe::sphere(30);
+    recipe.body += std::string("\nvelocity_m_per_s = ") + velocity;
+    World world(scene_of(recipe));
+    run(world, 0.5);
+    return world.report().steps;
+  };
+  EXPECT_EQ(steps("[0.3, 0.5, -1]"), steps("[0, 0, 0]"));
 }
 
 TEST_P(SolidBody, SurvivesAFallFasterThanItsWaves) {

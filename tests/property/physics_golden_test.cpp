@@ -48,6 +48,30 @@ Recipe ball(const char* lattice, const char* precision, const char* integrator, 
   return recipe;
 }
 
+struct SolidKind {
+  const char *name, *law, *hourglass;
+  double lag_ms;  // viscosity over modulus
+};
+
+/// Such a ball of finite elements, with a stiffer half.
+Recipe solid_ball(const char* precision, const SolidKind& kind) {
+  Recipe recipe = ball("voxel", precision, "symplectic_euler", "");
+  const auto material = [&kind](double modulus_kPa) {
+    return fmt::format(
+        "density_kg_per_m3 = 1000\npoisson_ratio = 0.45\nmodulus_kPa = {}\nviscosity_Pa_s = {}\n{}\n",
+        modulus_kPa, modulus_kPa * kind.lag_ms, kind.law);
+  };
+  recipe.spacing_mm = 6;
+  recipe.material = material(10);
+  recipe.body += fmt::format(
+      "\nmodel = \"fem\"\nhourglass = \"{}\"\nregions = [{{ material = \"stiff\", box_min_mm = [0, -99, "
+      "-99], "
+      "box_max_mm = [99, 99, 99] }}]",
+      kind.hourglass);
+  recipe.world += "\n[material.stiff]\n" + material(30);
+  return recipe;
+}
+
 std::optional<ToolState> hand_at(std::uint64_t tick, const Vec3& p) {
   ToolState state{};
   state.tick = tick;
@@ -92,6 +116,13 @@ Scene two_balls(const char* lattice) {
 
 std::vector<Golden> all_worlds() {
   std::vector<Golden> all;
+  for (const SolidKind kind :
+       {SolidKind{"elastic", "", "physical", 0}, SolidKind{"isotropic", "", "isotropic", 0},
+        SolidKind{"damped", "", "physical", 0.2},
+        SolidKind{"relaxing", "relaxation = [[0.3, 0.01], [0.2, 1]]", "physical", 0}})
+    for (const char* precision : {"single", "double"})
+      all.push_back({std::string("hexahedra_") + precision + "_" + kind.name,
+                     [=] { return scene_of(solid_ball(precision, kind)); }, nullptr});
   for (const char* lattice : {"fcc", "voxel"}) {
     const std::string of = lattice;
     for (const char* precision : {"single", "double"}) {

@@ -7,9 +7,6 @@ namespace {
 
 constexpr Index lanes = 16;  // of the widest vector
 
-// Why: shares of two threads then differ by a tenth at most, and few masses wait.
-constexpr std::size_t most_slabs = 16;
-
 /// Layers of cells and masses, by the planes of z in which they begin.
 std::vector<HexLayer> layers_of(const HexGrid& grid, const Lattice& lattice) {
   std::vector<HexLayer> layers(static_cast<std::size_t>(lattice.size.z()));
@@ -27,23 +24,42 @@ std::vector<HexLayer> layers_of(const HexGrid& grid, const Lattice& lattice) {
   return layers;
 }
 
-/// Slabs of about as many cells each.
-std::vector<HexSlab> slabs_of(const HexGrid& grid) {
-  Index cells = 0;
-  for (const HexRun& run : grid.runs) cells += run.count;
-  std::vector<HexSlab> slabs{{}};
-  Index swept = 0;
-  for (const HexLayer& layer : grid.layers) {
-    for (Index r = layer.first_run; r < layer.last_run; ++r)
-      swept += grid.runs[static_cast<std::size_t>(r)].count;
-    ++slabs.back().end;
-    if (swept * static_cast<Index>(most_slabs) < cells * static_cast<Index>(slabs.size())) continue;
-    if (slabs.back().end < grid.layers.size()) slabs.push_back({slabs.back().end, slabs.back().end});
+/// Rows with masses at corners of a run.
+void add_rows(const Lattice& lattice, const HexRun& run, const HexGrid& grid, std::vector<Index>& rows) {
+  const auto begin = static_cast<std::ptrdiff_t>(rows.size());
+  for (Index a = 0; a < 8; ++a) {
+    const Index first = run.first + (a & 1) * run.right + (a >> 1 & 1) * grid.up_y + (a >> 2) * grid.up_z;
+    auto row = std::lower_bound(lattice.rows.begin(), lattice.rows.end(), first,
+                                [](const RowSegment& r, Index i) { return r.first + r.count <= i; });
+    for (; row != lattice.rows.end() && row->first < first + run.count; ++row)
+      rows.push_back(static_cast<Index>(row - lattice.rows.begin()));
   }
-  return slabs;
+  std::sort(rows.begin() + begin, rows.end());
+  rows.erase(std::unique(rows.begin() + begin, rows.end()), rows.end());
 }
 
 }  // namespace
+
+void share_out(const HexGrid& grid, std::span<const HexLayer> layers, std::vector<HexSlab>& slabs) {
+  const auto cells_of = [&grid](const HexLayer& layer) {
+    std::int64_t cells = 0;
+    for (Index r = layer.first_run; r < layer.last_run; ++r)
+      cells += grid.runs[static_cast<std::size_t>(r)].count;
+    return cells;
+  };
+  std::int64_t cells = 0, swept = 0;
+  for (const HexLayer& layer : layers) cells += cells_of(layer);
+  slabs.clear();
+  slabs.push_back({});
+  for (const HexLayer& layer : layers) {
+    swept += cells_of(layer);
+    ++slabs.back().end;
+    if (swept * static_cast<std::int64_t>(most_slabs) < cells * static_cast<std::int64_t>(slabs.size()))
+      continue;
+    if (slabs.back().end < layers.size() && slabs.size() <= most_slabs)
+      slabs.push_back({slabs.back().end, slabs.back().end});
+  }
+}
 
 HexGrid make_hex_grid(const Body& body) {
   const Lattice& lattice = body.lattice;
@@ -69,7 +85,12 @@ HexGrid make_hex_grid(const Body& body) {
   }
   grid.runs_of_row.push_back(static_cast<Index>(run));
   grid.layers = layers_of(grid, lattice);
-  grid.slabs = slabs_of(grid);
+  share_out(grid, grid.layers, grid.slabs);
+  for (const HexRun& each : grid.runs) {
+    grid.rows_begin.push_back(static_cast<Index>(grid.rows.size()));
+    add_rows(lattice, each, grid, grid.rows);
+  }
+  grid.rows_begin.push_back(static_cast<Index>(grid.rows.size()));
   return grid;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // The cells of a voxel body as runs that a kernel sweeps, and what they weigh.
 
+#include <span>
 #include <vector>
 
 #include "physics_node/body/body.h"
@@ -28,15 +29,28 @@ struct HexSlab {
   std::size_t begin = 0, end = 0;
 };
 
+inline constexpr std::size_t most_slabs =
+    16;  // Why: shares of two threads then differ by a tenth at most, and few masses wait
+
 struct HexGrid {
   std::vector<HexRun> runs;  // in the order of the storage cells
   std::vector<Index>
       runs_of_row;  // those whose lowest corners lie in row r of the lattice: [r] up to [r + 1]  (n_rows + 1)
   std::vector<HexLayer> layers;  // upwards
   std::vector<HexSlab> slabs;
+  std::vector<Index> rows,
+      rows_begin;            // in which the corners of run r lie: rows[rows_begin[r]] and on  (n_runs + 1)
   Index up_y = 0, up_z = 0;  // from the storage cell of a corner to that of the next along y, along z
+
+  std::span<const Index> rows_of(std::size_t run) const noexcept {
+    return std::span(rows).subspan(static_cast<std::size_t>(rows_begin[run]),
+                                   static_cast<std::size_t>(rows_begin[run + 1] - rows_begin[run]));
+  }
 };
 
 HexGrid make_hex_grid(const Body& body);
+
+/// Slabs of about as many cells each, of layers as they are. Contract: allocates nothing where there is room for most_slabs + 1.
+void share_out(const HexGrid& grid, std::span<const HexLayer> layers, std::vector<HexSlab>& slabs);
 
 }  // namespace palpate::physics

@@ -1,6 +1,8 @@
 #pragma once
 // All that the kernel of hexahedra needs for one step, and where it is.
 
+#include <cstdint>
+
 #include "physics_node/step/fem/hex_constants.h"
 #include "physics_node/step/fem/hex_relaxation.h"
 #include "physics_node/step/lattice/element_context.h"
@@ -15,9 +17,10 @@ struct HexContext {
   ElementContext<Real> masses;  // how they move; its f is `low`
   const HexRun* runs;
   const Index* runs_of_row;
-  const Real* stiffness;  // of a cell in units of the body's own, by its lowest corner; 0: none  (n_cells)
-  Real* high[3];          // zero between steps [N]                                               (n_cells)
-  Real* seen_v[3];        // velocity and force one step ago; only damped [m/s, N]                (n_cells)
+  const std::uint8_t* acts;  // of each run, 0: all around it sleeps; null: all act
+  const Real* stiffness;     // of a cell in units of the body's own, by its lowest corner; 0: none  (n_cells)
+  Real* high[3];             // zero between steps [N]                                               (n_cells)
+  Real* seen_v[3];           // velocity and force one step ago; only damped [m/s, N]                (n_cells)
   Real* seen_f[3];
   double* elastic;   // of each run at u, when watched [J]
   double* ahead;     // how much more it would be at u + beta v, when watched; only damped [J]

@@ -85,7 +85,8 @@ void run_forces(const HexContext<Real>& m, std::size_t r) {
       lost_before = P::fma(stiffness, lost.before, lost_before);
       lost_after = P::fma(stiffness, lost.after, lost_after);
     }
-    stiffest = P::larger(stiffest, out.stiffness);
+    // Lanes without a cell see the corners of others: what strain that makes is nobody's.
+    stiffest = P::larger(stiffest, stiffness > V{} ? out.stiffness : V{});
     for (std::size_t c = 0; c < 3; ++c)
       for (std::size_t a = 0; a < 8; ++a) {
         Real* f = (a < 4 ? m.masses.f[c] : m.high[c]) + i + at[a];
@@ -121,12 +122,55 @@ void run_forces(const HexContext<Real>& m, std::size_t r) {
 
 template <class Real, bool physical, bool damped, bool relaxing>
 void forces(const HexContext<Real>& m, Index first_run, Index last_run) {
-  for (auto r = static_cast<std::size_t>(first_run); r < static_cast<std::size_t>(last_run); ++r)
+  for (auto r = static_cast<std::size_t>(first_run); r < static_cast<std::size_t>(last_run); ++r) {
+    if (m.acts != nullptr && m.acts[r] == 0) continue;
     m.masses.watch || !m.books ? run_forces<Real, physical, damped, relaxing, true>(m, r)
                                : run_forces<Real, physical, damped, relaxing, false>(m, r);
+  }
 }
 
-/// Moves the masses of some rows with what all cells around them gave, and clears it.
+/// Clears what cells gave to a row that is nobody's business: not all cells around it have given.
+template <class Real>
+void forget_forces(const HexContext<Real>& m, const RowSegment& row) {
+  using P = Pack<Real>;
+  for (Index i = row.first; i < row.first + row.count; i += P::width)
+    for (int a = 0; a < 3; ++a) {
+      P::store(m.high[a] + i, typename P::V{});
+      P::store(m.masses.f[a] + i, typename P::V{});
+    }
+}
+
+/// Moves the masses of a row with what all cells around them gave, and clears it. Rows at a rim stand.
+/// @return by how much f + f' and v' - v went together: see move()
+template <class Real, bool damped, bool stands>
+typename Pack<Real>::V move_row(const HexContext<Real>& m, const RowSegment& row, Watched<Real>& watched) {
+  using P = Pack<Real>;
+  using V = typename P::V;
+  V lost{};
+  for (Index i = row.first; i < row.first + row.count; i += P::width) {
+    Masses<Real> p;
+    p.i = i;
+    for (int a = 0; a < 3; ++a) {
+      p.u[a] = P::load(m.masses.u[a] + i);
+      p.v[a] = P::load(m.masses.v[a] + i);
+      p.f[a] = P::load(m.high[a] + i) + P::load(m.masses.f[a] + i);
+      P::store(m.high[a] + i, V{});
+      if constexpr (damped) {
+        if (m.books)
+          lost = P::fma(p.f[a] + P::load(m.seen_f[a] + i), p.v[a] - P::load(m.seen_v[a] + i), lost);
+        P::store(m.seen_f[a] + i, p.f[a]);
+        P::store(m.seen_v[a] + i, p.v[a]);
+      }
+    }
+    if constexpr (stands)
+      hold_masses(m.masses, p, watched);
+    else
+      move_masses<Real, false, false>(m.masses, p, watched);
+  }
+  return lost;
+}
+
+/// Moves the masses of some rows, and books them.
 ///
 /// The damper's loss. A step changes K = sum of m v(-) . v(+) / 2 and W(w), the elastic energy at w = u + beta v, together by
 ///   - beta/2 (f + f') . (v' - v),   exactly for linear elasticity,
@@ -135,30 +179,20 @@ void forces(const HexContext<Real>& m, Index first_run, Index last_run) {
 template <class Real, bool damped, bool relaxing>
 void move(const HexContext<Real>& m, Index first_row, Index last_row) {
   using P = Pack<Real>;
-  using V = typename P::V;
   for (auto r = static_cast<std::size_t>(first_row); r < static_cast<std::size_t>(last_row); ++r) {
+    const RowState state = m.masses.row_state[r];
+    if (state == RowState::asleep) continue;
     const RowSegment row = m.masses.rows[r];
     RowLedger& ledger = m.masses.ledger[r];
     Watched<Real> watched;
     if (m.masses.watch || m.masses.begins) watched.clear();
-    V lost{};
-    for (Index i = row.first; i < row.first + row.count; i += P::width) {
-      Masses<Real> p;
-      p.i = i;
-      for (int a = 0; a < 3; ++a) {
-        p.u[a] = P::load(m.masses.u[a] + i);
-        p.v[a] = P::load(m.masses.v[a] + i);
-        p.f[a] = P::load(m.high[a] + i) + P::load(m.masses.f[a] + i);
-        P::store(m.high[a] + i, V{});
-        if constexpr (damped) {
-          if (m.books)
-            lost = P::fma(p.f[a] + P::load(m.seen_f[a] + i), p.v[a] - P::load(m.seen_v[a] + i), lost);
-          P::store(m.seen_f[a] + i, p.f[a]);
-          P::store(m.seen_v[a] + i, p.v[a]);
-        }
-      }
-      move_masses<Real, false, false>(m.masses, p, watched);
-    }
+    [[maybe_unused]] typename P::V lost{};
+    if (state == RowState::awake)
+      lost = move_row<Real, damped, false>(m, row, watched);
+    else if (state == RowState::rim)
+      lost = move_row<Real, damped, true>(m, row, watched);
+    else
+      forget_forces(m, row);
     double elastic = 0, ahead = 0, lost_before = 0, lost_after = 0;
     for (Index n = m.runs_of_row[r]; n < m.runs_of_row[r + 1]; ++n) {
       elastic += m.elastic[n];
@@ -176,7 +210,7 @@ void move(const HexContext<Real>& m, Index first_row, Index last_row) {
     if (m.masses.begins) ledger.numerical += static_cast<double>(P::sum(watched.begun));
     if (!m.masses.watch) continue;
     ledger.elastic = elastic;
-    book_watched(watched, RowState::awake, ledger);
+    if (state != RowState::far_rim) book_watched(watched, state, ledger);
   }
 }
 

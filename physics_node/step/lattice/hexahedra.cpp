@@ -134,6 +134,7 @@ double bound_at_rest(const Body& body, const HexConstants<double>& k) {
 template <class Real>
 Hexahedra<Real>::Hexahedra(const Body& body)
     : grid_(make_hex_grid(body)),
+      acting_(grid_),
       elastic_(grid_.runs.size()),
       ahead_(grid_.runs.size()),
       least_J_(grid_.runs.size(), 1.0),
@@ -162,8 +163,33 @@ Hexahedra<Real>::Hexahedra(const Body& body)
 }
 
 template <class Real>
+void Hexahedra<Real>::follow_rows(const Body& body, LatticeState<Real>& state) noexcept {
+  if (row_changes_ == state.row_changes) return;
+  row_changes_ = state.row_changes;
+  acting_.follow(grid_, state.row_state);
+  if (body.solid->beta == 0) return;
+  // What falls asleep has lost its velocity at once: the damper of a cell that stands is not ahead of it.
+  for (std::size_t run = 0; run < grid_.runs.size(); ++run)
+    if (!acting_.acts(static_cast<Index>(run))) ahead_[run] = 0;
+  for (std::size_t r = 0; r < body.lattice.rows.size(); ++r) {
+    if (state.row_state[r] == RowState::awake) continue;
+    const RowSegment& row = body.lattice.rows[r];
+    double lost = 0;
+    for (Index i = row.first; i < row.first + row.count; ++i) {
+      lost -= vector_of(seen_f_, i).dot(vector_of(seen_v_, i));
+      for (auto& axis : seen_v_) axis[static_cast<std::size_t>(i)] = 0;
+    }
+    passed_[r] += body.solid->beta * lost;
+    state.ledger[r].viscous = passed_[r];
+    for (Index n = grid_.runs_of_row[r]; n < grid_.runs_of_row[r + 1]; ++n)
+      state.ledger[r].viscous += ahead_[static_cast<std::size_t>(n)];
+  }
+}
+
+template <class Real>
 StepOutcome Hexahedra<Real>::step(const Body& body, LatticeState<Real>& state,
                                   const ExplicitStep& step) noexcept {
+  follow_rows(body, state);
   HexContext<Real> m = {};
   ElementContext<Real>& masses = m.masses;
   masses.rows = body.lattice.rows.data();
@@ -185,6 +211,7 @@ StepOutcome Hexahedra<Real>::step(const Body& body, LatticeState<Real>& state,
   masses.watch = step.watch;
   m.runs = grid_.runs.data();
   m.runs_of_row = grid_.runs_of_row.data();
+  m.acts = acting_.flags();
   m.stiffness = stiffness_.data();
   m.elastic = elastic_.data();
   m.ahead = ahead_.data();
@@ -204,23 +231,30 @@ StepOutcome Hexahedra<Real>::step(const Body& body, LatticeState<Real>& state,
   m.k = constants_;
   const auto forces = [&](const HexLayer& l) { kernel_.forces(m, l.first_run, l.last_run); };
   const auto move = [&](const HexLayer& l) { kernel_.move(m, l.first_row, l.last_row); };
+  const std::span layers = acting_.layers();
+  const std::span slabs = acting_.slabs();
   const auto sweep = [&](std::size_t n) {
-    const HexSlab slab = grid_.slabs[n];
-    for (std::size_t l = slab.begin; l < slab.end; ++l) {
-      forces(grid_.layers[l]);
-      if (l > slab.begin) move(grid_.layers[l]);
+    for (std::size_t l = slabs[n].begin; l < slabs[n].end; ++l) {
+      forces(layers[l]);
+      if (l > slabs[n].begin) move(layers[l]);
     }
   };
-  const auto move_lowest = [&](std::size_t n) { move(grid_.layers[grid_.slabs[n].begin]); };
+  const auto move_lowest = [&](std::size_t n) { move(layers[slabs[n].begin]); };
   if (step.team != nullptr && step.threads > 1) {
-    step.team->each(grid_.slabs.size(), step.threads, sweep);
-    step.team->each(grid_.slabs.size(), step.threads, move_lowest);
+    step.team->each(slabs.size(), step.threads, sweep);
+    step.team->each(slabs.size(), step.threads, move_lowest);
   } else {
-    for (const HexLayer& layer : grid_.layers) forces(layer), move(layer);
+    for (const HexLayer& layer : layers) forces(layer), move(layer);
   }
   state.dt_before = step.dt;
-  if (step.watch) least_corner_J_ = std::min(least_corner_J_, std::ranges::min(least_J_));
-  return {.stiffening = std::ranges::max(stiffest_) / at_rest_, .least_corner_J = least_corner_J_};
+  double stiffest = 0;
+  for (const HexLayer& layer : layers)
+    for (auto r = static_cast<std::size_t>(layer.first_run); r < static_cast<std::size_t>(layer.last_run);
+         ++r) {
+      if (acting_.acts(static_cast<Index>(r))) stiffest = std::max(stiffest, stiffest_[r]);
+      if (step.watch) least_corner_J_ = std::min(least_corner_J_, least_J_[r]);
+    }
+  return {.stiffening = stiffest / at_rest_, .least_corner_J = least_corner_J_};
 }
 
 template <class Real>

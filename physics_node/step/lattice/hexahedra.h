@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "physics_node/step/lattice/hex_acting.h"
 #include "physics_node/step/lattice/hex_grid.h"
 #include "physics_node/step/lattice/hex_kernel.h"
 #include "physics_node/step/lattice/lattice_elements.h"
@@ -10,7 +11,7 @@
 namespace palpate::physics {
 
 /// A step is one sweep upwards, or as many as there are slabs: see HexSlab. Symplectic Euler, and its energy is that of
-/// the leapfrog: see element_step.h. Nothing breaks, and nothing sleeps.
+/// the leapfrog: see element_step.h. Nothing breaks.
 /// Cost: bench/fem.
 template <class Real>
 class Hexahedra final : public LatticeElements<Real> {
@@ -23,7 +24,12 @@ class Hexahedra final : public LatticeElements<Real> {
   BodyCounts counts(const Body& body, const LatticeState<Real>& state) const override;
 
  private:
+  /// After rows have fallen asleep or woken: who acts, and what dampers still owe the books of rows that stand.
+  void follow_rows(const Body& body, LatticeState<Real>& state) noexcept;
+
   HexGrid grid_;
+  HexActing acting_;
+  std::uint64_t row_changes_ = 0;  // of the state, when last followed
   HexConstants<Real> constants_;
   ZeroedArray<Real> stiffness_;                   // (n_cells)
   Three<Real> high_;                              // (n_cells)

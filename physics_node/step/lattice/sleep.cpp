@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "physics_node/step/lattice/hex_grid.h"
+
 namespace palpate::physics {
 namespace {
 
@@ -29,19 +31,38 @@ std::vector<Index> rows_beside(const Lattice& lattice, const RowSegment& row) {
   return beside;
 }
 
+/// By row: those that share a run of cells with it.
+std::vector<std::vector<Index>> rows_beside_by_cells(const Body& body) {
+  const HexGrid grid = make_hex_grid(body);
+  std::vector<std::vector<Index>> beside(body.lattice.rows.size());
+  for (std::size_t run = 0; run < grid.runs.size(); ++run)
+    for (const Index row : grid.rows_of(run)) {
+      auto& others = beside[static_cast<std::size_t>(row)];
+      others.insert(others.end(), grid.rows_of(run).begin(), grid.rows_of(run).end());
+    }
+  for (std::size_t r = 0; r < beside.size(); ++r) {
+    std::sort(beside[r].begin(), beside[r].end());
+    beside[r].erase(std::unique(beside[r].begin(), beside[r].end()), beside[r].end());
+    std::erase(beside[r], static_cast<Index>(r));
+  }
+  return beside;
+}
+
 }  // namespace
 
 Sleep::Sleep(const Body& body)
-    : may_sleep_(body.n_held > 0 && !body.solid),
+    : may_sleep_(body.n_held > 0 && !(body.solid && !body.solid->relaxation.empty())),
       quiet_s_(body.lattice.rows.size()),
       masses_of_(body.lattice.rows.size(), 0),
       before_(body.lattice.rows.size()) {
   if (!may_sleep_) return;
   for (const Index cell : body.lattice.masses)
     ++masses_of_[static_cast<std::size_t>(body.lattice.row_of(cell))];
-  for (const RowSegment& row : body.lattice.rows) {
+  std::vector<std::vector<Index>> of_cells;
+  if (body.solid) of_cells = rows_beside_by_cells(body);
+  for (std::size_t r = 0; r < body.lattice.rows.size(); ++r) {
     beside_begin_.push_back(static_cast<Index>(beside_.size()));
-    const auto rows = rows_beside(body.lattice, row);
+    const auto rows = body.solid ? of_cells[r] : rows_beside(body.lattice, body.lattice.rows[r]);
     beside_.insert(beside_.end(), rows.begin(), rows.end());
   }
   beside_begin_.push_back(static_cast<Index>(beside_.size()));
@@ -66,6 +87,7 @@ void Sleep::wake_row(const Body& body, LatticeState<Real>& state, Index row) noe
 
 template <class Real>
 void Sleep::classify(const Body& body, LatticeState<Real>& state) noexcept {
+  ++state.row_changes;
   auto& rows = state.row_state;
   before_ = rows;
   const auto has_beside = [&](std::size_t r, RowState wanted) {
@@ -139,6 +161,7 @@ template <class Real>
 void Sleep::wake_all(const Body& body, LatticeState<Real>& state) noexcept {
   for (std::size_t r = 0; r < state.row_state.size(); ++r) wake_row(body, state, static_cast<Index>(r));
   sleeping_masses_ = 0;
+  ++state.row_changes;
 }
 
 template void Sleep::look(const Body&, LatticeState<float>&, double) noexcept;

@@ -58,6 +58,7 @@ void LatticeState<Real>::reset(const Body& body) {
   breaks = 0;
   fresh.replace_all();
   std::fill(row_state.begin(), row_state.end(), RowState::awake);
+  ++row_changes;
   std::fill(ledger.begin(), ledger.end(), RowLedger{});
 }
 

@@ -49,6 +49,7 @@ struct LatticeState {
 
   std::array<SlotList<Real>, max_row_kinds> all, level, up;  // constant: see ElementContext
   std::vector<RowState> row_state;                           // by row
+  std::uint64_t row_changes = 0;                             // how often row_state was another one
   std::vector<RowLedger> ledger;                             // by row
   std::int64_t breaks = 0;                                   // of all rows, when the masks were last mirrored
   FreshBreaks fresh;                                         // of the last step; only where a material yields
