@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 #include <utility>
 
 #include "physics_node/step/lattice/pack.h"
@@ -29,9 +30,6 @@ inline __attribute__((always_inline)) V chosen(const Half& a, const Half& b, Pic
                                                std::integer_sequence<int, n...>) {
   return __builtin_shufflevector(a, b, Pick::of(n)...);
 }
-struct OneAfterTheOther {
-  static constexpr int of(int n) { return n; }
-};
 /// In each block of four of two vectors of W: low or high entries in turns; or the low or high halves one after the other.
 template <int W, bool high>
 struct InTurns {
@@ -55,30 +53,44 @@ inline __attribute__((always_inline)) void transpose(V (&r)[4]) {
   r[2] = chosen<V>(c, d, Halves<W, false>{}, all), r[3] = chosen<V>(c, d, Halves<W, true>{}, all);
 }
 
+/// Calls work(0), work(1), ... one after the other, without a loop.
+template <int n, class Work>
+inline __attribute__((always_inline)) void unrolled(const Work& work) {
+  [&]<int... i>(std::integer_sequence<int, i...>) __attribute__((always_inline)) { (work(i), ...); }
+  (std::make_integer_sequence<int, n>{});
+}
+
+/// Where the vector of a corner is: see TetBatch::corner.
+template <class Real>
+inline __attribute__((always_inline)) Real* node_at(Real* nodes, std::uint16_t corner) {
+  using Byte = std::conditional_t<std::is_const_v<Real>, const char, char>;
+  return reinterpret_cast<Real*>(reinterpret_cast<Byte*>(nodes) + 8 * static_cast<std::size_t>(corner));
+}
+/// The same of one number for each node.
+template <class Real>
+inline __attribute__((always_inline)) Real& number_at(Real* numbers, std::uint16_t corner) {
+  return *reinterpret_cast<Real*>(reinterpret_cast<char*>(numbers) + 2 * static_cast<std::size_t>(corner));
+}
+
 /// Vectors of the nodes of every fourth lane, one after the other.
 template <class Real, class P = Pack<Real>, class V = typename P::V>
 inline __attribute__((always_inline)) void join(const Real* nodes, const std::uint16_t* corner, V& out) {
-  using Q = typename Quad<Real>::V;
-  constexpr int W = P::width;
-  if constexpr (W == 4) {
-    Quad<Real>::load(nodes + 4 * corner[0], out);
-  } else {
-    typedef Real Two __attribute__((vector_size(8 * sizeof(Real))));
-    constexpr auto eight = std::make_integer_sequence<int, 8>{};
-    Q a, b;
-    Quad<Real>::load(nodes + 4 * corner[0], a);
-    Quad<Real>::load(nodes + 4 * corner[16], b);
-    if constexpr (W == 8) {
-      out = chosen<V>(a, b, OneAfterTheOther{}, eight);
-    } else {
-      Q c, d;
-      Quad<Real>::load(nodes + 4 * corner[32], c);
-      Quad<Real>::load(nodes + 4 * corner[48], d);
-      const Two low = chosen<Two>(a, b, OneAfterTheOther{}, eight),
-                high = chosen<Two>(c, d, OneAfterTheOther{}, eight);
-      out = chosen<V>(low, high, OneAfterTheOther{}, std::make_integer_sequence<int, 16>{});
-    }
-  }
+  const auto at = [&](int n) __attribute__((always_inline)) { return node_at(nodes, corner[16 * n]); };
+  if constexpr (P::width == 4) std::memcpy(&out, at(0), sizeof(V));
+#if defined(__AVX2__)
+  const auto pair = [&](auto n) __attribute__((always_inline)) {
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(at(n))), _mm_loadu_ps(at(n + 1)), 1);
+  };
+  if constexpr (P::width == 8 && sizeof(Real) == 4) out = reinterpret_cast<V>(pair(0));
+#endif
+#if defined(__AVX512F__)
+  if constexpr (P::width == 16)
+    out = reinterpret_cast<V>(
+        _mm512_insertf64x4(_mm512_castps_pd(_mm512_castps256_ps512(pair(0))), _mm256_castps_pd(pair(2)), 1));
+  if constexpr (P::width == 8 && sizeof(Real) == 8)
+    out = reinterpret_cast<V>(
+        _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(at(0))), _mm256_loadu_pd(at(1)), 1));
+#endif
 }
 
 /// The four entries of one corner of each lane. @param corner  of the first lane; those of the next lie four further
@@ -86,12 +98,12 @@ template <class Real, class P = Pack<Real>, class V = typename P::V>
 inline __attribute__((always_inline)) void load_corner(const Real* nodes, const std::uint16_t* corner,
                                                        V (&out)[4]) {
   if constexpr (P::width >= 4) {
-    for (int n = 0; n < 4; ++n) join<Real>(nodes, corner + 4 * n, out[n]);
+    unrolled<4>([&](int n) __attribute__((always_inline)) { join<Real>(nodes, corner + 4 * n, out[n]); });
     transpose<P>(out);
   } else {
     for (int i = 0; i < 4; ++i) {
       Real lanes[P::width];
-      for (int lane = 0; lane < P::width; ++lane) lanes[lane] = nodes[4 * corner[4 * lane] + i];
+      for (int lane = 0; lane < P::width; ++lane) lanes[lane] = node_at(nodes, corner[4 * lane])[i];
       out[i] = P::load(lanes);
     }
   }

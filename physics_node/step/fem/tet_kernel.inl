@@ -42,12 +42,12 @@ template <class P, class Real, class V = typename P::V>
 inline __attribute__((always_inline)) void load_corners(const Real* copy, const TetBatch<Real>& batch,
                                                         std::size_t lane, std::array<Column<V>, 4>& u,
                                                         V& fourth) {
-  for (std::size_t a = 0; a < 4; ++a) {
+  unrolled<4>([&](int a) __attribute__((always_inline)) {
     V entries[4];
     load_corner<Real>(copy, batch.corner[lane] + a, entries);
-    for (std::size_t i = 0; i < 3; ++i) u[a][i] = entries[i];
+    for (std::size_t i = 0; i < 3; ++i) u[static_cast<std::size_t>(a)][i] = entries[i];
     fourth += entries[3];
-  }
+  });
 }
 
 /// V_t / 4 (J_t - 1) of each tetrahedron to its corners.
@@ -70,8 +70,10 @@ void swell(const TetContext<Real>& m, std::size_t b) {
       const V change = tet_volume_change<P>(load_slopes<P>(batch, lane), u);
       P::store(share + lane, P::load(batch.volume + lane) * change * P::all(Real(0.25)));
     }
-    for (std::size_t lane = 0; lane < tet_lanes; ++lane)
-      for (std::size_t a = 0; a < 4; ++a) swelling[batch.corner[lane][a]] += share[lane];
+    unrolled<tet_lanes>([&](int lane) __attribute__((always_inline)) {
+      const Real of_lane = share[lane];
+      for (const std::uint16_t corner : batch.corner[lane]) number_at(swelling, corner) += of_lane;
+    });
   }
 }
 
@@ -134,20 +136,22 @@ void block_forces(const TetContext<Real>& m, std::size_t b) {
       }
       if constexpr (with_forces) {
         alignas(64) Real forces[4][4 * P::width];
-        for (std::size_t a = 0; a < 4; ++a) {
-          V entries[4] = {out.f[a][0], out.f[a][1], out.f[a][2], V{}};
+        unrolled<4>([&](int a) __attribute__((always_inline)) {
+          const Column<V>& f = out.f[static_cast<std::size_t>(a)];
+          V entries[4] = {f[0], f[1], f[2], V{}};
           store_corner<Real>(entries, forces[a]);
-        }
+        });
         // Lane after lane, so that the order is that of the list.
-        for (int l = 0; l < P::width; ++l) {
+        unrolled<P::width>([&](int l) __attribute__((always_inline)) {
           const std::uint16_t* corner = batch.corner[lane + static_cast<std::size_t>(l)];
-          for (std::size_t a = 0; a < 4; ++a) {
+          for (int a = 0; a < 4; ++a) {
             typename Q::V sum, f;
-            Q::load(sums + 4 * corner[a], sum);
+            Real* at = node_at(sums, corner[a]);
+            Q::load(at, sum);
             Q::load(forces[a] + place_of<P>(l), f);
-            Q::store(sums + 4 * corner[a], sum + f);
+            Q::store(at, sum + f);
           }
-        }
+        });
       }
     }
   }

@@ -16,12 +16,16 @@ inline constexpr std::size_t most_block_tets = 1024;
 /// Why: with its copy and its part, 24 KiB in single precision. A good order needs 300.
 inline constexpr std::size_t most_block_nodes = 768;
 
+/// Of TetBatch::corner for each node of the block.
+template <class Real>
+inline constexpr std::size_t corner_step = 4 * sizeof(Real) / 8;
+
 /// Sixteen tetrahedra side by side. Lanes that are left over have no volume and no slopes, and act on a node of the block.
 template <class Real>
 struct TetBatch {
   Real slope[3][3][tet_lanes];         // of corners 1, 2, 3 [1/m]
   Real volume[tet_lanes];              // [m^3]
-  std::uint16_t corner[tet_lanes][4];  // as nodes of the block
+  std::uint16_t corner[tet_lanes][4];  // where in vectors of the block's nodes, four numbers each [8 bytes]
 };
 
 struct TetBlock {

@@ -16,7 +16,8 @@ void fill_batches(const TetModel& model, const TetLayout& layout, ZeroedArray<Te
   for (std::size_t at = 0; at < layout.tet.size(); ++at) {
     TetBatch<Real>& batch = batches[at / tet_lanes];
     const std::size_t lane = at % tet_lanes;
-    for (std::size_t a = 0; a < 4; ++a) batch.corner[lane][a] = layout.corner[4 * at + a];
+    for (std::size_t a = 0; a < 4; ++a)
+      batch.corner[lane][a] = static_cast<std::uint16_t>(corner_step<Real> * layout.corner[4 * at + a]);
     if (layout.tet[at] < 0) continue;
     const auto& corners = model.mesh.tets[static_cast<std::size_t>(layout.tet[at])];
     batch.volume[lane] = static_cast<Real>(signed_volume(model.mesh, corners));
