@@ -25,11 +25,17 @@ namespace {
 constexpr Index masses_worth_a_team = 15000;  // below, a second thread brings little (palpate bench team)
 constexpr int most_substeps = 256;            // of a frame in which something fast is near
 
+/// backward_euler solves springs on one thread, finite elements on as many as there are.
+bool solves_springs(const Scene& scene) {
+  return scene.physics->integrator == Integrator::backward_euler &&
+         std::ranges::none_of(scene.bodies,
+                              [](const BodySpec& body) { return body.model == ElementModel::fem; });
+}
+
 /// @param n_pieces  of the body that has most: more threads than that would have nothing to do
 TeamChoice choose_threads(const Scene& scene, int spare_cores, Index n_masses, std::size_t n_pieces) {
   if (scene.physics->threads > 0) return TeamChoice::always(scene.physics->threads);
-  if (n_masses < masses_worth_a_team || scene.physics->integrator == Integrator::backward_euler)
-    return TeamChoice::always(1);
+  if (n_masses < masses_worth_a_team || solves_springs(scene)) return TeamChoice::always(1);
   const int cores = static_cast<int>(std::thread::hardware_concurrency()) - spare_cores;
   return TeamChoice::up_to(std::clamp(cores, 1, std::max(1, static_cast<int>(n_pieces))));
 }

@@ -46,6 +46,16 @@ void refuse_relaxation(TableReader& reader, const ReadContext& context, const Bo
                                   reader.title(), material.name));
 }
 
+void refuse_implicit_relaxation(TableReader& reader, const ReadContext& context, const BodySpec& spec) {
+  if (context.scene.physics->integrator != Integrator::backward_euler) return;
+  for (const MaterialSpec& material : context.scene.materials)
+    if (material.name == spec.material && !material.relaxation.empty())
+      reader.complain("material",
+                      fmt::format("[material.{}] of {} relaxes, which \"backward_euler\" does not follow; "
+                                  "leave \"integrator\" in [physics] out, or the relaxation",
+                                  material.name, reader.title()));
+}
+
 void refuse_springs(TableReader& reader, const ReadContext& context, const BodySpec& spec) {
   std::vector<std::string> used{spec.material};
   for (const RegionSpec& region : spec.regions) used.push_back(region.material);
@@ -72,13 +82,14 @@ void read_elements(TableReader& reader, ReadContext& context, BodySpec& spec) {
   if (spec.lattice != LatticeKind::voxel)
     reader.complain(
         "model", fmt::format("model = \"fem\" in {} needs cells; write lattice = \"voxel\"", reader.title()));
-  if (context.scene.physics->integrator != Integrator::symplectic_euler)
-    reader.complain("model",
-                    fmt::format("model = \"fem\" in {} is stepped by symplectic Euler; leave \"integrator\" "
-                                "in [physics] out",
-                                reader.title()));
+  if (context.scene.physics->integrator == Integrator::velocity_verlet)
+    reader.complain(
+        "model", fmt::format("model = \"fem\" in {} is stepped by symplectic Euler or backward Euler; leave "
+                             "\"integrator\" in [physics] out, or write \"backward_euler\"",
+                             reader.title()));
   refuse_materials(reader, context, spec);
   refuse_relaxation(reader, context, spec);
+  refuse_implicit_relaxation(reader, context, spec);
 }
 
 }  // namespace palpate

@@ -30,6 +30,8 @@ namespace {
 constexpr double elastic_bytes = 200, elastic_double_bytes = 310;  // of a mass
 // Of finite elements: stiffness and mass of cells and nodes, a second field of forces, and of forces and velocities a step ago.
 constexpr double fem_bytes = 52, fem_double_bytes = 92;
+// Of what backward_euler solves them with: three vectors of Newton's, five of the gradients', those of all levels and their shares.
+constexpr double solved_bytes = 430, solved_double_bytes = 780;
 constexpr double plastic_bytes = 680, plastic_double_bytes = 1030;
 // A point or a stick feels what breaks open: two sites of 9 bytes a mass, and room for a facet.
 constexpr double felt_bytes = 42;
@@ -132,9 +134,12 @@ double bytes_of_masses(double masses, const BodySpec& body, const Scene& scene) 
   const bool doubled = scene.physics->precision == Precision::double_;
   const bool felt = std::any_of(scene.tools.begin(), scene.tools.end(), meets_facets);
   const double fem = body.model != ElementModel::fem ? 0 : doubled ? fem_double_bytes : fem_bytes;
-  return masses *
-         (fem + (plastic ? (doubled ? plastic_double_bytes : plastic_bytes) + (felt ? felt_bytes : 0.0)
-                         : (doubled ? elastic_double_bytes : elastic_bytes)));
+  const bool solved =
+      body.model == ElementModel::fem && scene.physics->integrator == Integrator::backward_euler;
+  const double solver = !solved ? 0 : doubled ? solved_double_bytes : solved_bytes;
+  return masses * (fem + solver +
+                   (plastic ? (doubled ? plastic_double_bytes : plastic_bytes) + (felt ? felt_bytes : 0.0)
+                            : (doubled ? elastic_double_bytes : elastic_bytes)));
 }
 
 MemoryNeed memory_need(const BodySpec& body, const Scene& scene) {

@@ -1,21 +1,11 @@
 #pragma once
 // backward_euler: steps as long as a frame, however stiff the tissue is.
 
-#include <span>
-
 #include "physics_node/step/lattice/element_step.h"
+#include "physics_node/step/lattice/implicit_solver.h"
 #include "physics_node/step/lattice/linearised_elements.h"
 
 namespace palpate::physics {
-
-struct NodalForce;
-
-struct ImplicitReport {
-  int newton_iterations = 0;
-  int cg_iterations = 0;
-  bool converged = false;
-  double work = 0;  // of the nodal forces [J]
-};
 
 /// Solves, with D the displacement during the step,
 ///
@@ -28,11 +18,11 @@ struct ImplicitReport {
 /// Cost: about 30 ns per mass and conjugate-gradient iteration, one thread. Contract: allocates and throws nothing
 /// after construction.
 template <class Real>
-class ImplicitStep {
+class ImplicitStep final : public ImplicitSolver<Real> {
  public:
   explicit ImplicitStep(const Body& body);
   ImplicitReport step(const Body& body, LatticeState<Real>& state, const ExplicitStep& how,
-                      std::span<const NodalForce> forces) noexcept;
+                      std::span<const NodalForce> forces) noexcept override;
 
  private:
   /// Where the dampers of the elements are drag, adds up the drag of every mass; elements break, so once a step.

@@ -12,6 +12,7 @@
 #include "physics_node/step/lattice/sleep.h"
 #include "physics_node/step/lattice/springs.h"
 #include "physics_node/step/lattice/state.h"
+#include "physics_node/step/multigrid/implicit_hexahedra.h"
 
 namespace palpate::physics {
 namespace {
@@ -30,6 +31,12 @@ std::unique_ptr<LatticeElements<Real>> make_elements(const Body& body) {
 }
 
 template <class Real>
+std::unique_ptr<ImplicitSolver<Real>> make_implicit(const Body& body) {
+  if (body.solid) return std::make_unique<ImplicitHexahedra<Real>>(body);
+  return std::make_unique<ImplicitStep<Real>>(body);
+}
+
+template <class Real>
 class LatticeBody final : public BodyModel {
  public:
   LatticeBody(Body body, Integrator integrator)
@@ -44,7 +51,7 @@ class LatticeBody final : public BodyModel {
     Topology::show({body_.lattice, {state_.mask.data(), state_.mask.size()}});
     if (integrator == Integrator::velocity_verlet)
       for (auto& axis : state_.v_half) axis = ZeroedArray<Real>(n_cells());
-    if (integrator == Integrator::backward_euler) implicit_ = std::make_unique<ImplicitStep<Real>>(body_);
+    if (integrator == Integrator::backward_euler) implicit_ = make_implicit<Real>(body_);
     reset();
   }
 
@@ -254,11 +261,13 @@ class LatticeBody final : public BodyModel {
     // Commits yield and break where the step ended, and lets the ledger watch.
     ExplicitStep look = step;
     look.dt = 0;
-    return {.broken = elements_->step(body_, state_, look).broken,
+    const StepOutcome looked = elements_->step(body_, state_, look);
+    return {.broken = looked.broken,
             .solved = report.converged,
             .work = report.work,
             .newton_iterations = report.newton_iterations,
-            .cg_iterations = report.cg_iterations};
+            .cg_iterations = report.cg_iterations,
+            .least_corner_J = looked.least_corner_J};
   }
 
   void push_one(const NodalPush& one, double dt) noexcept {
@@ -300,8 +309,8 @@ class LatticeBody final : public BodyModel {
   Sleep sleep_;
   MomentumAccount momentum_;
   SavedState<Real> saved_[2];
-  std::size_t good_ = 0;                          // the other one is to prove itself
-  std::unique_ptr<ImplicitStep<Real>> implicit_;  // only for backward_euler
+  std::size_t good_ = 0;                            // the other one is to prove itself
+  std::unique_ptr<ImplicitSolver<Real>> implicit_;  // only for backward_euler
 };
 
 }  // namespace

@@ -15,6 +15,29 @@ namespace {
 
 constexpr std::size_t n_lanes = batch_size;
 
+/// What waits for the next part of a batch, by row and number: what nodes get from their left cells. And what waits for the end of a
+/// batch that is gathered, by number and corner: nodes may be corners of many of its cells, and their sums have one order.
+template <class Real, std::size_t count>
+struct BatchSum {
+  typename Pack<Real>::V carried[4][count];
+  Real waiting[count][8][n_lanes];
+
+  void begin() {
+    for (auto& row : carried)
+      for (auto& one : row) one = typename Pack<Real>::V{};
+  }
+  /// @param low  of the corners 0 to 3; @param high  of the others
+  void end(const LevelContext<Real>& m, const CellBatch& batch, Real* const* low, Real* const* high) {
+    if (batch.gathered < 0) return;
+    const Index* corners = m.corners + batch.gathered;
+    for (std::size_t e = 0; e < count; ++e)
+      for (std::size_t a = 0; a < 8; ++a) {
+        Real* to = a < 4 ? low[e] : high[e];
+        for (std::size_t n = 0; n < n_lanes; ++n) to[corners[n_lanes * a + n]] += waiting[e][a][n];
+      }
+  }
+};
+
 /// Part of a batch that fills a vector: cells [lane, lane + width).
 template <class Real>
 class BatchPart {
@@ -37,16 +60,16 @@ class BatchPart {
     return w;
   }
 
-  /// Adds what each cell gives to its corners; what a node gets from its left cell waits in `carried` for its right one.
-  void add(std::size_t row, Real* to, V left, V right, V& carried) const {
+  /// What each cell gives to the two corners of a row along x: number `e` of `count`.
+  template <std::size_t count>
+  void add(std::size_t row, std::size_t e, Real* to, V left, V right, BatchSum<Real, count>& sum) const {
     if (batch_.gathered >= 0) {
-      for (std::size_t n = 0; n < width; ++n) {
-        to[corner(2 * row, n)] += left[n];
-        to[corner(2 * row + 1, n)] += right[n];
-      }
+      P::store(sum.waiting[e][2 * row] + lane_, left);
+      P::store(sum.waiting[e][2 * row + 1] + lane_, right);
       return;
     }
     Real* at = to + batch_.at[row] + lane_;
+    V& carried = sum.carried[row][e];
     P::store(at, P::load(at) + (left + shifted(carried, right, std::make_index_sequence<width>())));
     carried = right;
     if (lane_ + width == n_lanes) at[width] += right[width - 1];
@@ -69,15 +92,18 @@ class BatchPart {
   std::size_t lane_;
 };
 
-/// Calls begin() for each batch of a layer, then visit(part, its numbers) for the parts of it.
-template <class Real, class Visit, class Begin>
-void for_parts(const LevelContext<Real>& m, Index layer, const Begin& begin, const Visit& visit) {
+/// Calls visit(part, its numbers, sum) for the parts of the batches of a layer, and adds up.
+template <std::size_t count, class Real, class Visit>
+void for_parts(const LevelContext<Real>& m, Index layer, Real* const* low, Real* const* high,
+               const Visit& visit) {
   const CellLayer& l = m.layers[layer];
+  BatchSum<Real, count> sum;
   for (Index b = l.first_batch; b < l.last_batch; ++b) {
-    begin();
+    sum.begin();
     Real* numbers = m.tangent + static_cast<std::ptrdiff_t>(b) * tangent_numbers * batch_size;
     for (std::size_t lane = 0; lane < n_lanes; lane += static_cast<std::size_t>(Pack<Real>::width))
-      visit(BatchPart<Real>(m, m.batches[b], lane), numbers + lane);
+      visit(BatchPart<Real>(m, m.batches[b], lane), numbers + lane, sum);
+    sum.end(m, m.batches[b], low, high);
   }
 }
 
@@ -88,10 +114,6 @@ HexTangent<typename Pack<Real>::V> load_tangent(const Real* numbers) {
   at.q = Pack<Real>::load(numbers + 9 * n_lanes);
   return at;
 }
-
-/// What waits for the next part of a batch: by row and number.
-template <class Real, std::size_t count>
-using Carried = std::array<std::array<typename Pack<Real>::V, count>, 4>;
 
 template <class Real>
 void dense_blocks(const LevelContext<Real>& m, Index layer) {
@@ -108,21 +130,20 @@ void dense_blocks(const LevelContext<Real>& m, Index layer) {
 template <class Real, bool physical>
 void linearise(const LevelContext<Real>& m, Index layer) {
   using P = Pack<Real>;
-  Carried<Real, 6> carried;
-  const auto begin = [&] { carried = {}; };
-  for_parts(m, layer, begin, [&](const BatchPart<Real>& part, Real* numbers) {
-    const auto at = hex_tangent_at<P>(m.k, part.load(m.u));
-    for (std::size_t n = 0; n < 9; ++n) P::store(numbers + n * n_lanes, at.f[n / 3][n % 3]);
-    P::store(numbers + 9 * n_lanes, at.q);
-    const auto blocks = hex_tangent_blocks<P, physical>(m.k, at);
-    const auto stiffness = P::load(numbers + 10 * n_lanes) * P::all(m.scale);
-    for (std::size_t r = 0; r < 4; ++r)
-      for (std::size_t e = 0; e < 6; ++e) {
-        const std::size_t left = r < 2 ? 2 * r : 7 - 2 * r, right = r < 2 ? 2 * r + 1 : 6 - 2 * r;
-        part.add(r, (r < 2 ? m.inverse : m.block_high)[e], stiffness * blocks[left][e],
-                 stiffness * blocks[right][e], carried[r][e]);
-      }
-  });
+  for_parts<6>(
+      m, layer, m.inverse.data(), m.block_high.data(), [&](const auto& part, Real* numbers, auto& sum) {
+        const auto at = hex_tangent_at<P>(m.k, part.load(m.u));
+        for (std::size_t n = 0; n < 9; ++n) P::store(numbers + n * n_lanes, at.f[n / 3][n % 3]);
+        P::store(numbers + 9 * n_lanes, at.q);
+        const auto blocks = hex_tangent_blocks<P, physical>(m.k, at);
+        const auto stiffness = P::load(numbers + 10 * n_lanes) * P::all(m.scale);
+        for (std::size_t r = 0; r < 4; ++r)
+          for (std::size_t e = 0; e < 6; ++e) {
+            const std::size_t left = r < 2 ? 2 * r : 7 - 2 * r, right = r < 2 ? 2 * r + 1 : 6 - 2 * r;
+            part.add(r, e, (r < 2 ? m.inverse : m.block_high)[e], stiffness * blocks[left][e],
+                     stiffness * blocks[right][e], sum);
+          }
+      });
   dense_blocks(m, layer);
 }
 
@@ -143,21 +164,19 @@ void dense_product(const LevelContext<Real>& m, const NodeVector<Real>& p, Index
 /// Adds the forces of the cells of a part, by component and corner.
 template <class Real, class P = Pack<Real>>
 void add_forces(const LevelContext<Real>& m, const BatchPart<Real>& part, const Corners<P>& f,
-                typename P::V scale, Carried<Real, 3>& carried) {
+                typename P::V scale, BatchSum<Real, 3>& sum) {
   for (std::size_t r = 0; r < 4; ++r)
     for (std::size_t c = 0; c < 3; ++c)
-      part.add(r, (r < 2 ? m.low : m.high)[c], scale * f[c][2 * r], scale * f[c][2 * r + 1], carried[r][c]);
+      part.add(r, c, (r < 2 ? m.low : m.high)[c], scale * f[c][2 * r], scale * f[c][2 * r + 1], sum);
 }
 
 template <class Real, bool physical>
 void product(const LevelContext<Real>& m, const NodeVector<Real>& p, Index layer) {
   using P = Pack<Real>;
-  Carried<Real, 3> carried;
-  const auto begin = [&] { carried = {}; };
-  for_parts(m, layer, begin, [&](const BatchPart<Real>& part, const Real* numbers) {
+  for_parts<3>(m, layer, m.low.data(), m.high.data(), [&](const auto& part, const Real* numbers, auto& sum) {
     Corners<P> f;
     hex_tangent_times<P, physical>(m.k, load_tangent(numbers), part.load(p), f);
-    add_forces(m, part, f, P::load(numbers + 10 * n_lanes) * P::all(m.scale), carried);
+    add_forces(m, part, f, P::load(numbers + 10 * n_lanes) * P::all(m.scale), sum);
   });
   dense_product(m, p, layer);
 }
@@ -165,14 +184,12 @@ void product(const LevelContext<Real>& m, const NodeVector<Real>& p, Index layer
 template <class Real, bool physical>
 double forces(const LevelContext<Real>& m, Index layer) {
   using P = Pack<Real>;
-  Carried<Real, 3> carried;
   double energy = 0;
-  const auto begin = [&] { carried = {}; };
-  for_parts(m, layer, begin, [&](const BatchPart<Real>& part, const Real* numbers) {
+  for_parts<3>(m, layer, m.low.data(), m.high.data(), [&](const auto& part, const Real* numbers, auto& sum) {
     HexForces<P> out;
     hex_forces<P, StableNeoHookean, physical, true>(m.k, part.load(m.u), out);
     const auto stiffness = P::load(numbers + 10 * n_lanes);
-    add_forces(m, part, out.f, stiffness, carried);
+    add_forces(m, part, out.f, stiffness, sum);
     const auto held = stiffness * out.energy;
     for (int n = 0; n < P::width; ++n) energy += static_cast<double>(held[n]);
   });

@@ -87,6 +87,21 @@ TEST(World, TakesNoMemoryInAFrameWhateverHappens) {
   EXPECT_EQ(allocations_in(world, std::nullopt, 50), 0u);
 }
 
+TEST(World, TakesNoMemoryWhileItSolvesFiniteElements) {
+  Recipe recipe;
+  recipe.lattice = "voxel";
+  recipe.shape = Recipe::box(60, 60, 40);
+  recipe.spacing_mm = 5;
+  recipe.material = "density_kg_per_m3 = 1000\nmodulus_kPa = 10\nviscosity_Pa_s = 5";
+  recipe.body = "model = \"fem\"\nfixed = [\"-z\"]";
+  recipe.physics = "integrator = \"backward_euler\"\nframe_Hz = 50\nthreads = 2";
+  recipe.gravity = "[0, 0, -9.81]";
+  World world(scene_of(recipe));
+  EXPECT_EQ(allocations_in(world, std::nullopt, 10), 0u);
+  EXPECT_GT(world.report().cg_iterations, 10);
+  EXPECT_EQ(world.report().unsolved, 0);
+}
+
 TEST(World, TakesNoMemoryWhileItYieldsAndBreaks) {
   Recipe recipe;
   recipe.body = "velocity_m_per_s = [0, 0, -3]";

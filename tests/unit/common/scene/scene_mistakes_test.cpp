@@ -119,7 +119,8 @@ INSTANTIATE_TEST_SUITE_P(
         {"lattice = \"fcc\"", "lattice = \"fcc\"\nmodel = \"bricks\"", "41:9",
          "write \"springs\" or \"fem\""},
         {"lattice = \"voxel\"", "lattice = \"voxel\"\nmodel = \"fem\"", "52:9",
-         "is stepped by symplectic Euler; leave \"integrator\" in [physics] out"},
+         "is stepped by symplectic Euler or backward Euler; leave \"integrator\" in [physics] out, or write "
+         "\"backward_euler\""},
         {"lattice = \"voxel\"", "lattice = \"voxel\"\nhourglass = \"physical\"", "52:13",
          "is of finite elements; write model = \"fem\""},
         {"modulus_kPa = 20", "modulus_kPa = 20\npoisson_ratio = 0.5", "16:17",

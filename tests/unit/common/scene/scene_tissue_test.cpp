@@ -257,6 +257,10 @@ TEST(Elements, ReadWhatTheyForget) {
               ElementsAre(HasSubstr("at most 4")));
   EXPECT_THAT(complaints_about(elements(tissue + "relaxation = [[0.5, 1]]") + "hourglass = \"isotropic\""),
               ElementsAre(HasSubstr("write \"physical\"")));
+  EXPECT_THAT(complaints_about("[physics]\nintegrator = \"backward_euler\"\n" +
+                               elements(tissue + "relaxation = [[0.5, 1]]")),
+              ElementsAre(HasSubstr("relaxes, which \"backward_euler\" does not follow")));
+  EXPECT_THAT(complaints_about("[physics]\nintegrator = \"backward_euler\"\n" + elements(tissue)), IsEmpty());
   std::string springs = elements(tissue + "relaxation = [[0.5, 1]]");
   springs.replace(springs.find("fem"), 3, "springs");
   EXPECT_THAT(complaints_about(springs), ElementsAre(HasSubstr("write model = \"fem\", or leave it out")));

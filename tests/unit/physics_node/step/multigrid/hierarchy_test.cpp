@@ -170,6 +170,45 @@ TEST(Hierarchy, TurnsWithTheBody) {
   EXPECT_LE(s.cycles(1e-2), 10);
 }
 
+// Runs, what is left over of them, and cells with nodes in common among those: AVX2 and AVX-512 to the bit, SSE2 to rounding.
+TEST(Hierarchy, HasTheSameBitsInVectorsOfAnyWidth) {
+  Solver<float> s(solid_block(
+      {.cells = 19}, [](int i, int j, int k) { return (7 * i + 3 * j + k) % 11 == 0 ? 0.0 : 1.0 + j; }));
+  std::mt19937_64 dice(3);
+  s.for_free([&](Index n, const Vec3&) {
+    for (auto* three : {&s.hierarchy.fine().d, &s.hierarchy.fine().u})
+      for (auto& axis : *three) axis[at(n)] = std::uniform_real_distribution<float>(-1e-4F, 1e-4F)(dice);
+  });
+  const LevelContext<float> m = s.hierarchy.fine().context();
+  const auto gathered = [&](const LevelKernel<float>& kernel) {
+    std::vector<float> all;
+    for (Index l = 0; l < m.n_layers; ++l) kernel.linearise(m, l);
+    for (Index l = 0; l < m.n_layers; ++l) kernel.product(m, m.d, l);
+    for (float* const* from : {m.low.data(), m.high.data()})
+      for (int a = 0; a < 3; ++a)
+        for (Index n = 0; n < s.hierarchy.fine().n_nodes(); ++n) {
+          all.push_back(from[a][n]);
+          from[a][n] = 0;
+        }
+    for (auto* entry : m.inverse)
+      for (Index n = 0; n < s.hierarchy.fine().n_nodes(); ++n) {
+        all.push_back(entry[n]);
+        entry[n] = 0;
+      }
+    for (auto* entry : m.block_high) std::fill_n(entry, s.hierarchy.fine().n_nodes(), 0.0F);
+    return all;
+  };
+  gathered(sse2::level_kernel<float>(true));
+  const std::vector<float> narrow = gathered(sse2::level_kernel<float>(true));
+  float largest = 0;
+  for (const float value : narrow) largest = std::max(largest, std::abs(value));
+  if (__builtin_cpu_supports("avx2") == 0) return;
+  const std::vector<float> middle = gathered(avx2::level_kernel<float>(true));
+  for (std::size_t n = 0; n < narrow.size(); ++n) ASSERT_NEAR(middle[n], narrow[n], 1e-5F * largest);
+  if (__builtin_cpu_supports("avx512f") == 0) return;
+  EXPECT_TRUE(gathered(avx512::level_kernel<float>(true)) == middle);
+}
+
 TEST(Hierarchy, HasTheSameBitsOnAnyNumberOfThreads) {
   std::vector<float> first;
   for (const int threads : {1, 2, 3, 8}) {

@@ -1,0 +1,118 @@
+#include "physics_node/step/multigrid/newton.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palpate::physics {
+namespace {
+
+constexpr int most_halvings = 6;
+constexpr double inner_tolerance = 0.1;
+constexpr double armijo = 1e-4;
+
+}  // namespace
+
+template <class Real>
+Newton<Real>::Newton(const Body& body)
+    : hierarchy_(body), gradients_(hierarchy_), by_plane_(hierarchy_.fine().planes().size()) {
+  std::size_t colour = 30;
+  for (auto* three : {&u, &coast, &push, &D, &force, &from_})
+    for (auto& axis : *three) axis = ZeroedArray<Real>(static_cast<std::size_t>(fine().n_nodes()), colour++);
+}
+
+template <class Real>
+double Newton<Real>::evaluate(const Crew& crew, double scale) noexcept {
+  Level<Real>& level = hierarchy_.fine();
+  const LevelContext<Real> m = level.context();
+  const auto s = static_cast<Real>(scale);
+  each_node(crew, [&](std::size_t i) {
+    for (std::size_t a = 0; a < 3; ++a) m.u[a][i] = u[a][i] + s * D[a][i];
+  });
+  const NodeVector<Real> f = pointers(force);
+  level.sweep(
+      crew, [&](Index l) { by_plane_[static_cast<std::size_t>(l)] = level.kernel().forces(m, l); },
+      [&](Index p) { level.kernel().gather(m, f, p); });
+  double energy = 0;
+  for (const double one : by_plane_) energy += one;
+  return energy;
+}
+
+template <class Real>
+double Newton<Real>::look(const Crew& crew, const NewtonTask& task, NewtonReport& report) noexcept {
+  const double s = task.dt > 0 ? 1 + task.beta / task.dt : 1;
+  report.energy = evaluate(crew, s);
+  const LevelContext<Real> m = hierarchy_.fine().context();
+  Three<Real>& b = gradients_.b;
+  const double outside = sum(crew, [&](std::size_t i) {
+    double phi = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const Real pull = m.mass[i] * (D[a][i] - coast[a][i]);
+      b[a][i] = m.free[i] * (force[a][i] + push[a][i] - pull);
+      phi += 0.5 * static_cast<double>(pull) * static_cast<double>(D[a][i] - coast[a][i]) -
+             static_cast<double>(m.free[i] * push[a][i]) * static_cast<double>(D[a][i]);
+    }
+    return phi;
+  });
+  report.residual = std::sqrt(gradients_.dot(hierarchy_, crew, b, b));
+  return outside + report.energy / s;
+}
+
+template <class Real>
+bool Newton<Real>::search(const Crew& crew, const NewtonTask& task, double& phi,
+                          NewtonReport& report) noexcept {
+  const double before = report.residual, slope = gradients_.dot(hierarchy_, crew, gradients_.b, gradients_.x);
+  each_node(crew, [&](std::size_t i) {
+    for (std::size_t a = 0; a < 3; ++a) from_[a][i] = D[a][i];
+  });
+  double step = 1;
+  for (int halving = 0;; ++halving, step *= 0.5) {
+    const auto s = static_cast<Real>(step);
+    each_node(crew, [&](std::size_t i) {
+      for (std::size_t a = 0; a < 3; ++a) D[a][i] = from_[a][i] + s * gradients_.x[a][i];
+    });
+    const double next = look(crew, task, report);
+    if (next <= phi - armijo * step * slope || report.residual < 0.9 * before) {
+      phi = next;
+      return true;
+    }
+    if (halving == most_halvings) break;
+    ++report.halvings;
+  }
+  each_node(crew, [&](std::size_t i) {
+    for (std::size_t a = 0; a < 3; ++a) D[a][i] = from_[a][i];
+  });
+  phi = look(crew, task, report);
+  return false;
+}
+
+template <class Real>
+NewtonReport Newton<Real>::solve(const Crew& crew, const NewtonTask& task) noexcept {
+  if (task.dt != dt_) hierarchy_.set_step(task.dt);
+  dt_ = task.dt;
+  NewtonReport report;
+  double phi = look(crew, task, report);
+  const LevelContext<Real> m = hierarchy_.fine().context();
+  const double outside = std::sqrt(sum(crew, [&](std::size_t i) {
+    double square = 0;
+    for (std::size_t a = 0; a < 3; ++a)
+      square += static_cast<double>(m.free[i] * push[a][i]) * static_cast<double>(push[a][i]);
+    return square;
+  }));
+  report.scale = std::max(outside, report.residual);
+  const double enough = task.tolerance * report.scale;
+  while (report.residual > enough && report.iterations < task.most_iterations &&
+         report.cycles < task.most_cycles) {
+    hierarchy_.linearise(crew, task.dt > 0 ? 1 + task.beta / task.dt : 1);
+    report.cycles +=
+        gradients_.solve(hierarchy_, crew, inner_tolerance, task.most_cycles - report.cycles).cycles;
+    ++report.iterations;
+    if (!search(crew, task, phi, report)) break;
+  }
+  report.converged = report.residual <= enough;
+  return report;
+}
+
+template class Newton<float>;
+template class Newton<double>;
+
+}  // namespace palpate::physics

@@ -1,0 +1,83 @@
+#pragma once
+// Newton's method for a body of hexahedra: where it is after a step, or where it rests.
+
+#include "physics_node/step/multigrid/conjugate_gradients.h"
+
+namespace palpate::physics {
+
+/// What is to be solved, besides what Newton's vectors hold.
+struct NewtonTask {
+  double dt = 0;  // 0: statics, without inertia [s]
+  double beta =
+      0;  // of dampers: the elements act as if the body were beta ahead of its end; not for statics [s]
+  /// Of the residual, relative to the larger of the forces from outside and of the first residual.
+  double tolerance = 1e-3;
+  int most_iterations = 12;
+  int most_cycles = 80;  // V-cycles, in all
+};
+
+struct NewtonReport {
+  int iterations = 0;
+  int cycles = 0;                  // V-cycles
+  int halvings = 0;                // of Newton steps
+  double residual = 0, scale = 0;  // [N]
+  double energy = 0;               // elastic, at the end [J]
+  bool converged = false;
+};
+
+/// Finds the D for which
+///
+///   g(D) = M (D - coast) / dt^2 - f(u + s D) - push = 0,   s = 1 + beta / dt
+///
+/// the slope of  Phi = M |D - coast|^2 / (2 dt^2) + W(u + s D) / s - push . D.  Each system is solved by conjugate gradients to a tenth
+/// of its residual, with the positive tangent on all levels of the hierarchy, so that every step leads downhill; a step is halved
+/// until Phi falls (Armijo) or the residual does, which in float is seen longer.
+/// Cost: bench/fem. Contract: allocates and throws nothing after construction; the same bits on any number of threads.
+template <class Real>
+class Newton {
+ public:
+  explicit Newton(const Body& body);
+
+  /// By node of the fine level. D is where the search begins, and its answer.
+  Three<Real> u, coast, push, D;
+  Three<Real> force;  // of the elements, where they were asked last [N]
+
+  NewtonReport solve(const Crew& crew, const NewtonTask& task) noexcept;
+  /// Elastic energy at u + scale D [J]; `force` there.
+  double evaluate(const Crew& crew, double scale) noexcept;
+  /// Adds up of(node) over all nodes; by plane, and planes in order.
+  template <class Of>
+  double sum(const Crew& crew, const Of& of) noexcept {
+    fine().each_plane(crew, [&](Index p) {
+      const GridPlane& plane = fine().planes()[static_cast<std::size_t>(p)];
+      double total = 0;
+      for (Index i = plane.first; i < plane.last; ++i) total += of(static_cast<std::size_t>(i));
+      by_plane_[static_cast<std::size_t>(p)] = total;
+    });
+    double total = 0;
+    for (const double one : by_plane_) total += one;
+    return total;
+  }
+  template <class Do>
+  void each_node(const Crew& crew, const Do& work) noexcept {
+    fine().each_plane(crew, [&](Index p) {
+      const GridPlane& plane = fine().planes()[static_cast<std::size_t>(p)];
+      for (Index i = plane.first; i < plane.last; ++i) work(static_cast<std::size_t>(i));
+    });
+  }
+  const std::vector<Index>& storage() const noexcept { return hierarchy_.storage(); }
+  const Level<Real>& fine() const noexcept { return hierarchy_.fine(); }
+
+ private:
+  /// Phi at D; minus g into the right side of the system, its norm into residual.
+  double look(const Crew& crew, const NewtonTask& task, NewtonReport& report) noexcept;
+  bool search(const Crew& crew, const NewtonTask& task, double& phi, NewtonReport& report) noexcept;
+
+  Hierarchy<Real> hierarchy_;
+  ConjugateGradients<Real> gradients_;
+  Three<Real> from_;
+  std::vector<double> by_plane_;
+  double dt_ = 0;  // that the levels are set to
+};
+
+}  // namespace palpate::physics

@@ -1,0 +1,175 @@
+// Steps of backward_euler and equilibria of finite elements: their laws, their books, their order, their bits.
+
+#include "physics_node/step/multigrid/implicit_hexahedra.h"
+
+#include <gtest/gtest.h>
+
+#include "physics_node/step/body_model.h"
+#include "physics_node/step/multigrid/equilibrium.h"
+#include "tests/support/physics/pressed_world.h"
+#include "tests/support/physics/solid_bodies.h"
+
+namespace palpate::physics {
+namespace {
+
+const Vec3 gravity(0, 0, -9.81);
+
+test::Recipe tissue(const std::string& shape, const std::string& material, const std::string& body) {
+  test::Recipe recipe;
+  recipe.lattice = "voxel";
+  recipe.shape = shape;
+  recipe.spacing_mm = 5;
+  recipe.material = "density_kg_per_m3 = 1000\n" + material;
+  recipe.body = "model = \"fem\"\n" + body;
+  return recipe;
+}
+
+std::unique_ptr<BodyModel> implicit(const test::Recipe& recipe, Precision precision = Precision::double_) {
+  return make_body_model(test::body_of(recipe), precision, Integrator::backward_euler);
+}
+
+/// Mean displacement of the masses that are highest at rest.
+Vec3 top(const BodyModel& body) {
+  double highest = -1e9, n = 0;
+  Vec3 sum = Vec3::Zero();
+  for (const Index node : body.body().nodes())
+    highest = std::max(highest, body.body().rest_position(node).z());
+  for (const Index node : body.body().nodes())
+    if (body.body().rest_position(node).z() > highest - 1e-6) sum += body.displacement(node), n += 1;
+  return sum / n;
+}
+
+// A column that does not spread: sigma = - rho g (H - z), u(H) = - rho g H^2 / (2 E), which nodes of linear cells meet exactly.
+TEST(Equilibrium, AColumnSinksByItsWeight) {
+  const Body body = test::body_of(
+      tissue(test::Recipe::box(20, 20, 60), "modulus_kPa = 2000\npoisson_ratio = 0", "fixed = [\"-z\"]"));
+  const Equilibrium found = equilibrium(body, gravity);
+  EXPECT_TRUE(found.report.converged);
+  const double sunk = 1000 * 9.81 * 0.06 * 0.06 / (2 * 2e6);
+  double lowest = 0;
+  for (const Vec3& d : found.displacement) lowest = std::min(lowest, d.z());
+  EXPECT_NEAR(lowest, -sunk, 1e-3 * sunk);
+}
+
+// What Newton finds is what damped steps come to.
+TEST(Equilibrium, IsWhereDampedStepsEnd) {
+  test::Recipe recipe =
+      tissue(test::Recipe::box(40, 30, 30), "modulus_kPa = 3\npoisson_ratio = 0.45", "fixed = [\"-x\"]");
+  const Equilibrium found = equilibrium(test::body_of(recipe), gravity);
+  ASSERT_TRUE(found.report.converged);
+  EXPECT_LE(found.report.cycles, 60);
+  recipe.material += "\nviscosity_Pa_s = 150";
+  const Body stepped = test::body_of(recipe);
+  auto body = make_body_model(stepped, Precision::double_, Integrator::symplectic_euler);
+  for (int n = 0; n < 8000; ++n) body->advance({.dt = 1.5e-4, .gravity = gravity}, {});
+  double far = 0, sag = 0;
+  for (std::size_t n = 0; n < found.displacement.size(); ++n) {
+    far = std::max(far, (found.displacement[n] - body->displacement(stepped.nodes()[n])).norm());
+    sag = std::max(sag, found.displacement[n].norm());
+  }
+  EXPECT_GT(sag, 0.005);  // far from linear
+  EXPECT_LT(far, 2e-3 * sag);
+}
+
+TEST(ImplicitHexahedra, KeepsTheBooksOfAFallAndASwing) {
+  for (const char* further : {"", "\nviscosity_Pa_s = 20"}) {
+    auto body =
+        implicit(tissue(test::Recipe::box(40, 20, 20),
+                        "modulus_kPa = 10\npoisson_ratio = 0.45" + std::string(further), "fixed = [\"-x\"]"));
+    const Energies start = body->energies(gravity);
+    for (int n = 0; n < 20; ++n) EXPECT_TRUE(body->advance({.dt = 0.005, .gravity = gravity}, {}).solved);
+    const Energies end = body->energies(gravity);
+    const Losses lost = body->losses();
+    const double fallen = start.gravitational - end.gravitational;
+    EXPECT_GT(fallen, 0);
+    EXPECT_NEAR(fallen, end.kinetic + end.elastic + lost.viscous + lost.numerical, 1e-6 * fallen);
+    EXPECT_GT(lost.numerical, 0);
+    EXPECT_EQ(lost.viscous > 0, *further != 0);
+  }
+}
+
+// A force on a body that nothing holds: momentum to the tolerance of the steps, in double and float.
+TEST(ImplicitHexahedra, AForceGivesItsImpulse) {
+  for (const Precision precision : {Precision::double_, Precision::single_}) {
+    auto body = implicit(tissue(test::Recipe::box(30, 30, 30), "modulus_kPa = 30\npoisson_ratio = 0.45", ""),
+                         precision);
+    const std::vector<NodalForce> push{{body->body().nodes()[3], Vec3(0.01, 0.02, -0.01)}};
+    double work = 0;
+    for (int n = 0; n < 10; ++n) work += body->advance({.dt = 0.01}, push).work;
+    EXPECT_LT((body->momenta().linear - 0.1 * push[0].force).norm(), 2e-3 * 0.1 * push[0].force.norm());
+    EXPECT_GT(work, 0);
+  }
+}
+
+// The swing of a block, against explicit steps: half the step, half the error.
+TEST(ImplicitHexahedra, IsOfTheFirstOrder) {
+  const test::Recipe recipe =
+      tissue(test::Recipe::box(30, 20, 20), "modulus_kPa = 20\npoisson_ratio = 0.4", "fixed = [\"-z\"]");
+  constexpr double time = 0.02;
+  const auto ended = [&](Integrator integrator, int steps) {
+    auto body = make_body_model(test::body_of(recipe), Precision::double_, integrator);
+    for (int n = 0; n < steps; ++n) body->advance({.dt = time / steps, .gravity = Vec3(9.81, 0, 0)}, {});
+    return top(*body).x();
+  };
+  const double exact = ended(Integrator::symplectic_euler, 4000);
+  const double coarse = ended(Integrator::backward_euler, 100) - exact,
+               fine = ended(Integrator::backward_euler, 200) - exact;
+  EXPECT_NEAR(coarse / fine, 2, 0.2);
+  EXPECT_LT(std::abs(fine), 0.05 * std::abs(exact));
+}
+
+TEST(ImplicitHexahedra, StaysWhereItIsBalancedAtStepsOfAnyLength) {
+  const test::Recipe recipe =
+      tissue(test::Recipe::box(40, 30, 30), "modulus_kPa = 5\npoisson_ratio = 0.45", "fixed = [\"-z\"]");
+  auto body = implicit(recipe);
+  const Equilibrium found = equilibrium(body->body(), gravity);
+  for (std::size_t n = 0; n < found.displacement.size(); ++n)
+    body->place(body->body().nodes()[n], found.displacement[n], Vec3::Zero());
+  const Vec3 before = top(*body);
+  for (const double dt : {0.001, 0.02, 0.5}) {
+    for (int n = 0; n < 3; ++n) body->advance({.dt = dt, .gravity = gravity}, {});
+    EXPECT_LT((top(*body) - before).norm(), 2e-3 * before.norm()) << dt;
+  }
+}
+
+// A hand presses a slab: what steps of 1 ms and of 20 ms come to, its ledger, and what the run counts.
+TEST(ImplicitHexahedra, IsPressedAsInExplicitSteps) {
+  const auto pressed = [](const std::string& physics, int frames) {
+    test::Recipe recipe = test::pressed_slab_recipe();
+    recipe.body += "\nmodel = \"fem\"";
+    recipe.physics = physics;
+    World world(test::scene_of(recipe));
+    test::run(world, test::steady_hand({0, 0, 1}), frames);
+    const EnergyLedger ledger = world.ledger();
+    EXPECT_LT(ledger.balance_error(), 1e-3);
+    EXPECT_EQ(world.report().unsolved, 0);
+    EXPECT_EQ(world.report().cg_iterations > 0, !physics.empty());
+    double deepest = 0;
+    for (const Index node : world.body(0).body().nodes())
+      deepest = std::min(deepest, world.body(0).displacement(node).z());
+    return deepest;
+  };
+  const double explicitly = pressed("", 500);
+  EXPECT_LT(explicitly, -1e-4);
+  EXPECT_NEAR(pressed("integrator = \"backward_euler\"\nframe_Hz = 50", 40), explicitly,
+              0.01 * std::abs(explicitly));
+}
+
+// Three frames of a block under its weight, pushed at one corner.
+TEST(ImplicitHexahedra, HasTheSameBitsOnAnyNumberOfThreads) {
+  std::uint64_t first = 0;
+  for (const int threads : {1, 2, 3, 8}) {
+    Team team(threads);
+    auto body = implicit(
+        tissue(test::Recipe::box(100, 80, 80), "modulus_kPa = 10\npoisson_ratio = 0.45", "fixed = [\"-z\"]"),
+        Precision::single_);
+    const std::vector<NodalForce> push{{body->body().nodes().back(), Vec3(0.02, 0, -0.05)}};
+    for (int n = 0; n < 3; ++n)
+      body->advance({.dt = 0.02, .gravity = gravity, .team = &team, .threads = threads}, push);
+    if (threads == 1) first = body->hash(0);
+    EXPECT_EQ(body->hash(0), first) << threads;
+  }
+}
+
+}  // namespace
+}  // namespace palpate::physics
