@@ -42,13 +42,15 @@ class TetCubeOf final : public TetCube {
   double dt_;
 };
 
-/// 10 kPa, Poisson's ratio 0.45, cells of 2.5 mm, inner nodes jittered by 0.15 of that.
+/// 10 kPa, Poisson's ratio 0.45, cells of 2.5 mm, of second order 5 mm, inner nodes jittered by 0.15 of that.
 physics::TetModel model_of(const TetCubeKind& kind) {
+  const bool second_order = kind.element == TetElement::second_order;
   physics::TetModel model;
-  model.mesh =
-      physics::make_tet_box({.cells = {kind.cells, kind.cells, kind.cells}, .edge = 0.0025, .jitter = 0.15});
+  model.mesh = physics::make_tet_box(
+      {.cells = {kind.cells, kind.cells, kind.cells}, .edge = second_order ? 0.005 : 0.0025, .jitter = 0.15});
+  if (second_order) physics::add_middles(model.mesh);
   physics::renumber(model.mesh);
-  model.materials = {{.nodal_pressure = kind.nodal_pressure}};
+  model.materials = {{.nodal_pressure = kind.element == TetElement::nodal}};
   model.beta = kind.damped ? 1e-4 : 0;
   for (const Vec3& x : model.mesh.nodes) model.held.push_back(x.z() < 1e-9);
   return model;
@@ -79,8 +81,9 @@ std::vector<TetCost> measure_tet_costs(const std::vector<TetCubeKind>& kinds, in
     TetCost cost{.kind = kind, .ns = {}};
     cost.stable_step =
         physics::stable_step(physics::stiffest_mode_of_tetrahedra(model), Integrator::symplectic_euler);
-    cost.flops = flops_per_tet(layout, kind.nodal_pressure);
-    cost.bytes = bytes_per_tet(layout, kind.nodal_pressure, kind.precision == Precision::single_ ? 4 : 8);
+    cost.flops = flops_per_tet(layout, kind.element);
+    cost.bytes = bytes_per_tet(layout, kind.element, kind.precision == Precision::single_ ? 4 : 8);
+    cost.nodes_per_tet = static_cast<double>(model.mesh.nodes.size()) / kind.tets();
     costs.push_back(cost);
     if (kind.precision == Precision::single_)
       cubes.push_back(std::make_unique<TetCubeOf<float>>(model, 0.5 * cost.stable_step));

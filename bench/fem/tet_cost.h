@@ -7,11 +7,14 @@
 
 namespace palpate::bench {
 
+enum class TetElement { plain, nodal, second_order };
+
 struct TetCubeKind {
-  bool nodal_pressure = true;
+  TetElement element = TetElement::nodal;
   bool damped = false;
   Precision precision = Precision::single_;
-  int cells = 19;  // along each side, in six tetrahedra each: 41,154; of 24: 82,944
+  int cells =
+      19;  // along each side, in six tetrahedra each: 41,154; of 24: 82,944; 12 of second order have the nodes of 24
   int threads = 1;
 
   double tets() const { return 6.0 * cells * cells * cells; }
@@ -21,6 +24,7 @@ struct TetCost {
   TetCubeKind kind;
   double stable_step = 0;  // near rest, as it is damped [s]
   double flops = 0, bytes = 0;
+  double nodes_per_tet = 0;
   std::vector<double> ns;  // per tetrahedron and step, wall time, of each round
 
   double median_ns() const;

@@ -37,6 +37,7 @@ double tet_beam_ratio(const TetCantilever& how) {
                       .poisson_ratio = how.poisson_ratio,
                       .density = HexBeam::density,
                       .nodal_pressure = how.nodal_pressure}};
+  if (how.second_order) physics::add_middles(model.mesh);
   const auto& nodes = model.mesh.nodes;
   std::vector<int> number(3 * nodes.size(), -1);
   int n = 0;

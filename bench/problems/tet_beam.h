@@ -9,6 +9,7 @@ struct TetCantilever {
   int cells = 4;  // over its height, and over its breadth; each cut into tetrahedra
   double poisson_ratio = 0.45;
   bool nodal_pressure = true;
+  bool second_order = false;
   physics::CubeSplit split = physics::CubeSplit::six;
   double jitter = 0;  // of inner nodes, in cells
 };

@@ -57,6 +57,8 @@ std::vector<Index> renumber(TetMesh& mesh) {
   put_in_order(mesh.nodes, order);
   for (auto& corners : mesh.tets)
     for (Index& node : corners) node = number[static_cast<std::size_t>(node)];
+  for (auto& middles : mesh.middles)
+    for (Index& node : middles) node = number[static_cast<std::size_t>(node)];
 
   std::vector<Index> tets(mesh.tets.size());
   std::iota(tets.begin(), tets.end(), 0);
@@ -67,6 +69,7 @@ std::vector<Index> renumber(TetMesh& mesh) {
   });
   put_in_order(mesh.tets, tets);
   put_in_order(mesh.region, tets);
+  if (!mesh.middles.empty()) put_in_order(mesh.middles, tets);
   return order;
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace palpate::physics {
@@ -47,6 +48,21 @@ Tidied tidy(TetMesh& mesh) {
   for (auto& corners : mesh.tets)
     for (Index& node : corners) node = number[static_cast<std::size_t>(node)];
   return done;
+}
+
+void add_middles(TetMesh& mesh) {
+  std::map<std::pair<Index, Index>, Index> middle_of;
+  mesh.middles.clear();
+  for (const auto& corners : mesh.tets) {
+    auto& middles = mesh.middles.emplace_back();
+    for (std::size_t e = 0; e < tet_edges.size(); ++e) {
+      const Index a = corners[tet_edges[e][0]], b = corners[tet_edges[e][1]];
+      const auto [at, fresh] =
+          middle_of.try_emplace(std::minmax(a, b), static_cast<Index>(mesh.nodes.size()));
+      if (fresh) mesh.nodes.push_back(0.5 * (place(mesh, a) + place(mesh, b)));
+      middles[e] = at->second;
+    }
+  }
 }
 
 }  // namespace palpate::physics

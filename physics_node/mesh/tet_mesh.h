@@ -14,7 +14,13 @@ struct TetMesh {
   std::vector<Vec3> nodes;                 // [m]
   std::vector<std::array<Index, 4>> tets;  // corners; turned so that the volume is positive
   std::vector<int> region;                 // of each tetrahedron: a number that the maker gave it
+  /// Of second order: nodes in the middle of the edges 01, 12, 02, 03, 13, 23 of each. Empty: of first order.
+  std::vector<std::array<Index, 6>> middles = {};
 };
+
+/// The corners of each edge of a tetrahedron, in the order of `middles`.
+inline constexpr std::array<std::array<std::size_t, 2>, 6> tet_edges = {
+    {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
 
 /// det [x1 - x0, x2 - x0, x3 - x0] / 6: negative where the corners are in the other order [m^3]
 double signed_volume(const TetMesh& mesh, const std::array<Index, 4>& corners) noexcept;
@@ -30,7 +36,10 @@ struct Tidied {
 };
 
 /// Turns tetrahedra so that volumes are positive, and drops nodes that none has; the others keep their order.
-/// @param mesh  every corner names a node
+/// @param mesh  of first order; every corner names a node
 Tidied tidy(TetMesh& mesh);
+
+/// Makes a mesh of first order one of second: a node in the middle of each edge, after the others.
+void add_middles(TetMesh& mesh);
 
 }  // namespace palpate::physics

@@ -73,9 +73,12 @@ inline __attribute__((always_inline)) Real& number_at(Real* numbers, std::uint16
 }
 
 /// Vectors of the nodes of every fourth lane, one after the other.
-template <class Real, class P = Pack<Real>, class V = typename P::V>
+/// @tparam stride  from the corner of a lane to the same of the next
+template <int stride, class Real, class P = Pack<Real>, class V = typename P::V>
 inline __attribute__((always_inline)) void join(const Real* nodes, const std::uint16_t* corner, V& out) {
-  const auto at = [&](int n) __attribute__((always_inline)) { return node_at(nodes, corner[16 * n]); };
+  const auto at = [&](int n) __attribute__((always_inline)) {
+    return node_at(nodes, corner[4 * stride * n]);
+  };
   if constexpr (P::width == 4) std::memcpy(&out, at(0), sizeof(V));
 #if defined(__AVX2__)
   const auto pair = [&](auto n) __attribute__((always_inline)) {
@@ -93,17 +96,18 @@ inline __attribute__((always_inline)) void join(const Real* nodes, const std::ui
 #endif
 }
 
-/// The four entries of one corner of each lane. @param corner  of the first lane; those of the next lie four further
-template <class Real, class P = Pack<Real>, class V = typename P::V>
+/// The four entries of one corner of each lane. @param corner  of the first lane
+template <int stride, class Real, class P = Pack<Real>, class V = typename P::V>
 inline __attribute__((always_inline)) void load_corner(const Real* nodes, const std::uint16_t* corner,
                                                        V (&out)[4]) {
   if constexpr (P::width >= 4) {
-    unrolled<4>([&](int n) __attribute__((always_inline)) { join<Real>(nodes, corner + 4 * n, out[n]); });
+    unrolled<4>([&](int n)
+                    __attribute__((always_inline)) { join<stride>(nodes, corner + stride * n, out[n]); });
     transpose<P>(out);
   } else {
     for (int i = 0; i < 4; ++i) {
       Real lanes[P::width];
-      for (int lane = 0; lane < P::width; ++lane) lanes[lane] = node_at(nodes, corner[4 * lane])[i];
+      for (int lane = 0; lane < P::width; ++lane) lanes[lane] = node_at(nodes, corner[stride * lane])[i];
       out[i] = P::load(lanes);
     }
   }

@@ -1,6 +1,7 @@
 #pragma once
 // All that the kernel of tetrahedra needs for one step, and where it is.
 
+#include "physics_node/step/fem/tet10_element.h"
 #include "physics_node/step/fem/tet_element.h"
 #include "physics_node/step/fem/tet_layout.h"
 #include "physics_node/step/lattice/element_context.h"
@@ -24,6 +25,7 @@ struct TetNodeLedger {
 template <class Real>
 struct TetContext {
   const TetBatch<Real>* batches;
+  const TetBatch<Real, 10>* batches10;  // in their place, of second order
   const TetBlock* blocks;
   const TetConstants<Real>* constants;  // of each material
   const Index* node;                    // of each part
@@ -56,6 +58,8 @@ struct TetContext {
   bool begins;  // the step before was of another dt, or there was none
 };
 
+enum class TetKind { plain, nodal, second_order };
+
 /// Nodes and shares that are done at a time.
 inline constexpr Index tet_chunk = 1024;
 
@@ -73,29 +77,29 @@ struct TetKernel {
 
 namespace sse2 {
 template <class Real>
-TetKernel<Real> tet_kernel(bool nodal);
+TetKernel<Real> tet_kernel(TetKind kind);
 }
 namespace avx2 {
 template <class Real>
-TetKernel<Real> tet_kernel(bool nodal);
+TetKernel<Real> tet_kernel(TetKind kind);
 }
 namespace avx512 {
 template <class Real>
-TetKernel<Real> tet_kernel(bool nodal);
+TetKernel<Real> tet_kernel(TetKind kind);
 }
 
 /// @param set  that this machine runs
 template <class Real>
-TetKernel<Real> tet_kernel_of(InstructionSet set, bool nodal) {
+TetKernel<Real> tet_kernel_of(InstructionSet set, TetKind kind) {
   switch (set) {
     case InstructionSet::avx512:
-      return avx512::tet_kernel<Real>(nodal);
+      return avx512::tet_kernel<Real>(kind);
     case InstructionSet::avx2:
-      return avx2::tet_kernel<Real>(nodal);
+      return avx2::tet_kernel<Real>(kind);
     case InstructionSet::sse2:
       break;
   }
-  return sse2::tet_kernel<Real>(nodal);
+  return sse2::tet_kernel<Real>(kind);
 }
 
 }  // namespace palpate::physics

@@ -28,8 +28,8 @@ void copy_nodes(const TetContext<Real>& m, const TetBlock& block, Real* copy) {
   }
 }
 
-template <class P, class Real>
-inline __attribute__((always_inline)) TetSlopes<typename P::V> load_slopes(const TetBatch<Real>& batch,
+template <class P, class Batch>
+inline __attribute__((always_inline)) TetSlopes<typename P::V> load_slopes(const Batch& batch,
                                                                            std::size_t lane) {
   TetSlopes<typename P::V> b;
   for (std::size_t k = 0; k < 3; ++k)
@@ -37,14 +37,14 @@ inline __attribute__((always_inline)) TetSlopes<typename P::V> load_slopes(const
   return b;
 }
 
-/// Corners of the lanes from `lane` on; their fourth entries are added to `fourth`.
-template <class P, class Real, class V = typename P::V>
-inline __attribute__((always_inline)) void load_corners(const Real* copy, const TetBatch<Real>& batch,
-                                                        std::size_t lane, std::array<Column<V>, 4>& u,
+/// Nodes of the lanes from `lane` on; their fourth entries are added to `fourth`.
+template <class P, class Real, std::size_t n, class V = typename P::V>
+inline __attribute__((always_inline)) void load_corners(const Real* copy, const TetBatch<Real, n>& batch,
+                                                        std::size_t lane, std::array<Column<V>, n>& u,
                                                         V& fourth) {
-  unrolled<4>([&](int a) __attribute__((always_inline)) {
+  unrolled<n>([&](int a) __attribute__((always_inline)) {
     V entries[4];
-    load_corner<Real>(copy, batch.corner[lane] + a, entries);
+    load_corner<n>(copy, batch.corner[lane] + a, entries);
     for (std::size_t i = 0; i < 3; ++i) u[static_cast<std::size_t>(a)][i] = entries[i];
     fourth += entries[3];
   });
@@ -106,7 +106,35 @@ struct ByLane {
   }
 };
 
-template <class Real, bool nodal, bool watched, bool with_forces>
+/// Elements of first order, under the volumes of their nodes or their own.
+template <class Real, bool nodal_>
+struct FirstOrder {
+  static constexpr std::size_t n = 4;
+  static constexpr bool nodal = nodal_;
+  using Forces = TetForces<Pack<Real>>;
+  static const TetBatch<Real, n>* batches(const TetContext<Real>& m) { return m.batches; }
+  template <bool watched, class V, class U>
+  static inline __attribute__((always_inline)) void compute(const TetConstants<Real>& k,
+                                                            const TetSlopes<V>& b, V volume, const U& u,
+                                                            V fourth, Forces& out) {
+    tet_forces<Pack<Real>, nodal, watched>(k, b, volume, u, Pack<Real>::all(Real(0.25)) * fourth, out);
+  }
+};
+template <class Real>
+struct SecondOrder {
+  static constexpr std::size_t n = 10;
+  static constexpr bool nodal = false;
+  using Forces = Tet10Forces<Pack<Real>>;
+  static const TetBatch<Real, n>* batches(const TetContext<Real>& m) { return m.batches10; }
+  template <bool watched, class V, class U>
+  static inline __attribute__((always_inline)) void compute(const TetConstants<Real>& k,
+                                                            const TetSlopes<V>& b, V volume, const U& u, V,
+                                                            Forces& out) {
+    tet10_forces<Pack<Real>, watched>(k, b, volume, u, out);
+  }
+};
+
+template <class Real, class Element, bool watched, bool with_forces>
 void block_forces(const TetContext<Real>& m, std::size_t b) {
   using P = Pack<Real>;
   using V = typename P::V;
@@ -114,20 +142,20 @@ void block_forces(const TetContext<Real>& m, std::size_t b) {
   const TetBlock block = m.blocks[b];
   const TetConstants<Real> k = m.constants[block.material];
   alignas(64) Real copy[4 * most_block_nodes];
-  copy_nodes<Real, nodal>(m, block, copy);
+  copy_nodes<Real, Element::nodal>(m, block, copy);
   Real* sums = m.force + 4 * block.first_part;
   if constexpr (with_forces) std::memset(sums, 0, 4 * block.n_parts * sizeof(Real));
   [[maybe_unused]] ByLane<Real> elastic;
   [[maybe_unused]] V stiffest{}, least = P::all(1);
   for (std::size_t n = 0; n < block.n_batches; ++n) {
-    const TetBatch<Real>& batch = m.batches[block.first_batch + n];
+    const auto& batch = Element::batches(m)[block.first_batch + n];
     for (std::size_t lane = 0; lane < tet_lanes; lane += P::width) {
-      std::array<Column<V>, 4> u;
+      std::array<Column<V>, Element::n> u;
       V fourth{};
       load_corners<P>(copy, batch, lane, u, fourth);
-      TetForces<P> out;
-      tet_forces<P, nodal, watched>(k, load_slopes<P>(batch, lane), P::load(batch.volume + lane), u,
-                                    P::all(Real(0.25)) * fourth, out);
+      typename Element::Forces out;
+      Element::template compute<watched>(k, load_slopes<P>(batch, lane), P::load(batch.volume + lane), u,
+                                         fourth, out);
       if constexpr (watched) {
         elastic.add(lane, out.energy);
         const std::size_t at = (block.first_batch + n) * tet_lanes + lane;
@@ -135,8 +163,8 @@ void block_forces(const TetContext<Real>& m, std::size_t b) {
         least = out.change < least ? out.change : least;
       }
       if constexpr (with_forces) {
-        alignas(64) Real forces[4][4 * P::width];
-        unrolled<4>([&](int a) __attribute__((always_inline)) {
+        alignas(64) Real forces[Element::n][4 * P::width];
+        unrolled<Element::n>([&](int a) __attribute__((always_inline)) {
           const Column<V>& f = out.f[static_cast<std::size_t>(a)];
           V entries[4] = {f[0], f[1], f[2], V{}};
           store_corner<Real>(entries, forces[a]);
@@ -144,7 +172,7 @@ void block_forces(const TetContext<Real>& m, std::size_t b) {
         // Lane after lane, so that the order is that of the list.
         unrolled<P::width>([&](int l) __attribute__((always_inline)) {
           const std::uint16_t* corner = batch.corner[lane + static_cast<std::size_t>(l)];
-          for (int a = 0; a < 4; ++a) {
+          for (std::size_t a = 0; a < Element::n; ++a) {
             typename Q::V sum, f;
             Real* at = node_at(sums, corner[a]);
             Q::load(at, sum);
@@ -162,24 +190,32 @@ void block_forces(const TetContext<Real>& m, std::size_t b) {
   }
 }
 
+template <class Real, class Element>
+TetKernel<Real> kernel_of_element() {
+  TetKernel<Real> kernel{.forces = &block_forces<Real, Element, false, true>,
+                         .watched_forces = &block_forces<Real, Element, true, true>,
+                         .energies = &block_forces<Real, Element, true, false>,
+                         .move = &move_nodes<Real>};
+  if constexpr (Element::nodal) kernel.swell = &swell<Real>, kernel.average = &average<Real>;
+  return kernel;
+}
+
 }  // namespace
 
 template <class Real>
-TetKernel<Real> tet_kernel(bool nodal) {
-  if (nodal)
-    return {.swell = &swell<Real>,
-            .average = &average<Real>,
-            .forces = &block_forces<Real, true, false, true>,
-            .watched_forces = &block_forces<Real, true, true, true>,
-            .energies = &block_forces<Real, true, true, false>,
-            .move = &move_nodes<Real>};
-  return {.forces = &block_forces<Real, false, false, true>,
-          .watched_forces = &block_forces<Real, false, true, true>,
-          .energies = &block_forces<Real, false, true, false>,
-          .move = &move_nodes<Real>};
+TetKernel<Real> tet_kernel(TetKind kind) {
+  switch (kind) {
+    case TetKind::plain:
+      return kernel_of_element<Real, FirstOrder<Real, false>>();
+    case TetKind::nodal:
+      return kernel_of_element<Real, FirstOrder<Real, true>>();
+    case TetKind::second_order:
+      break;
+  }
+  return kernel_of_element<Real, SecondOrder<Real>>();
 }
 
-template TetKernel<float> tet_kernel<float>(bool);
-template TetKernel<double> tet_kernel<double>(bool);
+template TetKernel<float> tet_kernel<float>(TetKind);
+template TetKernel<double> tet_kernel<double>(TetKind);
 
 }  // namespace palpate::physics::PALPATE_KERNEL

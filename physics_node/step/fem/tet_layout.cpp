@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 #include <utility>
 
 namespace palpate::physics {
@@ -19,7 +20,8 @@ std::vector<Members> cut_into_blocks(const TetModel& model, std::vector<std::siz
   std::vector<Index> seen_in(model.mesh.nodes.size(), -1);  // the last block that has this node
   std::size_t n_nodes = 0;
   for (const Index t : order) {
-    const auto& corners = model.mesh.tets[static_cast<std::size_t>(t)];
+    const TetNodes all = nodes_of(model.mesh, static_cast<std::size_t>(t));
+    const std::span corners(all.node.data(), all.n);
     const auto is_new = [&](Index node) {
       return seen_in[static_cast<std::size_t>(node)] + 1 != static_cast<Index>(blocks.size());
     };
@@ -41,7 +43,8 @@ std::vector<Members> cut_into_blocks(const TetModel& model, std::vector<std::siz
 void add_block(const TetModel& model, const Members& members, std::size_t material, TetLayout& layout) {
   Members nodes;
   for (const Index t : members)
-    for (const Index node : model.mesh.tets[static_cast<std::size_t>(t)]) nodes.push_back(node);
+    for (std::size_t a = 0; a < layout.n_nodes; ++a)
+      nodes.push_back(nodes_of(model.mesh, static_cast<std::size_t>(t)).node[a]);
   std::ranges::sort(nodes);
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   TetBlock block{.first_batch = layout.n_batches(),
@@ -56,8 +59,9 @@ void add_block(const TetModel& model, const Members& members, std::size_t materi
       const std::size_t n = lane * block.n_batches + batch;
       const bool left_over = n >= members.size();
       layout.tet.push_back(left_over ? -1 : members[n]);
-      for (std::size_t a = 0; a < 4; ++a) {
-        const Index node = left_over ? nodes[0] : model.mesh.tets[static_cast<std::size_t>(members[n])][a];
+      const TetNodes of = left_over ? TetNodes{} : nodes_of(model.mesh, static_cast<std::size_t>(members[n]));
+      for (std::size_t a = 0; a < layout.n_nodes; ++a) {
+        const Index node = left_over ? nodes[0] : of.node[a];
         layout.corner.push_back(
             static_cast<std::uint16_t>(std::ranges::lower_bound(nodes, node) - nodes.begin()));
       }
@@ -102,6 +106,7 @@ void number_shares(TetLayout& layout, std::size_t n_nodes) {
 
 TetLayout lay_out(const TetModel& model) {
   TetLayout layout;
+  layout.n_nodes = model.mesh.middles.empty() ? 4 : most_tet_nodes;
   std::vector<std::size_t> materials;
   const auto blocks = cut_into_blocks(model, materials);
   for (std::size_t b = 0; b < blocks.size(); ++b) add_block(model, blocks[b], materials[b], layout);

@@ -21,11 +21,12 @@ template <class Real>
 inline constexpr std::size_t corner_step = 4 * sizeof(Real) / 8;
 
 /// Sixteen tetrahedra side by side. Lanes that are left over have no volume and no slopes, and act on a node of the block.
-template <class Real>
+template <class Real, std::size_t n_nodes = 4>
 struct TetBatch {
-  Real slope[3][3][tet_lanes];         // of corners 1, 2, 3 [1/m]
-  Real volume[tet_lanes];              // [m^3]
-  std::uint16_t corner[tet_lanes][4];  // where in vectors of the block's nodes, four numbers each [8 bytes]
+  Real slope[3][3][tet_lanes];  // of corners 1, 2, 3 [1/m]
+  Real volume[tet_lanes];       // [m^3]
+  std::uint16_t corner[tet_lanes]
+                      [n_nodes];  // where in vectors of the block's nodes, four numbers each [8 bytes]
 };
 
 struct TetBlock {
@@ -43,7 +44,8 @@ struct PartLists {
 struct TetLayout {
   std::vector<TetBlock> blocks;
   std::vector<Index> tet;             // of each lane of each batch, -1: left over
-  std::vector<std::uint16_t> corner;  // of each lane, its four
+  std::vector<std::uint16_t> corner;  // of each lane, its four nodes, of second order its ten
+  std::size_t n_nodes = 4;            // of a tetrahedron
   std::vector<Index> node;            // of each part
   std::vector<Index> share;           // of each part: the node as this material has it
   PartLists of_node, of_share;

@@ -12,13 +12,25 @@ const Vec3& corner_of(const TetMesh& mesh, const std::array<Index, 4>& corners, 
 
 }  // namespace
 
+TetNodes nodes_of(const TetMesh& mesh, std::size_t tet) noexcept {
+  TetNodes nodes;
+  for (std::size_t a = 0; a < 4; ++a) nodes.node[a] = mesh.tets[tet][a];
+  if (mesh.middles.empty()) return nodes;
+  nodes.n = most_tet_nodes;
+  for (std::size_t e = 0; e < 6; ++e) nodes.node[4 + e] = mesh.middles[tet][e];
+  return nodes;
+}
+
 std::vector<double> masses_of(const TetModel& model) {
   std::vector<double> masses(model.mesh.nodes.size());
   for (std::size_t t = 0; t < model.mesh.tets.size(); ++t) {
-    const auto& corners = model.mesh.tets[t];
     const auto material = static_cast<std::size_t>(model.mesh.region[t]);
-    const double quarter = model.materials[material].density * signed_volume(model.mesh, corners) / 4;
-    for (const Index node : corners) masses[static_cast<std::size_t>(node)] += quarter;
+    const double mass = model.materials[material].density * signed_volume(model.mesh, model.mesh.tets[t]);
+    const TetNodes nodes = nodes_of(model.mesh, t);
+    for (std::size_t a = 0; a < nodes.n; ++a)
+      masses[static_cast<std::size_t>(nodes.node[a])] += mass * (nodes.n == 4 ? 0.25
+                                                                 : a < 4      ? corner_mass
+                                                                              : middle_mass);
   }
   return masses;
 }

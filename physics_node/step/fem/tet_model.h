@@ -11,7 +11,8 @@ struct TetMaterial {
   double modulus = 10e3;        // Young's [Pa]
   double poisson_ratio = 0.45;  // below 0.5
   double density = 1000;        // [kg/m^3]
-  bool nodal_pressure = true;   // false: plain elements, which lock near 0.5
+  bool nodal_pressure =
+      true;  // false: plain elements, which lock near 0.5; of no account in a mesh of second order
 };
 
 struct TetModel {
@@ -23,7 +24,23 @@ struct TetModel {
   double beta = 0;
 };
 
-/// Lumped: a quarter of each tetrahedron to each corner [kg]. (nodes)
+/// The nodes of a tetrahedron: its corners, then its middles.
+inline constexpr std::size_t most_tet_nodes = 10;
+struct TetNodes {
+  std::size_t n = 4;
+  std::array<Index, most_tet_nodes> node{};
+};
+TetNodes nodes_of(const TetMesh& mesh, std::size_t tet) noexcept;
+
+inline bool has_nodal_pressure(const TetModel& model) {
+  return model.mesh.middles.empty() && model.materials.at(0).nodal_pressure;
+}
+
+/// Of a tetrahedron's mass at a corner and in the middle of an edge of second order: as the diagonal of the consistent mass has it.
+/// Source: Hinton, Rock & Zienkiewicz 1976.
+inline constexpr double corner_mass = 1.0 / 36, middle_mass = 4.0 / 27;
+
+/// Lumped: of first order a quarter of each tetrahedron to each corner [kg]. (nodes)
 std::vector<double> masses_of(const TetModel& model);
 
 /// Slopes of the shape functions of corners 1, 2, 3 [1/m].

@@ -1,5 +1,6 @@
 #include "physics_node/step/fem/tet_spectrum.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -49,16 +50,38 @@ class ScaledTetStiffness {
   double size_;
 };
 
+/// See tet_spectrum.h.
+double second_order_factor() {
+  Eigen::Matrix<double, 10, 10> sum = Eigen::Matrix<double, 10, 10>::Zero();
+  for (std::size_t p = 0; p < 4; ++p) {
+    Eigen::Matrix<double, 4, 10> to_corners = Eigen::Matrix<double, 4, 10>::Zero();
+    for (std::size_t a = 0; a < 4; ++a) {
+      const auto row = static_cast<Eigen::Index>(a);
+      to_corners(row, row) = -1;
+      for (std::size_t c = 0; c < 4; ++c)
+        to_corners(row, static_cast<Eigen::Index>(tet10_between[a][c])) +=
+            4 * (c == p ? tet10_near : tet10_far);
+    }
+    sum += to_corners.transpose() * to_corners / 4;
+  }
+  Eigen::Vector<double, 10> root;
+  for (Eigen::Index a = 0; a < 10; ++a) root[a] = 1 / std::sqrt(a < 4 ? corner_mass : middle_mass);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 10, 10>> solved(
+      root.asDiagonal() * sum * root.asDiagonal(), Eigen::EigenvaluesOnly);
+  return solved.eigenvalues()[9];
+}
+
 }  // namespace
 
 double fastest_element(const TetModel& model) {
   double fastest = 0;
+  const double factor = model.mesh.middles.empty() ? 4 : second_order_factor();
   for (std::size_t t = 0; t < model.mesh.tets.size(); ++t) {
     const TetMaterial& material = model.materials[static_cast<std::size_t>(model.mesh.region[t])];
     const Lame lame = lame_of(material.modulus, material.poisson_ratio);
     const TetSharpness sharpness = sharpness_of(model.mesh, model.mesh.tets[t]);
-    fastest = std::max(
-        fastest, 4 / material.density * (lame.lambda * sharpness.trace + 2 * lame.mu * sharpness.largest));
+    fastest = std::max(fastest, factor / material.density *
+                                    (lame.lambda * sharpness.trace + 2 * lame.mu * sharpness.largest));
   }
   return fastest;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "physics_node/material/lame.h"
+#include "physics_node/step/fem/tet10_element.h"
 
 namespace palpate::physics {
 namespace {
@@ -21,6 +22,29 @@ void add_block(Triplets& entries, Index row, Index column, const Eigen::Matrix3d
 std::array<Vec3, 4> all_slopes(const TetMesh& mesh, const std::array<Index, 4>& corners) {
   const auto b = slopes_of(mesh, corners);
   return {-(b[0] + b[1] + b[2]), b[0], b[1], b[2]};
+}
+
+/// Of one point of weight `volume`, whose slopes of shape functions are these.
+void add_point(Triplets& entries, const TetNodes& nodes, const std::array<Vec3, most_tet_nodes>& slope,
+               double volume, const Lame& lame) {
+  for (std::size_t p = 0; p < nodes.n; ++p)
+    for (std::size_t q = 0; q < nodes.n; ++q)
+      add_block(entries, nodes.node[p], nodes.node[q],
+                volume * (lame.lambda * slope[p] * slope[q].transpose() +
+                          lame.mu * slope[q] * slope[p].transpose() +
+                          lame.mu * slope[p].dot(slope[q]) * Eigen::Matrix3d::Identity()));
+}
+
+/// Slopes of the ten shape functions at a point, see tet10_element.h.
+std::array<Vec3, most_tet_nodes> slopes_at(const std::array<Vec3, 4>& b, std::size_t point) {
+  std::array<Vec3, most_tet_nodes> slope;
+  slope.fill(Vec3::Zero());
+  for (std::size_t a = 0; a < 4; ++a) {
+    slope[a] -= b[a];
+    for (std::size_t c = 0; c < 4; ++c)
+      slope[tet10_between[a][c]] += 4 * (c == point ? tet10_near : tet10_far) * b[a];
+  }
+  return slope;
 }
 
 /// V_n G_n of each share, and what it weighs.
@@ -57,19 +81,21 @@ Swelling swelling_of(const TetModel& model) {
 }  // namespace
 
 Eigen::SparseMatrix<double> tet_stiffness(const TetModel& model) {
-  const bool nodal = model.materials.at(0).nodal_pressure;
+  const bool nodal = has_nodal_pressure(model);
   Triplets entries;
   for (std::size_t t = 0; t < model.mesh.tets.size(); ++t) {
     const auto& corners = model.mesh.tets[t];
     const TetMaterial& material = model.materials[static_cast<std::size_t>(model.mesh.region[t])];
-    const Lame lame = lame_of(material.modulus, material.poisson_ratio);
-    const double volume = signed_volume(model.mesh, corners), lambda = nodal ? 0 : lame.lambda;
+    Lame lame = lame_of(material.modulus, material.poisson_ratio);
+    if (nodal) lame.lambda = 0;
+    const double volume = signed_volume(model.mesh, corners);
     const auto b = all_slopes(model.mesh, corners);
-    for (std::size_t p = 0; p < 4; ++p)
-      for (std::size_t q = 0; q < 4; ++q)
-        add_block(entries, corners[p], corners[q],
-                  volume * (lambda * b[p] * b[q].transpose() + lame.mu * b[q] * b[p].transpose() +
-                            lame.mu * b[p].dot(b[q]) * Eigen::Matrix3d::Identity()));
+    const TetNodes nodes = nodes_of(model.mesh, t);
+    if (nodes.n == 4)
+      add_point(entries, nodes, {b[0], b[1], b[2], b[3]}, volume, lame);
+    else
+      for (std::size_t point = 0; point < 4; ++point)
+        add_point(entries, nodes, slopes_at(b, point), volume / 4, lame);
   }
   const auto n = 3 * static_cast<Eigen::Index>(model.mesh.nodes.size());
   Eigen::SparseMatrix<double> stiffness(n, n);

@@ -11,13 +11,14 @@
 namespace palpate::physics {
 namespace {
 
-template <class Real>
-void fill_batches(const TetModel& model, const TetLayout& layout, ZeroedArray<TetBatch<Real>>& batches) {
+template <class Real, std::size_t n>
+void fill_batches(const TetModel& model, const TetLayout& layout, ZeroedArray<TetBatch<Real, n>>& batches) {
+  batches = ZeroedArray<TetBatch<Real, n>>(layout.n_batches());
   for (std::size_t at = 0; at < layout.tet.size(); ++at) {
-    TetBatch<Real>& batch = batches[at / tet_lanes];
+    TetBatch<Real, n>& batch = batches[at / tet_lanes];
     const std::size_t lane = at % tet_lanes;
-    for (std::size_t a = 0; a < 4; ++a)
-      batch.corner[lane][a] = static_cast<std::uint16_t>(corner_step<Real> * layout.corner[4 * at + a]);
+    for (std::size_t a = 0; a < n; ++a)
+      batch.corner[lane][a] = static_cast<std::uint16_t>(corner_step<Real> * layout.corner[n * at + a]);
     if (layout.tet[at] < 0) continue;
     const auto& corners = model.mesh.tets[static_cast<std::size_t>(layout.tet[at])];
     batch.volume[lane] = static_cast<Real>(signed_volume(model.mesh, corners));
@@ -45,17 +46,22 @@ std::vector<double> volumes_of_shares(const TetModel& model, const TetLayout& la
   return volumes;
 }
 
+TetKind kind_of(const TetModel& model) {
+  if (!model.mesh.middles.empty()) return TetKind::second_order;
+  return has_nodal_pressure(model) ? TetKind::nodal : TetKind::plain;
+}
+
 std::size_t chunks(std::size_t n) { return (n + tet_chunk - 1) / static_cast<std::size_t>(tet_chunk); }
 
 }  // namespace
 
 template <class Real>
 Tetrahedra<Real>::Tetrahedra(TetModel model, InstructionSet set)
-    : model_(std::move(model)),
-      layout_(lay_out(model_)),
-      batches_(layout_.n_batches()),
-      kernel_(tet_kernel_of<Real>(set, model_.materials.at(0).nodal_pressure)) {
-  fill_batches(model_, layout_, batches_);
+    : model_(std::move(model)), layout_(lay_out(model_)), kernel_(tet_kernel_of<Real>(set, kind_of(model_))) {
+  if (model_.mesh.middles.empty())
+    fill_batches(model_, layout_, batches_);
+  else
+    fill_batches(model_, layout_, batches10_);
   for (const TetMaterial& material : model_.materials) {
     const Lame lame = lame_of(material.modulus, material.poisson_ratio);
     constants_.push_back({.mu = static_cast<Real>(lame.mu), .lambda = static_cast<Real>(lame.lambda)});
@@ -73,7 +79,8 @@ Tetrahedra<Real>::Tetrahedra(TetModel model, InstructionSet set)
     const StableNeoHookean<Scalar<double>> law{static_cast<double>(k.mu), static_cast<double>(k.lambda)};
     stiffest_at_rest_ = std::max(stiffest_at_rest_, bound * law.stiffness({}));
   }
-  const std::size_t n = n_nodes(), parts = layout_.node.size(), shares = layout_.node_of_share.size();
+  const std::size_t n = n_nodes(), parts = layout_.node.size();
+  const std::size_t shares = kernel_.swell != nullptr ? layout_.node_of_share.size() : 0;
   inverse_mass_ = ZeroedArray<Real>(n, colour++);
   const auto masses = masses_of(model_);
   for (std::size_t i = 0; i < n; ++i)
@@ -82,10 +89,10 @@ Tetrahedra<Real>::Tetrahedra(TetModel model, InstructionSet set)
   if (model_.beta > 0)
     for (auto* of_nodes : {&seen_v_, &seen_f_}) *of_nodes = Four(4 * n, colour++);
   force_ = Four(4 * parts, colour++);
-  swelling_ = ZeroedArray<Real>(parts, colour++);
+  swelling_ = ZeroedArray<Real>(shares > 0 ? parts : 0, colour++);
   mean_ = ZeroedArray<Real>(shares, colour++);
   share_volume_ = ZeroedArray<Real>(shares, colour++);
-  const auto volumes = volumes_of_shares(model_, layout_);
+  const auto volumes = shares > 0 ? volumes_of_shares(model_, layout_) : std::vector<double>();
   for (std::size_t s = 0; s < shares; ++s) {
     const TetMaterial& material = model_.materials[layout_.material_of_share[s]];
     share_volume_[s] = static_cast<Real>(1 / volumes[s]);
@@ -100,6 +107,7 @@ template <class Real>
 TetContext<Real> Tetrahedra<Real>::context() noexcept {
   TetContext<Real> m = {};
   m.batches = batches_.data();
+  m.batches10 = batches10_.data();
   m.blocks = layout_.blocks.data();
   m.constants = constants_.data();
   m.node = layout_.node.data();

@@ -60,7 +60,8 @@ class Tetrahedra {
   TetModel model_;
   TetLayout layout_;
   std::vector<TetConstants<Real>> constants_;
-  ZeroedArray<TetBatch<Real>> batches_;
+  ZeroedArray<TetBatch<Real>> batches_;        // of first order
+  ZeroedArray<TetBatch<Real, 10>> batches10_;  // of second order
   ZeroedArray<Real> bound_, inverse_mass_, share_volume_;
   std::vector<double> share_energy_;
   double stiffest_at_rest_ = 0;  // as TetContext::stiffest has it [1/s^2]

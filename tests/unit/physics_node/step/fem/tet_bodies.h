@@ -10,20 +10,25 @@
 namespace palpate::physics::test {
 
 struct TetCube {
-  std::array<int, 3> cells{4, 4, 4};
+  std::array<int, 3> cells{4, 4, 4};  // of 2.5 mm; even, where it is of second order
   bool nodal = true;
   double jitter = 0.15;
   double beta = 0;
   bool held = false;  // at the bottom
   bool two_materials = false;
+  bool second_order = false;
   double poisson_ratio = 0.45;
   CubeSplit split = CubeSplit::six;
 };
 
 inline TetModel model_of(const TetCube& cube) {
   TetModel model;
-  model.mesh =
-      make_tet_box({.cells = cube.cells, .edge = 0.0025, .split = cube.split, .jitter = cube.jitter});
+  TetBox box{.cells = cube.cells, .edge = 0.0025, .split = cube.split, .jitter = cube.jitter};
+  if (cube.second_order) {  // the same box with as many nodes
+    for (int& cells : box.cells) cells /= 2;
+    box.edge *= 2;
+  }
+  model.mesh = make_tet_box(box);
   model.materials = {{.poisson_ratio = cube.poisson_ratio, .nodal_pressure = cube.nodal}};
   if (cube.two_materials) {
     model.materials.push_back(
@@ -31,6 +36,7 @@ inline TetModel model_of(const TetCube& cube) {
     for (std::size_t t = 0; t < model.mesh.tets.size() / 2; ++t) model.mesh.region[t] = 1;
   }
   model.beta = cube.beta;
+  if (cube.second_order) add_middles(model.mesh);
   renumber(model.mesh);
   if (cube.held)
     for (const Vec3& x : model.mesh.nodes) model.held.push_back(x.z() < 1e-9);

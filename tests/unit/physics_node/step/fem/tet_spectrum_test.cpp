@@ -30,13 +30,14 @@ double growth(const TetModel& model, double dt) {
   return most / start;
 }
 
-class Steps : public testing::TestWithParam<std::tuple<bool, bool, double>> {
+class Steps : public testing::TestWithParam<std::tuple<int, bool, double>> {
  protected:
-  TetModel model = model_of({.nodal = std::get<0>(GetParam()),
+  TetModel model = model_of({.nodal = std::get<0>(GetParam()) == 1,
                              .jitter = 0.12,
                              .beta = std::get<2>(GetParam()),
                              .held = true,
-                             .two_materials = std::get<1>(GetParam())});
+                             .two_materials = std::get<1>(GetParam()),
+                             .second_order = std::get<0>(GetParam()) == 2});
 };
 
 TEST_P(Steps, HoldJustBelowTheBoundAndNotWellAbove) {
@@ -51,8 +52,10 @@ TEST_P(Steps, AreBoundByTheFastestElement) {
   EXPECT_GT(found, 0.05 * bound) << "it is of use";
 }
 
+// 0: plain, 1: with nodal pressure, 2: of second order
 INSTANTIATE_TEST_SUITE_P(Bodies, Steps,
-                         testing::Combine(testing::Bool(), testing::Bool(), testing::Values(0, 1e-4)));
+                         testing::Combine(testing::Values(0, 1, 2), testing::Bool(),
+                                          testing::Values(0, 1e-4)));
 
 /// An average of volumes is softer than each of them, and so the step is longer.
 TEST(StableStep, IsLongerWithNodalPressure) {

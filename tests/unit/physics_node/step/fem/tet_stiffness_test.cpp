@@ -14,7 +14,7 @@ namespace {
 
 TEST(TetStiffness, IsTheSlopeOfTheForces) {
   for (const bool nodal : {false, true}) {
-    const TetModel model = test::model_of({.cells = {3, 3, 2}, .nodal = nodal, .two_materials = true});
+    const TetModel model = test::model_of({.cells = {4, 4, 2}, .nodal = nodal, .two_materials = true});
     const Eigen::SparseMatrix<double> stiffness = tet_stiffness(model);
     Tetrahedra<double> body(model);
     test::stir(body, 1e-9, 0);
@@ -50,6 +50,16 @@ TEST(Cantilever, OfLinearTetrahedraLocksAndNodalPressureCuresIt) {
     EXPECT_NEAR(p, c.plain, 0.001);
     EXPECT_NEAR(n, c.nodal, 0.001);
   }
+}
+
+/// Of CalculiX 2.20 with C3D10 on the same mesh; it loads nodes by the shape functions, and here masses weigh.
+TEST(Cantilever, OfTetrahedraOfSecondOrderBendsAsThoseOfCalculix) {
+  for (const BeamCase& c :
+       {BeamCase{1, 0.45, CubeSplit::six, 0.9120, 0}, BeamCase{2, 0.3, CubeSplit::six, 0.9946, 0},
+        BeamCase{2, 0.45, CubeSplit::six, 0.9801, 0}, BeamCase{2, 0.49, CubeSplit::six, 0.9640, 0}})
+    EXPECT_NEAR(
+        bench::tet_beam_ratio({.cells = c.cells, .poisson_ratio = c.poisson_ratio, .second_order = true}),
+        c.plain, 0.003);
 }
 
 }  // namespace
