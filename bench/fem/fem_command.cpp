@@ -6,6 +6,7 @@
 
 #include "bench/fem/hex_cost.h"
 #include "bench/fem/hex_work.h"
+#include "bench/fem/multigrid_rows.h"
 #include "bench/fem/spring_beam.h"
 #include "bench/fem/tet_rows.h"
 #include "bench/machine/limits.h"
@@ -113,6 +114,8 @@ int run_fem(const Options& options) {
   nlohmann::json json;
   json["kernel"] = kernel_rows(options.rounds, table);
   json["tet_kernel"] = tet_kernel_rows(options.rounds, fma_flops_per_s(true), table);
+  json["cycles"] = cycle_rows(options.rounds);
+  json["frames"] = frame_rows();
   json["beam"] = beam_rows();
   json["tet_beam"] = tet_beam_rows();
   folder.write_csv(table);

@@ -90,8 +90,8 @@ GradientReport ConjugateGradients<Real>::solve(Hierarchy<Real>& hierarchy, const
     for (auto& axis : x) std::fill(axis.data() + plane.first, axis.data() + plane.last, Real(0));
   });
   GradientReport report;
-  const double enough = tolerance * std::sqrt(dot(hierarchy, crew, b, b));
-  report.residual = enough / std::max(tolerance, 1e-300);
+  report.residual = std::sqrt(dot(hierarchy, crew, b, b));
+  const double enough = tolerance * report.residual;
   if (!(report.residual > 0)) return report.converged = report.residual == 0, report;
   double before = 0;  // r . z of the last direction; 0: none
   const NodeVector<Real> p = pointers(p_), q = pointers(q_);
