@@ -18,6 +18,7 @@
 #include "physics_node/forecast/memory_need.h"
 #include "physics_node/forecast/speed_forecast.h"
 #include "physics_node/step/lattice/stable_step.h"
+#include "physics_node/step/multigrid/start_of_body.h"
 
 namespace palpate::physics {
 namespace {
@@ -65,7 +66,9 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
     }
     any_yields_ = any_yields_ || any_yields(body);
     const double bucket = 4 * body.spacing();
-    bodies_.push_back(make_body_model(std::move(body), scene.physics->precision, integrator));
+    std::vector<Vec3> start = start_of_body(spec, body, scene.gravity, remarks_);
+    bodies_.push_back(
+        make_body_model(std::move(body), scene.physics->precision, integrator, std::move(start)));
     fragments_.push_back(any_yields(bodies_.back()->body()) ? std::make_unique<Fragments>(*bodies_.back())
                                                             : nullptr);
     touchable_.push_back({bodies_.back().get(), std::make_unique<Boundary>(*bodies_.back(), bucket, feels)});

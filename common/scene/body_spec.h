@@ -50,6 +50,7 @@ struct BodySpec {
   LatticeKind lattice = LatticeKind::fcc;
   ElementModel model = ElementModel::springs;
   HourglassKind hourglass = HourglassKind::physical;  // of fem
+  StartKind start = StartKind::rest;                  // likewise
   std::optional<double> spacing;  // [m]; absent only for a volume of voxels, which brings its own
   std::string material;
   std::vector<RegionSpec> regions;  // of other materials; later ones win

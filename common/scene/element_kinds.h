@@ -9,4 +9,7 @@ enum class ElementModel { springs, fem };
 /// What keeps a cell of one point from bending for nothing.
 enum class HourglassKind { physical, isotropic };
 
+/// rest: as it is built, without stress. balanced: where it rests under its weight.
+enum class StartKind { rest, balanced };
+
 }  // namespace palpate

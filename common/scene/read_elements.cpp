@@ -1,4 +1,4 @@
-// `model` and `hourglass` of a body: springs or finite elements.
+// `model`, `hourglass` and `start` of a body: springs or finite elements.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -56,6 +56,17 @@ void refuse_implicit_relaxation(TableReader& reader, const ReadContext& context,
                                   material.name, reader.title()));
 }
 
+/// What is balanced creeps on.
+void refuse_balanced_creep(TableReader& reader, const ReadContext& context, const BodySpec& spec) {
+  if (spec.start != StartKind::balanced) return;
+  for (const MaterialSpec& material : context.scene.materials)
+    if (material.name == spec.material && !material.relaxation.empty())
+      reader.complain("start",
+                      fmt::format("start = \"balanced\" in {}, but [material.{}] relaxes and would sink "
+                                  "on; leave \"start\" or the relaxation out",
+                                  reader.title(), material.name));
+}
+
 void refuse_springs(TableReader& reader, const ReadContext& context, const BodySpec& spec) {
   std::vector<std::string> used{spec.material};
   for (const RegionSpec& region : spec.regions) used.push_back(region.material);
@@ -74,10 +85,15 @@ void read_elements(TableReader& reader, ReadContext& context, BodySpec& spec) {
     spec.model = static_cast<ElementModel>(*word);
   if (const auto word = reader.read_word("hourglass", {"physical", "isotropic"}))
     spec.hourglass = static_cast<HourglassKind>(*word);
+  if (const auto word = reader.read_word("start", {"rest", "balanced"}))
+    spec.start = static_cast<StartKind>(*word);
   const bool fem = spec.model == ElementModel::fem;
   if (!fem && reader.has("hourglass"))
     reader.complain("hourglass",
                     "\"hourglass\" is of finite elements; write model = \"fem\", or leave it out");
+  if (!fem && spec.start == StartKind::balanced)
+    reader.complain("start",
+                    "\"balanced\" is of finite elements; write model = \"fem\", or leave \"start\" out");
   if (!fem) return refuse_springs(reader, context, spec);
   if (spec.lattice != LatticeKind::voxel)
     reader.complain(
@@ -90,6 +106,7 @@ void read_elements(TableReader& reader, ReadContext& context, BodySpec& spec) {
   refuse_materials(reader, context, spec);
   refuse_relaxation(reader, context, spec);
   refuse_implicit_relaxation(reader, context, spec);
+  refuse_balanced_creep(reader, context, spec);
 }
 
 }  // namespace palpate

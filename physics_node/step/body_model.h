@@ -21,7 +21,9 @@ class BodyModel : public Stepper, public NodeMotion, public Books, public Topolo
 };
 using BodyModels = std::vector<std::unique_ptr<BodyModel>>;
 
+/// @param start  displacements of body.nodes() that it begins with, and comes back to when it is reset; EMPTY: none [m]
 std::unique_ptr<BodyModel> make_body_model(Body body, Precision precision,
-                                           Integrator integrator = Integrator::symplectic_euler);
+                                           Integrator integrator = Integrator::symplectic_euler,
+                                           std::vector<Vec3> start = {});
 
 }  // namespace palpate::physics

@@ -39,9 +39,10 @@ std::unique_ptr<ImplicitSolver<Real>> make_implicit(const Body& body) {
 template <class Real>
 class LatticeBody final : public BodyModel {
  public:
-  LatticeBody(Body body, Integrator integrator)
+  LatticeBody(Body body, Integrator integrator, std::vector<Vec3> start)
       : BodyModel(body_),
         body_(std::move(body)),
+        start_(std::move(start)),
         state_(body_),
         elements_(make_elements<Real>(body_)),
         sleep_(body_),
@@ -156,6 +157,10 @@ class LatticeBody final : public BodyModel {
   void reset() noexcept override {
     sleep_.wake_all(body_, state_);
     state_.reset(body_);
+    for (std::size_t n = 0; n < start_.size(); ++n)
+      for (std::size_t a = 0; a < 3; ++a)
+        state_.u[a][static_cast<std::size_t>(body_.nodes()[n])] =
+            static_cast<Real>(start_[n][static_cast<Eigen::Index>(a)]);
     momentum_ = {};
     restart_momentum();
     for (const Index cell : body_.lattice.masses)
@@ -303,6 +308,7 @@ class LatticeBody final : public BodyModel {
   std::size_t n_cells() const { return static_cast<std::size_t>(body_.lattice.n_cells()); }
 
   Body body_;
+  std::vector<Vec3> start_;  // displacements of its nodes; EMPTY: none [m]
   LatticeState<Real> state_;
   std::unique_ptr<LatticeElements<Real>> elements_;
   Three<Real> v_before_;  // that moved the masses in the step before the last; only for contact
@@ -315,10 +321,11 @@ class LatticeBody final : public BodyModel {
 
 }  // namespace
 
-std::unique_ptr<BodyModel> make_body_model(Body body, Precision precision, Integrator integrator) {
+std::unique_ptr<BodyModel> make_body_model(Body body, Precision precision, Integrator integrator,
+                                           std::vector<Vec3> start) {
   if (precision == Precision::single_)
-    return std::make_unique<LatticeBody<float>>(std::move(body), integrator);
-  return std::make_unique<LatticeBody<double>>(std::move(body), integrator);
+    return std::make_unique<LatticeBody<float>>(std::move(body), integrator, std::move(start));
+  return std::make_unique<LatticeBody<double>>(std::move(body), integrator, std::move(start));
 }
 
 }  // namespace palpate::physics

@@ -237,6 +237,19 @@ TEST(Elements, AreReadWithTheirMaterial) {
   EXPECT_EQ(parsed(elements(tissue)).materials[0].poisson_ratio, 0.45);
 }
 
+TEST(Elements, MayBeginInBalance) {
+  const std::string tissue = "density_kg_per_m3 = 1000\nmodulus_kPa = 10\n";
+  EXPECT_EQ(parsed(elements(tissue)).bodies[0].start, StartKind::rest);
+  EXPECT_EQ(parsed(elements(tissue) + "start = \"balanced\"").bodies[0].start, StartKind::balanced);
+  EXPECT_THAT(complaints_about(elements(tissue) + "start = \"hung\""),
+              ElementsAre(HasSubstr("write \"rest\" or \"balanced\"")));
+  EXPECT_THAT(complaints_about(elements(tissue + "relaxation = [[0.5, 1]]") + "start = \"balanced\""),
+              ElementsAre(HasSubstr("relaxes and would sink on")));
+  std::string springs = elements(tissue) + "start = \"balanced\"";
+  springs.replace(springs.find("fem"), 3, "springs");
+  EXPECT_THAT(complaints_about(springs), ElementsAre(HasSubstr("\"balanced\" is of finite elements")));
+}
+
 TEST(Elements, ReadWhatTheyForget) {
   const std::string tissue = "density_kg_per_m3 = 1000\nmodulus_kPa = 10\n";
   const Scene scene = parsed(elements(tissue + "relaxation = [[0.3, 0.05], [0.2, 1]]"));

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/error/error.h"
 #include "physics_node/step/body_model.h"
 #include "physics_node/step/multigrid/equilibrium.h"
 #include "tests/support/physics/pressed_world.h"
@@ -129,6 +130,49 @@ TEST(ImplicitHexahedra, StaysWhereItIsBalancedAtStepsOfAnyLength) {
   for (const double dt : {0.001, 0.02, 0.5}) {
     for (int n = 0; n < 3; ++n) body->advance({.dt = dt, .gravity = gravity}, {});
     EXPECT_LT((top(*body) - before).norm(), 2e-3 * before.norm()) << dt;
+  }
+}
+
+// Begins in balance, is disturbed, and is in balance again when it is reset; without `start` it falls into its weight.
+TEST(StartOfABody, IsItsBalanceWhereItAsksForIt) {
+  for (const char* integrator : {"symplectic_euler", "backward_euler"}) {
+    const auto sunk = [&](const char* start, bool again) {
+      test::Recipe recipe = tissue(test::Recipe::box(40, 30, 30), "modulus_kPa = 5\npoisson_ratio = 0.45",
+                                   "fixed = [\"-z\"]\nstart = \"" + std::string(start) + "\"");
+      recipe.gravity = "[0, 0, -9.81]";
+      recipe.physics = "integrator = \"" + std::string(integrator) + "\"";
+      World world(test::scene_of(recipe));
+      EXPECT_TRUE(world.remarks().empty());
+      for (int n = 0; n < 20; ++n) world.frame({});
+      EXPECT_LT(world.ledger().balance_error(), 1e-2);
+      if (again) {
+        world.body(0).kick(std::vector<NodalForce>{{world.body(0).body().nodes().back(), Vec3(1, 0, 0)}},
+                           1e-3);
+        world.reset();
+        for (int n = 0; n < 20; ++n) world.frame({});
+      }
+      return std::pair(top(world.body(0)).z(), world.body(0).energies(gravity).kinetic);
+    };
+    const auto [still, energy] = sunk("balanced", false);
+    EXPECT_LT(still, -5e-4);
+    EXPECT_LT(energy, 1e-12);
+    const auto [again, energy_again] = sunk("balanced", true);
+    EXPECT_NEAR(again, still, 1e-6);
+    EXPECT_LT(energy_again, 1e-12);
+    EXPECT_GT(sunk("rest", false).second, 1e-6);
+  }
+}
+
+TEST(StartOfABody, NeedsSomethingThatHoldsIt) {
+  test::Recipe recipe = tissue(test::Recipe::box(20, 20, 20), "modulus_kPa = 5", "start = \"balanced\"");
+  recipe.gravity = "[0, 0, -9.81]";
+  try {
+    World world(test::scene_of(recipe));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("nothing holds body \"body\""), std::string::npos)
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find("test.toml:"), std::string::npos) << error.what();
   }
 }
 
