@@ -34,12 +34,12 @@ struct TetContext {
   const Index* node_part;
   const Index* share_begin;
   const Index* share_part;
-  const Real* share_volume;    // 1 / V_n [1/m^3]                              (shares)
-  const double* share_energy;  // lambda V_n / 2 [J]                           (shares)
-  const Real* bound;  // of each lane, 4 / density . largest of TetSharpness: w^2 per modulus [1/(Pa s^2)]
-  Real* u;            // displacement [m]                             (4 nodes)
-  Real* v;            // velocity [m/s]                               (4 nodes)
-  Real* seen_v;       // velocity and force one step ago; only damped (4 nodes)
+  const Real* share_volume;         // 1 / V_n [1/m^3]                              (shares)
+  const double* share_energy;       // lambda V_n / 2 [J]                           (shares)
+  const double* stiffness_at_rest;  // of each material: bound of the tangent of its stress [Pa]
+  Real* u;                          // displacement [m]                             (4 nodes)
+  Real* v;                          // velocity [m/s]                               (4 nodes)
+  Real* seen_v;                     // velocity and force one step ago; only damped (4 nodes)
   Real* seen_f;
   const Real* inverse_mass;  // 0: held [1/kg]                               (nodes)
   Real* force;               // of each part [N]                             (4 parts)
@@ -47,7 +47,7 @@ struct TetContext {
   Real* mean;       // j_n; only with nodal pressure                (shares)
   double* elastic;  // of each block, when asked for [J]
   double*
-      stiffest;  // of each block: bound of the squared frequency of its tetrahedra as they are, when asked for [1/s^2]
+      stiffest;  // of each block: the same of its stiffest tetrahedron as it is, over that at rest; when asked for
   double* least_J;            // of each block, when asked for
   double* elastic_of_shares;  // of each chunk of shares, when asked for [J]
   TetNodeLedger* ledger;      // of each chunk of nodes

@@ -158,8 +158,7 @@ void block_forces(const TetContext<Real>& m, std::size_t b) {
                                          fourth, out);
       if constexpr (watched) {
         elastic.add(lane, out.energy);
-        const std::size_t at = (block.first_batch + n) * tet_lanes + lane;
-        stiffest = P::larger(stiffest, out.stiffness * P::load(m.bound + at));
+        stiffest = P::larger(stiffest, out.stiffness);
         least = out.change < least ? out.change : least;
       }
       if constexpr (with_forces) {
@@ -185,7 +184,7 @@ void block_forces(const TetContext<Real>& m, std::size_t b) {
   }
   if constexpr (watched) {
     m.elastic[b] = elastic.total();
-    m.stiffest[b] = static_cast<double>(P::largest(stiffest));
+    m.stiffest[b] = static_cast<double>(P::largest(stiffest)) / m.stiffness_at_rest[block.material];
     m.least_J[b] = 1 - static_cast<double>(P::largest(-least));
   }
 }

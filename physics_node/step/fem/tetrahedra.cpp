@@ -65,20 +65,9 @@ Tetrahedra<Real>::Tetrahedra(TetModel model, InstructionSet set)
   for (const TetMaterial& material : model_.materials) {
     const Lame lame = lame_of(material.modulus, material.poisson_ratio);
     constants_.push_back({.mu = static_cast<Real>(lame.mu), .lambda = static_cast<Real>(lame.lambda)});
+    stiffness_at_rest_.push_back(StableNeoHookean<Scalar<double>>{lame.mu, lame.lambda}.stiffness({}));
   }
   std::size_t colour = 0;
-  bound_ = ZeroedArray<Real>(layout_.tet.size(), colour++);
-  for (std::size_t at = 0; at < layout_.tet.size(); ++at) {
-    if (layout_.tet[at] < 0) continue;
-    const auto tet = static_cast<std::size_t>(layout_.tet[at]);
-    const auto material = static_cast<std::size_t>(model_.mesh.region[tet]);
-    const double bound =
-        4 / model_.materials[material].density * sharpness_of(model_.mesh, model_.mesh.tets[tet]).largest;
-    bound_[at] = static_cast<Real>(bound);
-    const auto& k = constants_[material];
-    const StableNeoHookean<Scalar<double>> law{static_cast<double>(k.mu), static_cast<double>(k.lambda)};
-    stiffest_at_rest_ = std::max(stiffest_at_rest_, bound * law.stiffness({}));
-  }
   const std::size_t n = n_nodes(), parts = layout_.node.size();
   const std::size_t shares = kernel_.swell != nullptr ? layout_.node_of_share.size() : 0;
   inverse_mass_ = ZeroedArray<Real>(n, colour++);
@@ -118,7 +107,7 @@ TetContext<Real> Tetrahedra<Real>::context() noexcept {
   m.share_part = layout_.of_share.part.data();
   m.share_volume = share_volume_.data();
   m.share_energy = share_energy_.data();
-  m.bound = bound_.data();
+  m.stiffness_at_rest = stiffness_at_rest_.data();
   m.u = u_.data(), m.v = v_.data();
   m.seen_v = seen_v_.data(), m.seen_f = seen_f_.data();
   m.inverse_mass = inverse_mass_.data();
@@ -206,7 +195,7 @@ StepOutcome Tetrahedra<Real>::step(const ExplicitStep& step) noexcept {
       speed2 = std::max(speed2, chunk.speed2);
     }
     watch_.speed = std::sqrt(speed2);
-    stiffening_ = std::ranges::max(stiffest_) / stiffest_at_rest_;
+    stiffening_ = std::ranges::max(stiffest_);
     if (!m.damped) least_of_all_J_ = std::min(least_of_all_J_, std::ranges::min(least_J_));
   }
   return {.stiffening = stiffening_, .least_corner_J = least_of_all_J_};

@@ -22,7 +22,8 @@ class Tetrahedra {
   explicit Tetrahedra(TetModel model, InstructionSet set = instruction_set());
 
   /// A step. Of ExplicitStep: `verlet` and `exact` mean nothing here. Allocates, locks and throws nothing.
-  /// @return stiffening and least J of what was watched, of the volume of whole tetrahedra here
+  /// @return of what was watched: least J of the tetrahedra; and the largest stiffening of one, by which squared frequencies of the body
+  ///   grow by no more but for some percent (6 in 36 bodies strained by up to 0.4 at random)
   StepOutcome step(const ExplicitStep& step) noexcept;
 
   const TetModel& model() const noexcept { return model_; }
@@ -62,9 +63,9 @@ class Tetrahedra {
   std::vector<TetConstants<Real>> constants_;
   ZeroedArray<TetBatch<Real>> batches_;        // of first order
   ZeroedArray<TetBatch<Real, 10>> batches10_;  // of second order
-  ZeroedArray<Real> bound_, inverse_mass_, share_volume_;
+  std::vector<double> stiffness_at_rest_;      // see TetContext
+  ZeroedArray<Real> inverse_mass_, share_volume_;
   std::vector<double> share_energy_;
-  double stiffest_at_rest_ = 0;  // as TetContext::stiffest has it [1/s^2]
   TetKernel<Real> kernel_;
 
   Four u_, v_, seen_v_, seen_f_, force_;
