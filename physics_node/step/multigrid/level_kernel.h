@@ -54,7 +54,7 @@ struct LevelKernel {
   void (*residual)(const Context&, Index plane) = nullptr;
   /// q = A p, after product() of p. @return p . q
   double (*keep)(const Context&, const NodeVector<Real>& p, const NodeVector<Real>& q, Index plane) = nullptr;
-  /// low, high += forces of the cells at u [N]. @return their energy [J]
+  /// low, high += forces of the cells at u + scale d [N]. @return their energy [J]
   double (*forces)(const Context&, Index layer) = nullptr;
   /// f = low + high of what is free, and clears them.
   void (*gather)(const Context&, const NodeVector<Real>& f, Index plane) = nullptr;

@@ -181,13 +181,25 @@ void product(const LevelContext<Real>& m, const NodeVector<Real>& p, Index layer
   dense_product(m, p, layer);
 }
 
+/// u + s d of all corners, less that of the first: differences of neighbours lose no digits, however far a body has moved, and a step
+/// is finer than what it is added to.
+template <class Real, class P = Pack<Real>>
+Corners<P> moved(Corners<P> u, const Corners<P>& d, Real s) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto first = u[c][0];
+    for (std::size_t a = 0; a < 8; ++a) u[c][a] = P::fma_all(d[c][a] - d[c][0], s, u[c][a] - first);
+  }
+  return u;
+}
+
 template <class Real, bool physical>
 double forces(const LevelContext<Real>& m, Index layer) {
   using P = Pack<Real>;
   double energy = 0;
   for_parts<3>(m, layer, m.low.data(), m.high.data(), [&](const auto& part, const Real* numbers, auto& sum) {
     HexForces<P> out;
-    hex_forces<P, StableNeoHookean, physical, true>(m.k, part.load(m.u), out);
+    hex_forces<P, StableNeoHookean, physical, true>(m.k, moved<Real>(part.load(m.u), part.load(m.d), m.scale),
+                                                    out);
     const auto stiffness = P::load(numbers + 10 * n_lanes);
     add_forces(m, part, out.f, stiffness, sum);
     const auto held = stiffness * out.energy;

@@ -10,7 +10,7 @@ struct NewtonTask {
   double dt = 0;  // 0: statics, without inertia [s]
   double beta =
       0;  // of dampers: the elements act as if the body were beta ahead of its end; not for statics [s]
-  /// Of the residual, relative to the larger of the forces from outside and of the first residual.
+  /// Of the residual, relative to the larger of the forces from outside and of the first residual; no finer than D has digits.
   double tolerance = 1e-3;
   int most_iterations = 12;
   int most_cycles = 80;  // V-cycles, in all
@@ -31,7 +31,7 @@ struct NewtonReport {
 ///
 /// the slope of  Phi = M |D - coast|^2 / (2 dt^2) + W(u + s D) / s - push . D.  Each system is solved by conjugate gradients to a tenth
 /// of its residual, with the positive tangent on all levels of the hierarchy, so that every step leads downhill; a step is halved
-/// until Phi falls (Armijo) or the residual does, which in float is seen longer.
+/// until Phi falls (Armijo), or the residual does, or half of its part along the step is gone (Matthies & Strang 1979).
 /// Cost: bench/fem. Contract: allocates and throws nothing after construction; the same bits on any number of threads.
 template <class Real>
 class Newton {
@@ -71,6 +71,8 @@ class Newton {
  private:
   /// Phi at D; minus g into the right side of the system, its norm into residual.
   double look(const Crew& crew, const NewtonTask& task, NewtonReport& report) noexcept;
+  /// What the last digit of D is as a force, with the tangent taken last [N].
+  double rounding(const Crew& crew) noexcept;
   bool search(const Crew& crew, const NewtonTask& task, double& phi, NewtonReport& report) noexcept;
 
   Hierarchy<Real> hierarchy_;

@@ -119,6 +119,14 @@ TEST(ImplicitHexahedra, IsOfTheFirstOrder) {
   EXPECT_LT(std::abs(fine), 0.05 * std::abs(exact));
 }
 
+// Stiff and slender: the forces of its weight are the last digits of what a place times a stiffness has in float.
+TEST(ImplicitHexahedra, SolvesStiffTissueInFloat) {
+  auto body = implicit(
+      tissue(test::Recipe::box(200, 20, 20), "modulus_kPa = 1000\npoisson_ratio = 0.45", "fixed = [\"-x\"]"),
+      Precision::single_);
+  for (int n = 0; n < 40; ++n) EXPECT_TRUE(body->advance({.dt = 0.01, .gravity = gravity}, {}).solved) << n;
+}
+
 TEST(ImplicitHexahedra, StaysWhereItIsBalancedAtStepsOfAnyLength) {
   const test::Recipe recipe =
       tissue(test::Recipe::box(40, 30, 30), "modulus_kPa = 5\npoisson_ratio = 0.45", "fixed = [\"-z\"]");
