@@ -1,4 +1,4 @@
-// palpate bench peers: the same springs in palpate and in other engines, in one run.
+// palpate bench peers: the same springs, and a beam of finite elements, in palpate and in other engines, in one run.
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "bench/machine/result_folder.h"
+#include "bench/peers/beam_peers.h"
 #include "bench/peers/measure.h"
 #include "bench/peers/report.h"
 #include "bench/subcommands.h"
@@ -47,8 +48,10 @@ int compare(const PeersOptions& options) {
   results.steps = measure_steps(plan, peers, show_progress);
   show_progress("");
   folder.write_csv(table_of(results));
-  folder.write_json(json_of(results, peers));
   print(results, peers);
+  nlohmann::json json = json_of(results, peers);
+  json["beam"] = compare_beams(options.quick);
+  folder.write_json(json);
   const bool drawn = folder.plot();
   fmt::print("\nresults {}\n", folder.file(".csv").string());
   return drawn ? exit_ok : exit_failed;
@@ -59,7 +62,7 @@ int compare(const PeersOptions& options) {
 void add_peers(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<PeersOptions>();
   CLI::App* command =
-      app.add_subcommand("peers", "the same springs in LAMMPS, Bullet and MuJoCo, where installed");
+      app.add_subcommand("peers", "the same springs and finite elements in other engines, where installed");
   command->add_option("--out", options->out, "folder for the results")->capture_default_str();
   command->add_flag("--quick", options->quick, "small bodies, once: does it work, not how fast");
   command->callback([options, &exit_code] { exit_code = compare(*options); });

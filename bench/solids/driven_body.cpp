@@ -23,7 +23,7 @@ void DrivenBody::drive(const std::function<unsigned(const Vec3&)>& axes_of) {
 }
 
 /// As the frame of the product divides itself.
-double DrivenBody::next_dt(double share) const { return share * stable_step_ / std::max(1.0, stiffening_); }
+double DrivenBody::next_dt(double part) const { return part * stable_step_ / std::max(1.0, stiffening_); }
 
 void DrivenBody::step(const std::function<Vec3(const Vec3& rest)>& target, double dt) {
   stiffening_ = model_->advance({.dt = dt, .watch = true}, {}).stiffening;
@@ -47,7 +47,7 @@ void DrivenBody::step(const std::function<Vec3(const Vec3& rest)>& target, doubl
 
 void DrivenBody::run(double seconds, const Way& way) {
   for (double t = 0; t < seconds;) {
-    const double dt = next_dt(0.6);
+    const double dt = next_dt(share);
     t = std::min(seconds, t + dt);
     step([&](const Vec3& rest) { return way(rest, t); }, dt);
   }
@@ -69,13 +69,12 @@ void DrivenBody::stop() {
 bool DrivenBody::settle(double enough, int most_steps) {
   std::vector<Vec3> stays;
   for (const Led& led : led_) stays.push_back(led.u);
-  // Why 0.3 of the stable step: a stop comes a step after the peak, and at 0.6 what swings in three steps would be stopped beyond where
-  // it began.
+  // Why half of the step: a stop comes a step after the peak, and what swings in three steps would be stopped beyond where it began.
   double before = 0;  // kinetic energy
   stop();
   for (int n = 0; n < most_steps; ++n) {
     std::size_t next = 0;
-    step([&](const Vec3&) { return stays[next++]; }, next_dt(0.3));
+    step([&](const Vec3&) { return stays[next++]; }, next_dt(0.5 * share));
     const double now = kinetic();
     if (now < before) {
       if (before < enough * most_elastic_) return true;

@@ -18,6 +18,7 @@ class DrivenBody {
   /// How a led node is displaced, by its rest position and time since the call of run() [m].
   using Way = std::function<Vec3(const Vec3& rest, double t)>;
 
+  double share = 0.6;  // of the stable step that a step takes
   /// After each step, with its length: contact and the like.
   std::function<void(double dt)> after_step;
 
@@ -43,7 +44,7 @@ class DrivenBody {
     Vec3 force = Vec3::Zero();
   };
   void step(const std::function<Vec3(const Vec3& rest)>& target, double dt);
-  double next_dt(double share) const;
+  double next_dt(double part) const;
   double kinetic() const;
   void stop();
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/solids/sphere_press.h"
 #include "common/message/vec3.h"
 #include "physics_node/contact/stick_tool.h"
 #include "physics_node/world.h"
@@ -50,6 +51,27 @@ TEST(Press, ToSixTenthsOfItsDepthSurvivesAndComesBack) {
     EXPECT_FALSE(world.has_stopped());
     EXPECT_GT(deepest_force, 0.5);
     EXPECT_LT(counts.shape_rms, 2e-5);
+  }
+}
+
+/// A smooth sphere, 5 mm into 100 x 100 x 60 mm of 10 kPa, on cells of 2.5 mm; the reference is the same on cells of half the edge
+/// (docs/benchmarks.md).
+TEST(Press, OfASphereIsThatOfFinerCells) {
+  struct Case {
+    double radius_mm, poisson_ratio, reference, within, least_J;
+  };
+  // The smallest, of 1.2 cells, folds corners: see docs/benchmarks.md.
+  for (const Case& c : {Case{3, 0.45, 0.2491, 0.12, -0.25}, Case{5, 0.45, 0.3756, 0.06, 0.4},
+                        Case{8, 0.45, 0.5173, 0.03, 0.6}, Case{5, 0.49, 0.3831, 0.06, 0.4}}) {
+    const bench::Pressed pressed =
+        bench::press({.radius = 1e-3 * c.radius_mm, .poisson_ratio = c.poisson_ratio});
+    std::printf("R %.0f mm, nu %.2f: %.4f N, %.4f of finer cells, least J of a corner %.3f\n", c.radius_mm,
+                c.poisson_ratio, pressed.force.back(), pressed.force.back() / c.reference,
+                *pressed.least_corner_J);
+    EXPECT_TRUE(pressed.at_rest);
+    EXPECT_TRUE(pressed.is_monotone());
+    EXPECT_NEAR(pressed.force.back() / c.reference, 1, c.within);
+    EXPECT_GT(*pressed.least_corner_J, c.least_J);
   }
 }
 
