@@ -172,13 +172,13 @@ TEST(LargeStrain, TwistsABarByAWholeTurnAndBack) {
       const Eigen::AngleAxisd turn(std::copysign(std::numbers::pi * t / seconds, x.z()), Vec3::UnitZ());
       return Vec3(turn * x - x);
     });
-    EXPECT_TRUE(bar.settle(1e-7, 40000));
+    EXPECT_TRUE(bar.settle(1e-9, 40000));
     const double moment = bar.moment(Vec3::Zero(), [](const Vec3& x) { return x.z() > 0; }).z();
     std::printf("nu %.2f: a whole turn takes %.2f N mm, least J of a corner %.3f\n", nu, 1e3 * moment,
                 bar.least_corner_J());
     EXPECT_GT(bar.least_corner_J(), 0.5);
     bar.drive([](const Vec3& x) { return x.z() < -half + 1e-6 ? 7U : 0U; });
-    EXPECT_TRUE(bar.settle(1e-7, 40000));
+    EXPECT_TRUE(bar.settle(1e-9, 40000));
     std::printf("away by %.2g mm\n", 1e3 * away_from_rest(bar));
     EXPECT_LT(away_from_rest(bar), 5e-5);
   }
@@ -219,11 +219,11 @@ TEST(LargeStrain, ComesBackFromHalfItsHeightBetweenPlates) {
       }
       plate = 1;
       block.drive([&](const Vec3& x) { return x.z() < 0 ? axes_of(x) : 0U; });
-      EXPECT_TRUE(block.settle(1e-7));
+      EXPECT_TRUE(block.settle(1e-9, 40000));
       std::printf("nu %.2f, %s: %.3f N at half its height, least J of a corner %.3f; comes back to %.2g mm\n",
                   nu, bonded ? "bonded" : "smooth", force, squeezed, 1e3 * away_from_rest(block));
       EXPECT_TRUE(block.model().is_finite());
-      EXPECT_LT(away_from_rest(block), 1e-5);
+      EXPECT_LT(away_from_rest(block), 2e-5);
     }
 }
 
