@@ -8,7 +8,7 @@ namespace palpate::physics {
 
 /// The bound that needs no iteration: no body vibrates faster than its fastest tetrahedron would alone, S as in TetSharpness,
 ///   w^2 <= c / density (lambda trace S + 2 mu largest eigenvalue of S)
-/// c is 4; of second order the largest eigenvalue of sum over points of A^T A / 4 over the shares of mass, where A makes w of u: 113.5.
+/// c is 4; of second order the largest eigenvalue of sum over points of A^T A / 4 over the shares of mass, where A makes w of u: 45.6.
 /// Of nodal pressure it is a bound, too, since an average swells by no more than what it averages. A sliver decides: of cubes
 /// in six it allows 0.66 of the step that is stable, of jittered ones a third.
 double fastest_element(const TetModel& model);
