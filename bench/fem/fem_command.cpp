@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "bench/fem/error_rows.h"
 #include "bench/fem/hex_cost.h"
 #include "bench/fem/hex_work.h"
 #include "bench/fem/multigrid_rows.h"
@@ -118,10 +119,12 @@ int run_fem(const Options& options) {
   json["frames"] = frame_rows();
   json["beam"] = beam_rows();
   json["tet_beam"] = tet_beam_rows();
+  json["error"] = error_rows();
   folder.write_csv(table);
   folder.write_json(json);
+  const bool drawn = folder.plot();
   fmt::print("results: {}\n", options.out);
-  return exit_ok;
+  return drawn ? exit_ok : exit_failed;
 }
 
 }  // namespace
