@@ -46,7 +46,7 @@ class BatchPart {
   using V = typename P::V;
 
   BatchPart(const LevelContext<Real>& m, const CellBatch& batch, std::size_t lane)
-      : batch_(batch), listed_(m.corners + batch.gathered), lane_(lane) {}
+      : batch_(batch), listed_(batch.gathered < 0 ? nullptr : m.corners + batch.gathered), lane_(lane) {}
 
   Corners<P> load(const NodeVector<Real>& p) const {
     Corners<P> w;
