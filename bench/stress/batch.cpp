@@ -22,6 +22,7 @@ constexpr unsigned seconds_per_scene = 300;  // far more than any takes: then it
 
 struct Batch {
   std::uint64_t next = 0, end = 0;  // seeds
+  ElementModel model = ElementModel::springs;
   std::filesystem::path file;
 };
 
@@ -34,7 +35,7 @@ struct Batch {
     std::fputs(fmt::format("start {}\n", seed).c_str(), file);
     std::fflush(file);
     try {
-      std::fputs(fmt::format("{}\n", fmt::join(words(run_stress(seed)), ",")).c_str(), file);
+      std::fputs(fmt::format("{}\n", fmt::join(words(run_stress(seed, batch.model)), ",")).c_str(), file);
     } catch (const std::exception& error) {
       std::fprintf(stderr, "palpate bench: seed %llu: %s\n", static_cast<unsigned long long>(seed),
                    error.what());
@@ -81,12 +82,13 @@ std::uint64_t collect(const Batch& batch, BatchResults& all) {
 
 }  // namespace
 
-BatchResults run_batches(std::uint64_t first, std::uint64_t n, int jobs, const std::filesystem::path& folder,
+BatchResults run_batches(std::uint64_t first, std::uint64_t n, ElementModel model, int jobs,
+                         const std::filesystem::path& folder,
                          const std::function<void(std::uint64_t)>& done) {
   std::vector<Batch> waiting;
   for (std::uint64_t seed = first; seed < first + n; seed += scenes_per_process)
-    waiting.push_back(
-        {seed, std::min(seed + scenes_per_process, first + n), folder / fmt::format("part_{}.csv", seed)});
+    waiting.push_back({seed, std::min(seed + scenes_per_process, first + n), model,
+                       folder / fmt::format("part_{}.csv", seed)});
   std::reverse(waiting.begin(), waiting.end());
   BatchResults all;
   std::map<pid_t, Batch> running;

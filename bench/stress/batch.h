@@ -24,7 +24,7 @@ struct BatchResults {
 /// Runs the seeds [first, first + n) in `jobs` processes at a time. Must be called before this process has started a
 /// thread. @param folder  for files that are gone when it returns
 /// @param done  called now and then with the number of scenes that are over
-BatchResults run_batches(std::uint64_t first, std::uint64_t n, int jobs, const std::filesystem::path& folder,
-                         const std::function<void(std::uint64_t)>& done);
+BatchResults run_batches(std::uint64_t first, std::uint64_t n, ElementModel model, int jobs,
+                         const std::filesystem::path& folder, const std::function<void(std::uint64_t)>& done);
 
 }  // namespace palpate::bench

@@ -77,14 +77,52 @@ Scene bodies_and_materials(Dice& dice) {
   return scene;
 }
 
+/// The same abuse of finite elements. Dice of its own, so that a seed of springs is what it was.
+void make_solid(std::uint64_t seed, Scene& scene) {
+  Dice dice(seed * 2654435761U + 7);
+  const double nu = dice.chance(0.3) ? dice.between(0.45, 0.495) : dice.between(0, 0.45);
+  const bool damped = scene.materials[0].viscosity_bulk.has_value();
+  const double lag = dice.decades(1e-6, 1e-2);  // [s]
+  const auto law = dice.chance(0.2) ? TissueLaw::green : TissueLaw::neo_hookean;
+  const auto hourglass = dice.chance(0.3) ? HourglassKind::isotropic : HourglassKind::physical;
+  std::vector<RelaxationSpec> relaxation;
+  if (law == TissueLaw::neo_hookean && hourglass == HourglassKind::physical && dice.chance(0.3))
+    for (int n = 1 + dice.pick(4); n > 0; --n)
+      relaxation.push_back({.share = dice.between(0.01, 0.2), .time = dice.decades(1e-3, 1e2)});
+  for (MaterialSpec& m : scene.materials) {
+    m.poisson_ratio = nu;
+    m.law = law;
+    m.relaxation = relaxation;
+    m.yield_ratio.reset(), m.break_ratio.reset();
+    m.damper = Damper::axial;
+    m.viscosity_bulk.reset();
+    if (damped) m.viscosity_bulk = lag * *m.modulus;
+  }
+  for (BodySpec& body : scene.bodies) {
+    body.lattice = LatticeKind::voxel;
+    body.model = ElementModel::fem;
+    body.hourglass = hourglass;
+  }
+}
+
+Integrator integrator_of(const Scene& scene, Dice& dice) {
+  const auto integrator = static_cast<Integrator>(dice.pick(3));
+  if (scene.bodies[0].model == ElementModel::springs) return integrator;
+  const MaterialSpec& m = scene.materials[0];
+  const bool implicit =
+      integrator == Integrator::backward_euler && m.relaxation.empty() && m.law == TissueLaw::neo_hookean;
+  return implicit ? integrator : Integrator::symplectic_euler;
+}
+
 }  // namespace
 
-StressScene random_scene(std::uint64_t seed) {
+StressScene random_scene(std::uint64_t seed, ElementModel model) {
   Dice dice(seed * 2654435761U + 1);
   StressScene stress;
   stress.seed = seed;
   stress.scene = bodies_and_materials(dice);
   Scene& scene = stress.scene;
+  if (model == ElementModel::fem) make_solid(seed, scene);
   scene.physics->precision = dice.chance(0.5) ? Precision::single_ : Precision::double_;
   scene.physics->threads = dice.chance(0.1) ? 2 : 1;
   if (dice.chance(0.7)) scene.gravity = dice.within(1).normalized() * dice.decades(0.01, 1000) * g;
@@ -107,7 +145,7 @@ StressScene random_scene(std::uint64_t seed) {
     scene.tools = {tool};
   }
 
-  const auto integrator = static_cast<Integrator>(dice.pick(3));
+  const Integrator integrator = integrator_of(scene, dice);
   const bool implicit = integrator == Integrator::backward_euler;
   stress.step_ratio = implicit ? dice.decades(1, 100) : dice.between(0.1, 1.0);
   const int steps_per_frame = 1 + dice.pick(4);
@@ -171,7 +209,12 @@ std::string describe(const StressScene& s) {
       name_of(scene.physics->integrator), name_of(scene.physics->precision), *m.modulus,
       *scene.materials[1].modulus, *m.density, *scene.materials[1].density, *scene.bodies[0].spacing,
       scene.bodies[0].regions.size(), scene.bodies.size(),
-      m.yield_ratio ? fmt::format(" yield {:.4g} break {:.4g}", *m.yield_ratio, *m.break_ratio) : " elastic",
+      scene.bodies[0].model == ElementModel::fem
+          ? fmt::format(" elements nu {:.3f} {}{}{}", m.poisson_ratio,
+                        scene.bodies[0].hourglass == HourglassKind::physical ? "physical" : "isotropic",
+                        m.law == TissueLaw::green ? " green" : "", m.relaxation.empty() ? "" : " relaxing")
+      : m.yield_ratio ? fmt::format(" yield {:.4g} break {:.4g}", *m.yield_ratio, *m.break_ratio)
+                      : " elastic",
       scene.physics->sleep ? " sleep" : "", m.viscosity_bulk.value_or(0),
       start_names[static_cast<int>(s.start)], s.amount, scene.gravity.norm(), scene.floor.has_value(),
       s.tool_force, s.tool_speed, s.step_ratio);

@@ -9,10 +9,13 @@
 //   load             0 to 1000 g; floor; held face; a tool at up to 100 m/s that presses with up to 1 kN
 //   step             0.1 to 1.0 of the stable step; backward Euler at 1 to 100 times that
 //   precision, threads, all integrators
+// Of finite elements: voxels of Poisson's ratio 0 to 0.495 that do not yield, of either law and hourglass, some of which relax;
+// symplectic Euler, and backward Euler where it follows them.
 
 #include <cstdint>
 #include <string>
 
+#include "common/scene/element_kinds.h"
 #include "common/scene/scene.h"
 #include "physics_node/world.h"
 
@@ -33,7 +36,7 @@ struct StressScene {
 };
 
 /// @throws InputError if the scene that the dice give cannot be loaded: a mistake of this file
-StressScene random_scene(std::uint64_t seed);
+StressScene random_scene(std::uint64_t seed, ElementModel model = ElementModel::springs);
 
 /// Moves the masses to where they start.
 void set_start(const StressScene& stress, physics::World& world);

@@ -22,11 +22,13 @@ struct Options {
   std::string out = "out/bench_stress";
   std::uint64_t seeds = 1000, first = 1;
   std::optional<std::uint64_t> one;
+  ElementModel model = ElementModel::springs;
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 };
 
-int replay(std::uint64_t seed) {
-  const StressResult result = run_stress(seed, [](const std::string& line) { fmt::print("{}\n", line); });
+int replay(std::uint64_t seed, ElementModel model) {
+  const StressResult result =
+      run_stress(seed, model, [](const std::string& line) { fmt::print("{}\n", line); });
   fmt::print("seed {}: {}; finite {}, growth {:.4g} (bound {}), guard acted {} times, diagnosis {}\n", seed,
              result.passes() ? "passes" : "FAILS", result.finite, result.growth, growth_bound,
              result.restored, result.diagnosis);
@@ -75,18 +77,21 @@ void show_worst(std::vector<StressResult> results) {
 }
 
 int run_stress_command(const Options& options) {
-  if (options.one) return replay(*options.one);
+  if (options.one) return replay(*options.one, options.model);
   const ResultFolder folder(options.out, "stress");
   const bool terminal = isatty(fileno(stdout)) != 0;
-  const BatchResults all =
-      run_batches(options.first, options.seeds, options.jobs, options.out, [&](std::uint64_t n) {
+  const BatchResults all = run_batches(
+      options.first, options.seeds, options.model, options.jobs, options.out, [&](std::uint64_t n) {
         if (terminal) fmt::print("\r{} of {} scenes", n, options.seeds), std::fflush(stdout);
       });
   if (terminal) fmt::print("\n");
   Table table{stress_heading(), {}};
   for (const auto& result : all.results) table.add(words(result));
   folder.write_csv(table);
-  nlohmann::json json = {{"first", options.first}, {"seeds", options.seeds}, {"growth_bound", growth_bound}};
+  nlohmann::json json = {{"first", options.first},
+                         {"seeds", options.seeds},
+                         {"model", options.model == ElementModel::fem ? "fem" : "springs"},
+                         {"growth_bound", growth_bound}};
   json["integrators"] = counts(all);
   for (const auto& crash : all.crashes) {
     fmt::print("seed {}: {}\n", crash.seed, crash.how);
@@ -112,6 +117,9 @@ void add_stress(CLI::App& app, int& exit_code) {
   command->add_option("--seeds", options->seeds, "how many scenes")->capture_default_str();
   command->add_option("--first", options->first, "the first seed")->capture_default_str();
   command->add_option("--seed", options->one, "one scene, with every frame in words");
+  command->add_option("--model", options->model, "\"springs\" or \"fem\": what the bodies are of")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, ElementModel>{
+          {"springs", ElementModel::springs}, {"fem", ElementModel::fem}}));
   command->add_option("--jobs", options->jobs, "processes at a time")
       ->capture_default_str()
       ->check(CLI::Range(1, 256));

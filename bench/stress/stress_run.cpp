@@ -45,17 +45,19 @@ double least_energy(const physics::World& world) {
   double sum = 0;
   for (std::size_t b = 0; b < world.n_bodies(); ++b) {
     const physics::Body& body = world.body(b).body();
-    sum += body.law.k1[0] * body.lattice.rest_length[0] * body.lattice.rest_length[0] *
-           static_cast<double>(body.lattice.n_elements());
+    sum += body.solid ? body.solid->modulus * body.lattice.step.prod() * static_cast<double>(body.n_nodes())
+                      : body.law.k1[0] * body.lattice.rest_length[0] * body.lattice.rest_length[0] *
+                            static_cast<double>(body.lattice.n_elements());
   }
   return 1e-9 * sum;
 }
 
 }  // namespace
 
-StressResult run_stress(std::uint64_t seed, const std::function<void(const std::string&)>& say) {
+StressResult run_stress(std::uint64_t seed, ElementModel model,
+                        const std::function<void(const std::string&)>& say) {
   const Stopwatch watch;
-  const StressScene stress = random_scene(seed);
+  const StressScene stress = random_scene(seed, model);
   if (say) say(describe(stress));
   physics::World world(stress.scene);
   set_start(stress, world);

@@ -28,7 +28,8 @@ struct StressResult {
   bool passes() const { return finite && growth <= growth_bound; }
 };
 
-StressResult run_stress(std::uint64_t seed, const std::function<void(const std::string&)>& say = {});
+StressResult run_stress(std::uint64_t seed, ElementModel model = ElementModel::springs,
+                        const std::function<void(const std::string&)>& say = {});
 
 const std::vector<std::string>& stress_heading();
 std::vector<std::string> words(const StressResult& result);

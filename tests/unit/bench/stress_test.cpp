@@ -39,6 +39,23 @@ TEST(Stress, ComesInAllKinds) {
   EXPECT_EQ(kinds.size(), 3u + 2u + 5u + 2u + 2u + 2u) << fmt::format("{}", kinds);
 }
 
+TEST(Stress, OfElementsComesInAllKindsToo) {
+  std::set<std::string> kinds;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const StressScene stress = random_scene(seed, ElementModel::fem);
+    const MaterialSpec& material = stress.scene.materials[0];
+    kinds.insert(name_of(stress.scene.physics->integrator));
+    kinds.insert(material.law == TissueLaw::green ? "green" : "neo-Hookean");
+    kinds.insert(material.relaxation.empty() ? "lasting" : "relaxing");
+    kinds.insert(material.viscosity_bulk ? "damped" : "undamped");
+    kinds.insert(stress.scene.bodies[0].hourglass == HourglassKind::physical ? "physical" : "isotropic");
+    const physics::World world(stress.scene);
+    for (std::size_t b = 0; b < world.n_bodies(); ++b)
+      EXPECT_TRUE(world.body(b).body().solid) << describe(stress);
+  }
+  EXPECT_EQ(kinds.size(), 2u + 2u + 2u + 2u + 2u) << fmt::format("{}", kinds);
+}
+
 TEST(Stress, ResultsSurviveTheirFile) {
   const StressResult result = run_stress(5);
   StressResult read;
