@@ -84,7 +84,7 @@ class World {
   void take_tools(std::span<const std::optional<ToolState>> tools) noexcept;
   void find_contacts() noexcept;
   void divide_frame() noexcept;
-  int substeps_of_frame() const noexcept;
+  int substeps_of_frame() noexcept;
   bool is_implicit() const noexcept;
   /// May a velocity jump in this frame? Then contact wants to know what it was.
   bool may_be_struck() const noexcept { return near_ || stick_near_ || !planes_.empty(); }
@@ -117,8 +117,10 @@ class World {
   double dt_ = 0;  // of a step; frame_dt_ / n_substeps_
   double stable_dt_ = 0;
   int n_substeps_ = 1;
-  double stiffening_ = 1;       // largest of the bodies in the last step: see StepOutcome
-  std::unique_ptr<Team> team_;  // null: one thread
+  double unrounded_ = 1;                       // as many steps as would do at rest, over n_substeps_
+  double held_substeps_ = 0, held_until_ = 0;  // what stiffening asked for, and until when [s]
+  double stiffening_ = 1;                      // largest of the bodies in the last step: see StepOutcome
+  std::unique_ptr<Team> team_;                 // null: one thread
   TeamChoice choice_ = TeamChoice::always(1);
   bool any_yields_ = false;
   bool near_ = false;                              // bodies or fragments may touch in this frame
