@@ -6,6 +6,9 @@ namespace palpate {
 /// springs: the papers' lattice of springs. fem: finite elements, hexahedra on a voxel lattice.
 enum class ElementModel { springs, fem };
 
+/// What a finite element's stress follows: stable neo-Hookean, or St Venant-Kirchhoff, which is linear in Green's strain.
+enum class TissueLaw { neo_hookean, green };
+
 /// What keeps a cell of one point from bending for nothing.
 enum class HourglassKind { physical, isotropic };
 

@@ -13,7 +13,7 @@ namespace palpate {
 namespace {
 
 /// What of a material finite elements cannot follow, and what would be right; empty: nothing.
-std::string hindrance(const MaterialSpec& material) {
+std::string hindrance(const MaterialSpec& material, const BodySpec& spec) {
   if (!material.modulus) return "has no modulus_kPa; give it in place of k1_N_per_m or lambda_N";
   if (!material.density) return "has no density_kg_per_m3; give it in place of mass_g";
   if (material.yield_ratio)
@@ -21,6 +21,10 @@ std::string hindrance(const MaterialSpec& material) {
   if (material.viscosity) return "has viscosity_N_s_per_m, which is of one spring; give viscosity_Pa_s";
   if (material.drag > 0) return "has drag_N_s_per_m, which is of the papers' masses; give viscosity_Pa_s";
   if (material.damper != Damper::axial) return "has a damper of springs; leave \"damper\" out";
+  if (material.law == TissueLaw::green && !material.relaxation.empty())
+    return "relaxes beside law = \"green\"; only \"neo_hookean\" does";
+  if (!material.modulus_by_intensity.empty() && !std::holds_alternative<VolumeShape>(spec.shape))
+    return "has modulus_by_intensity, but the body is no image; give modulus_kPa";
   return {};
 }
 
@@ -29,7 +33,7 @@ void refuse_materials(TableReader& reader, const ReadContext& context, const Bod
   for (const RegionSpec& region : spec.regions) used.push_back(region.material);
   for (const MaterialSpec& material : context.scene.materials) {
     if (std::find(used.begin(), used.end(), material.name) == used.end()) continue;
-    if (const std::string what = hindrance(material); !what.empty())
+    if (const std::string what = hindrance(material, spec); !what.empty())
       reader.complain("model", fmt::format("model = \"fem\" in {}, but [material.{}] {}", reader.title(),
                                            material.name, what));
   }
@@ -46,36 +50,61 @@ void refuse_relaxation(TableReader& reader, const ReadContext& context, const Bo
                                   reader.title(), material.name));
 }
 
-void refuse_implicit_relaxation(TableReader& reader, const ReadContext& context, const BodySpec& spec) {
+/// What of a material backward_euler cannot follow, and what else may be left out; empty: nothing.
+std::string beyond_backward_euler(const MaterialSpec& material) {
+  if (!material.relaxation.empty()) return "relaxes";
+  if (material.law == TissueLaw::green) return "has law = \"green\"";
+  return {};
+}
+
+void refuse_implicit(TableReader& reader, const ReadContext& context, const BodySpec& spec) {
   if (context.scene.physics->integrator != Integrator::backward_euler) return;
-  for (const MaterialSpec& material : context.scene.materials)
-    if (material.name == spec.material && !material.relaxation.empty())
+  for (const MaterialSpec& material : context.scene.materials) {
+    const std::string what = beyond_backward_euler(material);
+    if (material.name == spec.material && !what.empty())
       reader.complain("material",
-                      fmt::format("[material.{}] of {} relaxes, which \"backward_euler\" does not follow; "
-                                  "leave \"integrator\" in [physics] out, or the relaxation",
-                                  material.name, reader.title()));
+                      fmt::format("[material.{}] of {} {}, which \"backward_euler\" does not follow; "
+                                  "leave \"integrator\" in [physics] out, or that",
+                                  material.name, reader.title(), what));
+  }
+}
+
+/// What of a material springs cannot follow; empty: nothing.
+std::string beyond_springs(const MaterialSpec& material) {
+  if (!material.relaxation.empty()) return "a relaxation";
+  if (!material.modulus_by_intensity.empty()) return "modulus_by_intensity";
+  if (material.law != TissueLaw::neo_hookean) return "a law";
+  return {};
 }
 
 /// What is balanced creeps on.
-void refuse_balanced_creep(TableReader& reader, const ReadContext& context, const BodySpec& spec) {
+void refuse_balanced(TableReader& reader, const ReadContext& context, const BodySpec& spec) {
   if (spec.start != StartKind::balanced) return;
-  for (const MaterialSpec& material : context.scene.materials)
-    if (material.name == spec.material && !material.relaxation.empty())
+  for (const MaterialSpec& material : context.scene.materials) {
+    if (material.name != spec.material) continue;
+    if (!material.relaxation.empty())
       reader.complain("start",
                       fmt::format("start = \"balanced\" in {}, but [material.{}] relaxes and would sink "
                                   "on; leave \"start\" or the relaxation out",
                                   reader.title(), material.name));
+    if (material.law == TissueLaw::green)
+      reader.complain("start",
+                      fmt::format("start = \"balanced\" in {}, but [material.{}] has law = \"green\"; the "
+                                  "balance is found of \"neo_hookean\" only",
+                                  reader.title(), material.name));
+  }
 }
 
 void refuse_springs(TableReader& reader, const ReadContext& context, const BodySpec& spec) {
   std::vector<std::string> used{spec.material};
   for (const RegionSpec& region : spec.regions) used.push_back(region.material);
-  for (const MaterialSpec& material : context.scene.materials)
-    if (!material.relaxation.empty() && std::find(used.begin(), used.end(), material.name) != used.end())
-      reader.complain("material",
-                      fmt::format("{} is of springs, but [material.{}] has a relaxation, which only finite "
-                                  "elements follow; write model = \"fem\", or leave it out",
-                                  reader.title(), material.name));
+  for (const MaterialSpec& material : context.scene.materials) {
+    if (std::find(used.begin(), used.end(), material.name) == used.end()) continue;
+    if (const std::string what = beyond_springs(material); !what.empty())
+      reader.complain("material", fmt::format("{} is of springs, but [material.{}] has {}, which only finite "
+                                              "elements follow; write model = \"fem\", or leave it out",
+                                              reader.title(), material.name, what));
+  }
 }
 
 }  // namespace
@@ -105,8 +134,8 @@ void read_elements(TableReader& reader, ReadContext& context, BodySpec& spec) {
                              reader.title()));
   refuse_materials(reader, context, spec);
   refuse_relaxation(reader, context, spec);
-  refuse_implicit_relaxation(reader, context, spec);
-  refuse_balanced_creep(reader, context, spec);
+  refuse_implicit(reader, context, spec);
+  refuse_balanced(reader, context, spec);
 }
 
 }  // namespace palpate

@@ -1,6 +1,8 @@
 // [material.NAME]: a tissue (per volume) or the papers' constants (per mass and element).
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "common/math/units.h"
 #include "common/scene/material_spec.h"
 #include "common/scene/near_miss.h"
@@ -23,12 +25,44 @@ void check_group(TableReader& reader, const std::vector<std::string>& group, boo
     reader.complain_lack(quoted_list(group), "give exactly one of them");
 }
 
+/// modulus_by_intensity = [[intensity, kPa], ...]
+void read_modulus_by_intensity(TableReader& reader, MaterialSpec& spec) {
+  constexpr std::string_view key = "modulus_by_intensity";
+  constexpr std::string_view form = "a list of [intensity, kPa], such as [[100, 2], [400, 20]]";
+  const toml::array* list = reader.read_array(key, form);
+  if (list == nullptr) return;
+  spec.modulus = 1;  // any: what is wrong with the list is said once
+  if (list->size() < 2 || list->size() > most_modulus_points)
+    return reader.complain(key, fmt::format("{} points of \"{}\" in {}; write 2 to {}", list->size(), key,
+                                            reader.title(), most_modulus_points));
+  for (const toml::node& entry : *list) {
+    const auto pair = numbers_of(entry, 2);
+    if (!pair) return reader.complain_value(key, entry, form);
+    const ModulusPoint point{.intensity = (*pair)[0], .modulus = Pa_from_kPa((*pair)[1])};
+    if (!(point.modulus > 0))
+      return reader.complain_value(key, *entry.as_array()->get(1), "a modulus above 0 kPa");
+    if (!spec.modulus_by_intensity.empty() && !(point.intensity > spec.modulus_by_intensity.back().intensity))
+      return reader.complain_value(key, *entry.as_array()->get(0),
+                                   "an intensity above that of the point before");
+    spec.modulus_by_intensity.push_back(point);
+  }
+  const auto [least, most] = std::ranges::minmax(spec.modulus_by_intensity, {}, &ModulusPoint::modulus);
+  if (most.modulus > largest_modulus_contrast * least.modulus)
+    reader.complain(
+        key, fmt::format("\"{}\" in {} goes from {} to {} kPa; at most {:.0e} times", key, reader.title(),
+                         1e-3 * least.modulus, 1e-3 * most.modulus, largest_modulus_contrast));
+  spec.modulus = least.modulus;
+}
+
 void read_stiffness(TableReader& reader, MaterialSpec& spec) {
   spec.k1 = reader.read_number("k1_N_per_m", positive);
   if (const auto modulus_kPa = reader.read_number("modulus_kPa", positive))
     spec.modulus = Pa_from_kPa(*modulus_kPa);
   spec.lambda = reader.read_number("lambda_N", positive);
-  check_group(reader, {"k1_N_per_m", "modulus_kPa", "lambda_N"}, true);
+  read_modulus_by_intensity(reader, spec);
+  check_group(reader, {"k1_N_per_m", "modulus_kPa", "lambda_N", "modulus_by_intensity"}, true);
+  if (const auto word = reader.read_word("law", {"neo_hookean", "green"}))
+    spec.law = static_cast<TissueLaw>(*word);
   set_if(spec.poisson_ratio, reader.read_number("poisson_ratio", {.lo = 0, .hi = 0.495}));
   set_if(spec.k2_ratio, reader.read_number("k2_ratio", {.lo = 0, .hi = 1}));
 }

@@ -26,6 +26,11 @@ void refuse_mixture(const BodySpec& spec, const RegionSpec& region, const Materi
         "{}: material \"{}\" has poisson_ratio = {}, and \"{}\" of body \"{}\" has {}; finite elements of "
         "one body share it",
         region.place.text(), other.name, other.poisson_ratio, own.name, spec.name, own.poisson_ratio));
+  if (own.law != other.law)
+    throw InputError(
+        fmt::format("{}: material \"{}\" has another law than \"{}\" of body \"{}\"; finite elements "
+                    "of one body share it",
+                    region.place.text(), other.name, own.name, spec.name));
   const auto same_term = [](const RelaxationSpec& a, const RelaxationSpec& b) {
     return !differ(a.share, b.share) && !differ(a.time, b.time);
   };
@@ -41,6 +46,20 @@ void refuse_mixture(const BodySpec& spec, const RegionSpec& region, const Materi
         region.place.text(), beta_of(other), other.name, beta_of(own), own.name, spec.name));
 }
 
+/// Piecewise linear, constant beyond the outermost points [Pa].
+double modulus_at(const MaterialSpec& material, double intensity) {
+  const std::vector<ModulusPoint>& points = material.modulus_by_intensity;
+  if (points.empty()) return *material.modulus;
+  if (intensity <= points.front().intensity) return points.front().modulus;
+  for (std::size_t n = 1; n < points.size(); ++n) {
+    const ModulusPoint &lower = points[n - 1], &upper = points[n];
+    if (intensity < upper.intensity)
+      return std::lerp(lower.modulus, upper.modulus,
+                       (intensity - lower.intensity) / (upper.intensity - lower.intensity));
+  }
+  return points.back().modulus;
+}
+
 }  // namespace
 
 void give_solid_elements(Body& body, const BodySpec& spec, const std::vector<MaterialSpec>& materials) {
@@ -52,6 +71,7 @@ void give_solid_elements(Body& body, const BodySpec& spec, const std::vector<Mat
   solid.beta = beta_of(own);
   solid.density = *own.density;
   solid.hourglass = spec.hourglass;
+  solid.law = own.law;
   for (const RelaxationSpec& term : own.relaxation) solid.relaxation.push_back({term.share, term.time});
   for (const RegionSpec& region : spec.regions) {
     of_region.push_back(&named(materials, region.material));
@@ -71,7 +91,9 @@ void give_solid_elements(Body& body, const BodySpec& spec, const std::vector<Mat
         if (!cells.is_deformable(i, j, k)) continue;
         const Vec3i at = Vec3i(i, j, k) - corner;
         const MaterialSpec& material = *of_region[map.of_cell({i, j, k})];
-        const double stiffness = *material.modulus / solid.modulus;
+        const double intensity =
+            cells.intensity.empty() ? 0.0 : static_cast<double>(cells.intensity[cells.index(i, j, k)]);
+        const double stiffness = modulus_at(material, intensity) / solid.modulus;
         solid.stiffness[static_cast<std::size_t>(body.lattice.cell_of(at))] = static_cast<float>(stiffness);
         solid.largest_stiffness =
             std::max(solid.largest_stiffness, stiffness * solid.density / *material.density);

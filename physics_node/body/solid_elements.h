@@ -15,11 +15,12 @@ struct Relaxation {
 
 /// Stiffness of a cell and the mass of a node are per cell, as the cells around a node may be of several materials.
 struct SolidElements {
-  double modulus = 0;                  // Young's, of the body's own material [Pa]
+  double modulus = 0;                  // Young's, of the body's own material, where it varies its least [Pa]
   double poisson_ratio = 0;            // of all materials in it
   double beta = 0;                     // viscosity / modulus, of all materials in it [s]
   double density = 0;                  // the least of its materials [kg/m^3]
   std::vector<Relaxation> relaxation;  // of all materials in it; at most most_relaxation_terms
+  TissueLaw law = TissueLaw::neo_hookean;  // of all materials in it
   HourglassKind hourglass = HourglassKind::physical;
   std::vector<float>
       stiffness;  // modulus of a cell over `modulus`, by the storage cell of its lowest corner; 0: none (n_cells)

@@ -43,6 +43,11 @@ void add_materials(const Scene& scene, Remarks& remarks) {
           "{} has a modulus of {:.3g} kPa, as stiff as bone; tissue has 0.5 to 1000 (the key is in kPa, "
           "not Pa)",
           who, 1e-3 * *material.modulus));
+    if (material.law == TissueLaw::green)
+      remarks.push_back(
+          who +
+          " has law = \"green\", which gives way where a cell is squeezed below 0.6 of its length; leave "
+          "it out where tissue is pressed deep");
     if (material.density && (*material.density < lightest || *material.density > heaviest))
       remarks.push_back(
           fmt::format("{} has a density of {:.3g} kg/m^3; tissue has about 1000 (g/cm^3 times 1000)", who,

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "common/scene/element_kinds.h"
 #include "physics_node/step/fem/hex_constants.h"
 #include "physics_node/step/fem/hex_relaxation.h"
 #include "physics_node/step/lattice/element_context.h"
@@ -41,9 +42,10 @@ struct HexContext {
 };
 
 struct HexKind {
+  TissueLaw law = TissueLaw::neo_hookean;
   bool physical = true;
   bool damped = false;
-  bool relaxing = false;  // only physical
+  bool relaxing = false;  // only physical and neo-Hookean
 };
 
 template <class Real>

@@ -3,6 +3,7 @@
 
 #include <type_traits>
 
+#include "physics_node/material/st_venant_kirchhoff.h"
 #include "physics_node/material/stable_neo_hookean.h"
 #include "physics_node/step/lattice/hex_kernel.h"
 #include "physics_node/step/lattice/pack.h"
@@ -40,21 +41,21 @@ struct LostByTerms {
 };
 
 /// Forces and energy of some cells; with a memory that moves on.
-template <class Real, bool physical, bool with_energy, class Here, class P = Pack<Real>,
-          class V = typename P::V>
+template <class Real, template <class> class Law, bool physical, bool with_energy, class Here,
+          class P = Pack<Real>, class V = typename P::V>
 inline __attribute__((always_inline)) void cell_forces(const HexContext<Real>& m, const Corners<P>& w,
                                                        Here& here, HexForces<P>& out, LostByTerms<V>& lost) {
   if constexpr (std::is_same_v<Here, NothingRemembered>) {
-    hex_forces<P, StableNeoHookean, physical, with_energy>(m.k, w, out);
+    hex_forces<P, Law, physical, with_energy>(m.k, w, out);
   } else {
     Relaxing<P, Real> memory{{m.terms, m.n_terms}, here.terms};
-    hex_forces<P, StableNeoHookean, physical, with_energy>(m.k, w, out, memory);
+    hex_forces<P, Law, physical, with_energy>(m.k, w, out, memory);
     lost = {memory.lost_before, memory.lost_after};
   }
 }
 
 /// Forces of the cells of a run, at w = u + beta v.
-template <class Real, bool physical, bool damped, bool relaxing, bool watched>
+template <class Real, template <class> class Law, bool physical, bool damped, bool relaxing, bool watched>
 void run_forces(const HexContext<Real>& m, std::size_t r) {
   using P = Pack<Real>;
   using V = typename P::V;
@@ -79,7 +80,7 @@ void run_forces(const HexContext<Real>& m, std::size_t r) {
     if constexpr (relaxing && watched && damped) before = here;
     HexForces<P> out;
     LostByTerms<V> lost;
-    cell_forces<Real, physical, watched>(m, w, here, out, lost);
+    cell_forces<Real, Law, physical, watched>(m, w, here, out, lost);
     if constexpr (relaxing) {
       here.store(m, i, stiffness);
       lost_before = P::fma(stiffness, lost.before, lost_before);
@@ -97,7 +98,7 @@ void run_forces(const HexContext<Real>& m, std::size_t r) {
       for (std::size_t c = 0; c < 3; ++c)
         for (std::size_t a = 0; a < 8; ++a) w[c][a] = P::load(m.masses.u[c] + i + at[a]);
       if constexpr (relaxing) here = before;
-      cell_forces<Real, physical, true>(m, w, here, at_u, lost);
+      cell_forces<Real, Law, physical, true>(m, w, here, at_u, lost);
       ahead = P::fma(stiffness, out.energy - at_u.energy, ahead);
       elastic = P::fma(stiffness, at_u.energy, elastic);
     } else if constexpr (watched) {
@@ -120,12 +121,12 @@ void run_forces(const HexContext<Real>& m, std::size_t r) {
   if constexpr (watched && damped) m.ahead[r] = static_cast<double>(P::sum(ahead));
 }
 
-template <class Real, bool physical, bool damped, bool relaxing>
+template <class Real, template <class> class Law, bool physical, bool damped, bool relaxing>
 void forces(const HexContext<Real>& m, Index first_run, Index last_run) {
   for (auto r = static_cast<std::size_t>(first_run); r < static_cast<std::size_t>(last_run); ++r) {
     if (m.acts != nullptr && m.acts[r] == 0) continue;
-    m.masses.watch || !m.books ? run_forces<Real, physical, damped, relaxing, true>(m, r)
-                               : run_forces<Real, physical, damped, relaxing, false>(m, r);
+    m.masses.watch || !m.books ? run_forces<Real, Law, physical, damped, relaxing, true>(m, r)
+                               : run_forces<Real, Law, physical, damped, relaxing, false>(m, r);
   }
 }
 
@@ -214,18 +215,26 @@ void move(const HexContext<Real>& m, Index first_row, Index last_row) {
   }
 }
 
+template <class Real, template <class> class Law>
+HexKernel<Real> kernel_of(HexKind kind) {
+  if (kind.damped)
+    return {kind.physical ? &forces<Real, Law, true, true, false> : &forces<Real, Law, false, true, false>,
+            &move<Real, true, false>};
+  return {kind.physical ? &forces<Real, Law, true, false, false> : &forces<Real, Law, false, false, false>,
+          &move<Real, false, false>};
+}
+
 }  // namespace
 
 template <class Real>
 HexKernel<Real> hex_kernel(HexKind kind) {
   if (kind.relaxing)
-    return kind.damped ? HexKernel<Real>{&forces<Real, true, true, true>, &move<Real, true, true>}
-                       : HexKernel<Real>{&forces<Real, true, false, true>, &move<Real, false, true>};
-  if (kind.damped)
-    return {kind.physical ? &forces<Real, true, true, false> : &forces<Real, false, true, false>,
-            &move<Real, true, false>};
-  return {kind.physical ? &forces<Real, true, false, false> : &forces<Real, false, false, false>,
-          &move<Real, false, false>};
+    return kind.damped
+               ? HexKernel<Real>{&forces<Real, StableNeoHookean, true, true, true>, &move<Real, true, true>}
+               : HexKernel<Real>{&forces<Real, StableNeoHookean, true, false, true>,
+                                 &move<Real, false, true>};
+  return kind.law == TissueLaw::green ? kernel_of<Real, StVenantKirchhoff>(kind)
+                                      : kernel_of<Real, StableNeoHookean>(kind);
 }
 
 template HexKernel<float> hex_kernel<float>(HexKind);

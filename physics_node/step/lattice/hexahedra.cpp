@@ -1,135 +1,12 @@
 #include "physics_node/step/lattice/hexahedra.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <numeric>
 
-#include "physics_node/material/stable_neo_hookean.h"
-#include "physics_node/step/rigid_fit.h"
+#include "physics_node/step/lattice/hex_meter.h"
 
 namespace palpate::physics {
-namespace {
-
-using One = Scalar<double>;
-
-HexConstants<double> constants_of(const Body& body) {
-  const SolidElements& solid = *body.solid;
-  return hex_constants<double>(
-      {.modulus = solid.modulus, .poisson_ratio = solid.poisson_ratio, .hourglass = solid.hourglass},
-      body.lattice.step);
-}
-
-/// Terms as a step of dt finds them that comes dt_before after the last.
-template <class Real>
-std::array<RelaxationTerm<Real>, most_relaxations> terms_of(const Body& body, double dt_before, double dt) {
-  std::array<RelaxationTerm<Real>, most_relaxations> terms{};
-  for (std::size_t t = 0; t < body.solid->relaxation.size(); ++t) {
-    const Relaxation& of = body.solid->relaxation[t];
-    terms[t] = {.share = static_cast<Real>(of.share),
-                .kept_before = static_cast<Real>(std::exp(-0.5 * dt_before / of.time)),
-                .kept_after = static_cast<Real>(std::exp(-0.5 * dt / of.time))};
-  }
-  return terms;
-}
-
-/// A cell at one instant, measured for the books.
-struct CellNow {
-  HexForces<One> forces;
-  double lost_before = 0;  // by its terms since the last step [J]
-};
-
-/// Measures cells of one state one by one, in double.
-template <class Real>
-class CellMeter {
- public:
-  CellMeter(const Body& body, const LatticeState<Real>& state)
-      : body_(body),
-        state_(state),
-        k_(constants_of(body)),
-        terms_(terms_of<double>(body, state.dt_before, 0)) {}
-
-  /// @param beta  at u + beta v
-  CellNow at(const std::array<Index, 8>& corner, double beta) const {
-    Corners<One> w;
-    for (std::size_t a = 0; a < 8; ++a) {
-      const Vec3 x = vector_of(state_.u, corner[a]) + beta * vector_of(state_.v, corner[a]);
-      for (std::size_t c = 0; c < 3; ++c) w[c][a] = x[static_cast<Eigen::Index>(c)];
-    }
-    CellNow now;
-    const std::size_t n_terms = body_.solid->relaxation.size();
-    if (n_terms > 0) {
-      std::array<Remembered<double>, most_relaxations> remembered;
-      for (std::size_t t = 0; t < n_terms; ++t)
-        for (std::size_t n = 0; n < n_remembered; ++n)
-          remembered[t][n] = static_cast<double>(
-              state_.remembered[n_remembered * t + n][static_cast<std::size_t>(corner[0])]);
-      Relaxing<One, double> memory{{terms_.data(), n_terms}, remembered};
-      hex_forces<One, StableNeoHookean, true, true>(k_, w, now.forces, memory);
-      now.lost_before = memory.lost_before;
-    } else if (body_.solid->hourglass == HourglassKind::physical) {
-      hex_forces<One, StableNeoHookean, true, true>(k_, w, now.forces);
-    } else {
-      hex_forces<One, StableNeoHookean, false, true>(k_, w, now.forces);
-    }
-    return now;
-  }
-
- private:
-  const Body& body_;
-  const LatticeState<Real>& state_;
-  HexConstants<double> k_;
-  std::array<RelaxationTerm<double>, most_relaxations> terms_;
-};
-
-/// Calls visit(stiffness, corners) for each cell, corners as storage cells.
-template <class Visit>
-void for_each_cell(const Body& body, const HexGrid& grid, const Visit& visit) {
-  for (const HexRun& run : grid.runs)
-    for (Index i = run.first; i < run.first + run.count; ++i) {
-      const float stiffness = body.solid->stiffness[static_cast<std::size_t>(i)];
-      if (stiffness <= 0) continue;
-      std::array<Index, 8> corner;
-      for (Index a = 0; a < 8; ++a)
-        corner[static_cast<std::size_t>(a)] =
-            i + (a & 1) * run.right + (a >> 1 & 1) * grid.up_y + (a >> 2) * grid.up_z;
-      visit(static_cast<double>(stiffness), corner);
-    }
-}
-
-/// Energy of all cells at u and how much more it is at w = u + beta v, their forces on the nodes at w, and what their terms have
-/// lost since the last step.
-struct Measured {
-  double elastic = 0, ahead = 0, lost_before = 0;
-  std::vector<Vec3> force;  // (n_cells)
-};
-template <class Real>
-Measured measure(const Body& body, const HexGrid& grid, const LatticeState<Real>& state) {
-  Measured sum;
-  sum.force.assign(static_cast<std::size_t>(body.capacity()), Vec3::Zero());
-  const CellMeter<Real> meter(body, state);
-  for_each_cell(body, grid, [&](double stiffness, const std::array<Index, 8>& corner) {
-    const CellNow now = meter.at(corner, body.solid->beta);
-    const HexForces<One>& out = now.forces;
-    const double at_u = meter.at(corner, 0).forces.energy;
-    sum.elastic += stiffness * at_u;
-    sum.ahead += stiffness * (out.energy - at_u);
-    sum.lost_before += stiffness * now.lost_before;
-    for (std::size_t a = 0; a < 8; ++a)
-      sum.force[static_cast<std::size_t>(corner[a])] +=
-          stiffness * Vec3(out.f[0][a], out.f[1][a], out.f[2][a]);
-  });
-  return sum;
-}
-
-/// Of the tangent of law and terms at rest [Pa].
-double bound_at_rest(const Body& body, const HexConstants<double>& k) {
-  auto terms = terms_of<double>(body, 0, 0);
-  const Relaxing<One, double> memory{{terms.data(), body.solid->relaxation.size()}, {}};
-  return memory.stiffness(StableNeoHookean<One>{k.mu, k.lambda}.stiffness({}), k, {});
-}
-
-}  // namespace
 
 template <class Real>
 Hexahedra<Real>::Hexahedra(const Body& body)
@@ -140,15 +17,14 @@ Hexahedra<Real>::Hexahedra(const Body& body)
       least_J_(grid_.runs.size(), 1.0),
       stiffest_(grid_.runs.size()),
       passed_(body.lattice.rows.size()),
-      kernel_(hex_kernel_here<Real>({.physical = body.solid->hourglass == HourglassKind::physical,
+      kernel_(hex_kernel_here<Real>({.law = body.solid->law,
+                                     .physical = body.solid->hourglass == HourglassKind::physical,
                                      .damped = body.solid->beta > 0,
                                      .relaxing = !body.solid->relaxation.empty()})) {
   const SolidElements& solid = *body.solid;
   const auto n = static_cast<std::size_t>(body.capacity());
-  constants_ = hex_constants<Real>(
-      {.modulus = solid.modulus, .poisson_ratio = solid.poisson_ratio, .hourglass = solid.hourglass},
-      body.lattice.step);
-  at_rest_ = bound_at_rest(body, constants_of(body));
+  constants_ = hex_constants_of<Real>(body);
+  at_rest_ = hex_bound_at_rest(body);
   std::size_t colour = 8 + n_remembered * solid.relaxation.size();  // after those of LatticeState
   stiffness_ = ZeroedArray<Real>(n, colour++);
   for (const Index cell : body.lattice.masses)
@@ -219,7 +95,7 @@ StepOutcome Hexahedra<Real>::step(const Body& body, LatticeState<Real>& state,
   m.stiffest = stiffest_.data();
   m.passed = passed_.data();
   m.n_terms = body.solid->relaxation.size();
-  std::ranges::copy(terms_of<Real>(body, state.dt_before, step.dt), m.terms);
+  std::ranges::copy(relaxation_terms<Real>(body, state.dt_before, step.dt), m.terms);
   for (std::size_t n = 0; n < state.remembered.size(); ++n)
     m.remembered[n / n_remembered][n % n_remembered] = state.remembered[n].data();
   m.lost_before = lost_before_.data();
@@ -260,7 +136,7 @@ StepOutcome Hexahedra<Real>::step(const Body& body, LatticeState<Real>& state,
 template <class Real>
 Energies Hexahedra<Real>::energies(const Body& body, const LatticeState<Real>& state,
                                    const Vec3& gravity) const {
-  const Measured now = measure(body, grid_, state);
+  const MeasuredHexahedra now = measure_hexahedra(body, grid_, state);
   Energies e;
   e.elastic = now.elastic;
   double power = 0;
@@ -280,7 +156,7 @@ template <class Real>
 Losses Hexahedra<Real>::due(const Body& body, const LatticeState<Real>& state) const {
   Losses due;
   if ((body.solid->beta == 0 && body.solid->relaxation.empty()) || state.dt_before == 0) return due;
-  const Measured now = measure(body, grid_, state);
+  const MeasuredHexahedra now = measure_hexahedra(body, grid_, state);
   due.viscous = now.lost_before + std::accumulate(lost_after_.begin(), lost_after_.end(), 0.0);
   if (body.solid->beta == 0) return due;
   double work = 0;
@@ -296,7 +172,7 @@ template <class Real>
 BodyCounts Hexahedra<Real>::counts(const Body& body, const LatticeState<Real>& state) const {
   BodyCounts counts;
   counts.least_corner_J = least_corner_J_;
-  const HexConstants<double> k = constants_of(body);
+  const HexConstants<double> k = hex_constants_of<double>(body);
   for_each_cell(body, grid_, [&](double, const std::array<Index, 8>& corner) {
     ++counts.elements;
     ++counts.live_elements;

@@ -98,6 +98,13 @@ std::vector<SceneTable> all_tables() {
       all.push_back({heading, "", "[material.m]\n", std::string(mass) + stiffness, rest});
   all.push_back({heading, "", "[material.m]\n", "mass_g = 1\nk1_N_per_m = 1\nviscosity_Pa_s = 1\n", rest});
   all.push_back({heading, "", "[material.m]\n",
+                 "density_kg_per_m3 = 1\nmodulus_by_intensity = [[0, 1], [1, 2]]\n",
+                 "[[body]]\nname = \"b\"\nmaterial = \"m\"\nshape = \"volume\"\nfile = \"scan.h5\"\nmodel = "
+                 "\"fem\"\n" +
+                     image});
+  all.push_back({heading, "", "[material.m]\n", "density_kg_per_m3 = 1\nmodulus_kPa = 10\nlaw = \"green\"\n",
+                 rest + "lattice = \"voxel\"\nmodel = \"fem\"\n"});
+  all.push_back({heading, "", "[material.m]\n",
                  "density_kg_per_m3 = 1\nmodulus_kPa = 10\nrelaxation = [[0.5, 1]]\n",
                  rest + "lattice = \"voxel\"\nmodel = \"fem\"\n"});
   all.push_back({heading, "", "[material.m]\n",

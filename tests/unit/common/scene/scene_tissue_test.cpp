@@ -279,6 +279,51 @@ TEST(Elements, ReadWhatTheyForget) {
   EXPECT_THAT(complaints_about(springs), ElementsAre(HasSubstr("write model = \"fem\", or leave it out")));
 }
 
+TEST(Elements, ReadTheirLaw) {
+  const std::string tissue = "density_kg_per_m3 = 1000\nmodulus_kPa = 10\n";
+  EXPECT_EQ(parsed(elements(tissue)).materials[0].law, TissueLaw::neo_hookean);
+  EXPECT_EQ(parsed(elements(tissue + "law = \"green\"")).materials[0].law, TissueLaw::green);
+  EXPECT_THAT(complaints_about(elements(tissue + "law = \"hooke\"")),
+              ElementsAre(HasSubstr("write \"neo_hookean\" or \"green\"")));
+  EXPECT_THAT(complaints_about(elements(tissue + "law = \"green\"\nrelaxation = [[0.5, 1]]")),
+              ElementsAre(HasSubstr("only \"neo_hookean\" does")));
+  EXPECT_THAT(
+      complaints_about("[physics]\nintegrator = \"backward_euler\"\n" + elements(tissue + "law = \"green\"")),
+      ElementsAre(HasSubstr("has law = \"green\", which \"backward_euler\" does not follow")));
+  std::string springs = elements(tissue + "law = \"green\"");
+  springs.replace(springs.find("fem"), 3, "springs");
+  EXPECT_THAT(complaints_about(springs),
+              ElementsAre(HasSubstr("has a law, which only finite elements follow")));
+}
+
+TEST(Elements, ReadAModulusByIntensity) {
+  const auto scanned = [](const std::string& table, const std::string& model = "fem") {
+    return "[material.m]\ndensity_kg_per_m3 = 1000\nmodulus_by_intensity = " + table +
+           "\n[[body]]\nname = \"b\"\nmaterial = \"m\"\nshape = \"volume\"\nfile = \"scan.h5\"\nkeep = [0, "
+           "9]\nmodel = "
+           "\"" +
+           model + "\"\n";
+  };
+  const Scene scene = parsed(scanned("[[100, 20], [400, 2], [500, 3]]"));
+  const MaterialSpec& material = scene.materials[0];
+  ASSERT_EQ(material.modulus_by_intensity.size(), 3U);
+  EXPECT_EQ(material.modulus_by_intensity[1].intensity, 400);
+  EXPECT_DOUBLE_EQ(material.modulus_by_intensity[0].modulus, 20e3);
+  EXPECT_THAT(material.modulus, Optional(2e3)) << "the least";
+  const auto about = [&](const std::string& table) { return complaints_about(scanned(table)); };
+  EXPECT_THAT(about("[[100, 20]]"), ElementsAre(HasSubstr("1 points of \"modulus_by_intensity\"")));
+  EXPECT_THAT(about("[[100, 20], [100, 30]]"), ElementsAre(HasSubstr("above that of the point before")));
+  EXPECT_THAT(about("[[100, 20], [90, 30]]"), ElementsAre(HasSubstr("above that of the point before")));
+  EXPECT_THAT(about("[[nan, 20], [90, 30]]"), ElementsAre(HasSubstr("[[100, 2], [400, 20]]")));
+  EXPECT_THAT(about("[[1, 20], [90, 0]]"), ElementsAre(HasSubstr("a modulus above 0 kPa")));
+  EXPECT_THAT(about("[[1, inf], [90, 1]]"), ElementsAre(HasSubstr("[[100, 2], [400, 20]]")));
+  EXPECT_THAT(about("[[1, 1e-3], [90, 1e5]]"), ElementsAre(HasSubstr("at most 1e+06 times")));
+  EXPECT_THAT(complaints_about(scanned("[[1, 2], [3, 4]]", "springs")),
+              ElementsAre(HasSubstr("has modulus_by_intensity, which only finite elements follow")));
+  EXPECT_THAT(complaints_about(elements("density_kg_per_m3 = 1000\nmodulus_by_intensity = [[1, 2], [3, 4]]")),
+              ElementsAre(HasSubstr("the body is no image; give modulus_kPa")));
+}
+
 TEST(Elements, RefuseWhatTheyCannotFollow) {
   const std::string tissue = "density_kg_per_m3 = 1000\nmodulus_kPa = 10\n";
   const auto about = [](const std::string& text) { return complaints_about(text); };

@@ -3,7 +3,14 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
+#include <cmath>
+
 #include "common/error/error.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/material_spec.h"
+#include "tests/support/image/scratch_folder.h"
+#include "tests/support/physics/made_volume.h"
 #include "tests/support/physics/small_worlds.h"
 
 namespace palpate::physics {
@@ -59,6 +66,29 @@ TEST(SolidElements, HaveTheModulusAndTheMassOfTheirOwnCell) {
   EXPECT_EQ(soft, 32);
   EXPECT_EQ(stiff, 32);
   EXPECT_NEAR(mass, 32e-6 * (1000 + 3000), 1e-12);
+}
+
+TEST(SolidElements, FollowTheIntensityOfTheImage) {
+  const palpate::test::ScratchFolder folder;
+  const std::string path = folder / "made.h5";
+  write_volume(made_volume({7, 2, 2}, [](int i, int, int) { return 50.F * static_cast<float>(i); }), path);
+  BodySpec spec = volume_body(path, 0, 400);
+  spec.model = ElementModel::fem;
+  MaterialSpec scanned = soft_material();
+  scanned.modulus_by_intensity = {{75, 4e3}, {175, 2e3}, {225, 12e3}};
+  scanned.modulus = 2e3;
+  const Body body = build_body(spec, std::vector<MaterialSpec>{scanned});
+  // 0, 50: the first point; 100, 150 between it and the second; 200 between that and the third; 250, 300: the last.
+  const std::array<double, 7> expected{4e3, 4e3, 3.5e3, 2.5e3, 7e3, 12e3, 12e3};
+  for (const Index cell : body.lattice.masses) {
+    const float stiffness = body.solid->stiffness[static_cast<std::size_t>(cell)];
+    if (stiffness == 0) continue;
+    const double x = body.lattice.rest_position(cell).x();  // of its lowest corner; the image is centred
+    const auto i = static_cast<std::size_t>(std::lround(x / 0.002 + 3.5));
+    ASSERT_LT(i, expected.size());
+    EXPECT_NEAR(static_cast<double>(stiffness) * body.solid->modulus, expected[i], 1e-3) << i;
+  }
+  EXPECT_DOUBLE_EQ(body.solid->largest_stiffness, 6);
 }
 
 TEST(SolidElements, OfOneBodyShareWhatTheKernelHasOnce) {

@@ -85,6 +85,7 @@ INSTANTIATE_TEST_SUITE_P(
                 {"material.soft.modulus_kPa=3e8", "physics.integrator=backward_euler"},
                 "as stiff as bone"},
         Mistake{"ModulusInMPa", {"material.soft.modulus_kPa=0.01"}, "softer than jelly"},
+        Mistake{"LawForSmallStrain", {"material.soft.law=green", "body.block.model=fem"}, "gives way"},
         Mistake{"DensityInGramsPerCm3", {"material.soft.density_kg_per_m3=1.06"}, "has a density of 1.06"},
         Mistake{"SizesInMetres",
                 {"body.block.size_mm=[0.06,0.06,0.03]", "body.block.spacing_mm=0.005",

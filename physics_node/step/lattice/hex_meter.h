@@ -1,0 +1,65 @@
+#pragma once
+// Hexahedra measured one by one, in double, for the books and the summary: not for stepping.
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "physics_node/step/fem/hex_constants.h"
+#include "physics_node/step/fem/hex_relaxation.h"
+#include "physics_node/step/lattice/hex_grid.h"
+#include "physics_node/step/lattice/state.h"
+
+namespace palpate::physics {
+
+/// In the precision of the kernel or of the meter.
+template <class Real>
+HexConstants<Real> hex_constants_of(const Body& body) {
+  const SolidElements& solid = *body.solid;
+  return hex_constants<Real>(
+      {.modulus = solid.modulus, .poisson_ratio = solid.poisson_ratio, .hourglass = solid.hourglass},
+      body.lattice.step);
+}
+
+/// Terms as a step of dt finds them that comes dt_before after the last.
+template <class Real>
+std::array<RelaxationTerm<Real>, most_relaxations> relaxation_terms(const Body& body, double dt_before,
+                                                                    double dt) {
+  std::array<RelaxationTerm<Real>, most_relaxations> terms{};
+  for (std::size_t t = 0; t < body.solid->relaxation.size(); ++t) {
+    const Relaxation& of = body.solid->relaxation[t];
+    terms[t] = {.share = static_cast<Real>(of.share),
+                .kept_before = static_cast<Real>(std::exp(-0.5 * dt_before / of.time)),
+                .kept_after = static_cast<Real>(std::exp(-0.5 * dt / of.time))};
+  }
+  return terms;
+}
+
+/// Bound of the tangent of law and terms at rest [Pa].
+double hex_bound_at_rest(const Body& body);
+
+/// Calls visit(stiffness, corners) for each cell, corners as storage cells.
+template <class Visit>
+void for_each_cell(const Body& body, const HexGrid& grid, const Visit& visit) {
+  for (const HexRun& run : grid.runs)
+    for (Index i = run.first; i < run.first + run.count; ++i) {
+      const float stiffness = body.solid->stiffness[static_cast<std::size_t>(i)];
+      if (stiffness <= 0) continue;
+      std::array<Index, 8> corner;
+      for (Index a = 0; a < 8; ++a)
+        corner[static_cast<std::size_t>(a)] =
+            i + (a & 1) * run.right + (a >> 1 & 1) * grid.up_y + (a >> 2) * grid.up_z;
+      visit(static_cast<double>(stiffness), corner);
+    }
+}
+
+/// Energy of all cells at u and how much more it is at w = u + beta v, their forces on the nodes at w, and what their terms have
+/// lost since the last step.
+struct MeasuredHexahedra {
+  double elastic = 0, ahead = 0, lost_before = 0;
+  std::vector<Vec3> force;  // (n_cells)
+};
+template <class Real>
+MeasuredHexahedra measure_hexahedra(const Body& body, const HexGrid& grid, const LatticeState<Real>& state);
+
+}  // namespace palpate::physics
