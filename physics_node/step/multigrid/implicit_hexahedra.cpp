@@ -57,14 +57,14 @@ double ImplicitHexahedra<Real>::work_of_elements(const Crew& crew) noexcept {
 template <class Real>
 void ImplicitHexahedra<Real>::book(LatticeState<Real>& state, const Crew& crew, const NewtonTask& task,
                                    double before) noexcept {
-  // K falls by what the elements held back, and by (1/2) m |v' - v|^2; what the residual did is in it, too.
-  const double change = newton_.sum(crew, [&](std::size_t i) {
+  // A step takes (1/2) m |v' - v|^2 and what the elements held back beyond the energy that they took up. What the solver left over
+  // does work, too: it is not booked, so that the balance of the ledger shows it.
+  const double inertia = newton_.sum(crew, [&](std::size_t i) {
     double less = 0;
     for (std::size_t a = 0; a < 3 && mass_[i] > 0; ++a) {
-      const double v = static_cast<double>(newton_.D[a][i]) / task.dt,
-                   old = static_cast<double>(newton_.coast[a][i]) / task.dt;
-      less += 0.5 * mass_[i] * (old * old - v * v) +
-              static_cast<double>(newton_.push[a][i]) * static_cast<double>(newton_.D[a][i]);
+      const double change =
+          (static_cast<double>(newton_.D[a][i]) - static_cast<double>(newton_.coast[a][i])) / task.dt;
+      less += 0.5 * mass_[i] * change * change;
     }
     return less;
   });
@@ -72,7 +72,7 @@ void ImplicitHexahedra<Real>::book(LatticeState<Real>& state, const Crew& crew, 
   const double after = newton_.evaluate(crew, 1);
   const double viscous = task.beta > 0 ? work_of_elements(crew) - held : 0;
   state.ledger.front().viscous += viscous;
-  state.ledger.front().numerical += change - (after - before) - viscous;
+  state.ledger.front().numerical += inertia - held - (after - before) - viscous;
 }
 
 template <class Real>

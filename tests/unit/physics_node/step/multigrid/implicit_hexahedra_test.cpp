@@ -83,7 +83,8 @@ TEST(ImplicitHexahedra, KeepsTheBooksOfAFallAndASwing) {
     const Losses lost = body->losses();
     const double fallen = start.gravitational - end.gravitational;
     EXPECT_GT(fallen, 0);
-    EXPECT_NEAR(fallen, end.kinetic + end.elastic + lost.viscous + lost.numerical, 1e-6 * fallen);
+    // What is booked is what each step took; a residual of a thousandth of the forces does work that is not.
+    EXPECT_NEAR(fallen, end.kinetic + end.elastic + lost.viscous + lost.numerical, 2e-4 * fallen);
     EXPECT_GT(lost.numerical, 0);
     EXPECT_EQ(lost.viscous > 0, *further != 0);
   }
