@@ -4,34 +4,33 @@
 #include "physics_node/material/stable_neo_hookean.h"
 
 namespace palpate::physics {
-namespace {
-
-using One = Scalar<double>;
 
 /// A cell at one instant, measured for the books.
-struct CellNow {
-  HexForces<One> forces;
+struct MeasuredCell {
+  HexForces<Scalar<double>> forces;
   double lost_before = 0;  // by its terms since the last step [J]
 };
 
 /// Measures cells of one state one by one, in double.
 template <class Real>
-class CellMeter {
+class HexCellMeter {
  public:
-  CellMeter(const Body& body, const LatticeState<Real>& state)
+  using One = Scalar<double>;
+
+  HexCellMeter(const Body& body, const LatticeState<Real>& state)
       : body_(body),
         state_(state),
         k_(hex_constants_of<double>(body)),
         terms_(relaxation_terms<double>(body, state.dt_before, 0)) {}
 
   /// @param beta  at u + beta v
-  CellNow at(const std::array<Index, 8>& corner, double beta) const {
+  MeasuredCell at(const std::array<Index, 8>& corner, double beta) const {
     Corners<One> w;
     for (std::size_t a = 0; a < 8; ++a) {
       const Vec3 x = vector_of(state_.u, corner[a]) + beta * vector_of(state_.v, corner[a]);
       for (std::size_t c = 0; c < 3; ++c) w[c][a] = x[static_cast<Eigen::Index>(c)];
     }
-    CellNow now;
+    MeasuredCell now;
     const std::size_t n_terms = body_.solid->relaxation.size();
     if (n_terms > 0) {
       std::array<Remembered<double>, most_relaxations> remembered;
@@ -65,9 +64,8 @@ class CellMeter {
   std::array<RelaxationTerm<double>, most_relaxations> terms_;
 };
 
-}  // namespace
-
 double hex_bound_at_rest(const Body& body) {
+  using One = Scalar<double>;
   const HexConstants<double> k = hex_constants_of<double>(body);
   if (body.solid->law == TissueLaw::green) return StVenantKirchhoff<One>{k.mu, k.lambda}.stiffness({});
   auto terms = relaxation_terms<double>(body, 0, 0);
@@ -79,10 +77,10 @@ template <class Real>
 MeasuredHexahedra measure_hexahedra(const Body& body, const HexGrid& grid, const LatticeState<Real>& state) {
   MeasuredHexahedra sum;
   sum.force.assign(static_cast<std::size_t>(body.capacity()), Vec3::Zero());
-  const CellMeter<Real> meter(body, state);
+  const HexCellMeter<Real> meter(body, state);
   for_each_cell(body, grid, [&](double stiffness, const std::array<Index, 8>& corner) {
-    const CellNow now = meter.at(corner, body.solid->beta);
-    const HexForces<One>& out = now.forces;
+    const MeasuredCell now = meter.at(corner, body.solid->beta);
+    const auto& out = now.forces;
     const double at_u = meter.at(corner, 0).forces.energy;
     sum.elastic += stiffness * at_u;
     sum.ahead += stiffness * (out.energy - at_u);
