@@ -22,9 +22,13 @@ struct Options {
   std::string out = "out/bench_stress";
   std::uint64_t seeds = 1000, first = 1;
   std::optional<std::uint64_t> one;
-  ElementModel model = ElementModel::springs;
+  std::string model = "springs";
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 };
+
+ElementModel model_of(const Options& options) {
+  return options.model == "fem" ? ElementModel::fem : ElementModel::springs;
+}
 
 int replay(std::uint64_t seed, ElementModel model) {
   const StressResult result =
@@ -77,11 +81,11 @@ void show_worst(std::vector<StressResult> results) {
 }
 
 int run_stress_command(const Options& options) {
-  if (options.one) return replay(*options.one, options.model);
+  if (options.one) return replay(*options.one, model_of(options));
   const ResultFolder folder(options.out, "stress");
   const bool terminal = isatty(fileno(stdout)) != 0;
   const BatchResults all = run_batches(
-      options.first, options.seeds, options.model, options.jobs, options.out, [&](std::uint64_t n) {
+      options.first, options.seeds, model_of(options), options.jobs, options.out, [&](std::uint64_t n) {
         if (terminal) fmt::print("\r{} of {} scenes", n, options.seeds), std::fflush(stdout);
       });
   if (terminal) fmt::print("\n");
@@ -90,7 +94,7 @@ int run_stress_command(const Options& options) {
   folder.write_csv(table);
   nlohmann::json json = {{"first", options.first},
                          {"seeds", options.seeds},
-                         {"model", options.model == ElementModel::fem ? "fem" : "springs"},
+                         {"model", options.model},
                          {"growth_bound", growth_bound}};
   json["integrators"] = counts(all);
   for (const auto& crash : all.crashes) {
@@ -117,9 +121,9 @@ void add_stress(CLI::App& app, int& exit_code) {
   command->add_option("--seeds", options->seeds, "how many scenes")->capture_default_str();
   command->add_option("--first", options->first, "the first seed")->capture_default_str();
   command->add_option("--seed", options->one, "one scene, with every frame in words");
-  command->add_option("--model", options->model, "\"springs\" or \"fem\": what the bodies are of")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, ElementModel>{
-          {"springs", ElementModel::springs}, {"fem", ElementModel::fem}}));
+  command->add_option("--model", options->model, "what the bodies are made of: springs or fem")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"springs", "fem"}));
   command->add_option("--jobs", options->jobs, "processes at a time")
       ->capture_default_str()
       ->check(CLI::Range(1, 256));
