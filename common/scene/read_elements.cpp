@@ -28,11 +28,16 @@ std::string hindrance(const MaterialSpec& material, const BodySpec& spec) {
   return {};
 }
 
+/// Is the body, or a region of it, of this material?
+bool is_in(const BodySpec& spec, const MaterialSpec& material) {
+  return spec.material == material.name ||
+         std::any_of(spec.regions.begin(), spec.regions.end(),
+                     [&](const RegionSpec& region) { return region.material == material.name; });
+}
+
 void refuse_materials(TableReader& reader, const ReadContext& context, const BodySpec& spec) {
-  std::vector<std::string> used{spec.material};
-  for (const RegionSpec& region : spec.regions) used.push_back(region.material);
   for (const MaterialSpec& material : context.scene.materials) {
-    if (std::find(used.begin(), used.end(), material.name) == used.end()) continue;
+    if (!is_in(spec, material)) continue;
     if (const std::string what = hindrance(material, spec); !what.empty())
       reader.complain("model", fmt::format("model = \"fem\" in {}, but [material.{}] {}", reader.title(),
                                            material.name, what));
@@ -96,10 +101,8 @@ void refuse_balanced(TableReader& reader, const ReadContext& context, const Body
 }
 
 void refuse_springs(TableReader& reader, const ReadContext& context, const BodySpec& spec) {
-  std::vector<std::string> used{spec.material};
-  for (const RegionSpec& region : spec.regions) used.push_back(region.material);
   for (const MaterialSpec& material : context.scene.materials) {
-    if (std::find(used.begin(), used.end(), material.name) == used.end()) continue;
+    if (!is_in(spec, material)) continue;
     if (const std::string what = beyond_springs(material); !what.empty())
       reader.complain("material", fmt::format("{} is of springs, but [material.{}] has {}, which only finite "
                                               "elements follow; write model = \"fem\", or leave it out",
