@@ -4,7 +4,7 @@
 #include "physics_node/step/fem/tet10_element.h"
 #include "physics_node/step/fem/tet_element.h"
 #include "physics_node/step/fem/tet_layout.h"
-#include "physics_node/step/lattice/element_context.h"
+#include "physics_node/step/lattice/kernel_choice.h"
 
 namespace palpate::physics {
 
@@ -91,15 +91,7 @@ TetKernel<Real> tet_kernel(TetKind kind);
 /// @param set  that this machine runs
 template <class Real>
 TetKernel<Real> tet_kernel_of(InstructionSet set, TetKind kind) {
-  switch (set) {
-    case InstructionSet::avx512:
-      return avx512::tet_kernel<Real>(kind);
-    case InstructionSet::avx2:
-      return avx2::tet_kernel<Real>(kind);
-    case InstructionSet::sse2:
-      break;
-  }
-  return sse2::tet_kernel<Real>(kind);
+  return kernel_for(set, kind, &sse2::tet_kernel<Real>, &avx2::tet_kernel<Real>, &avx512::tet_kernel<Real>);
 }
 
 }  // namespace palpate::physics

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "physics_node/step/lattice/kernel_choice.h"
 #include "physics_node/step/lattice/mirror_breaks.h"
 
 namespace palpate::physics {
@@ -66,15 +67,8 @@ ElementKernel<Real> choose_kernel(const Body& body, bool verlet, bool exact) {
                             : body.law.damper == Damper::axial ? DamperKind::axial
                                                                : DamperKind::other;
   const KernelKind kind{damper, any_yields(body), !body.law_of.empty(), verlet, exact};
-  switch (instruction_set()) {
-    case InstructionSet::avx512:
-      return avx512::element_kernel<Real>(kind);
-    case InstructionSet::avx2:
-      return avx2::element_kernel<Real>(kind);
-    case InstructionSet::sse2:
-      break;
-  }
-  return sse2::element_kernel<Real>(kind);
+  return kernel_for(instruction_set(), kind, &sse2::element_kernel<Real>, &avx2::element_kernel<Real>,
+                    &avx512::element_kernel<Real>);
 }
 
 InstructionSet find_instruction_set() noexcept {

@@ -8,6 +8,7 @@
 #include "physics_node/step/fem/hex_relaxation.h"
 #include "physics_node/step/lattice/element_context.h"
 #include "physics_node/step/lattice/hex_grid.h"
+#include "physics_node/step/lattice/kernel_choice.h"
 
 namespace palpate::physics {
 
@@ -70,15 +71,8 @@ HexKernel<Real> hex_kernel(HexKind kind);
 /// Of the widest vectors that this machine has.
 template <class Real>
 HexKernel<Real> hex_kernel_here(HexKind kind) {
-  switch (instruction_set()) {
-    case InstructionSet::avx512:
-      return avx512::hex_kernel<Real>(kind);
-    case InstructionSet::avx2:
-      return avx2::hex_kernel<Real>(kind);
-    case InstructionSet::sse2:
-      break;
-  }
-  return sse2::hex_kernel<Real>(kind);
+  return kernel_for(instruction_set(), kind, &sse2::hex_kernel<Real>, &avx2::hex_kernel<Real>,
+                    &avx512::hex_kernel<Real>);
 }
 
 }  // namespace palpate::physics

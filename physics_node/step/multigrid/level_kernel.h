@@ -2,7 +2,7 @@
 // All that the kernels of a level need, and where it is.
 
 #include "physics_node/step/fem/hex_constants.h"
-#include "physics_node/step/lattice/element_context.h"
+#include "physics_node/step/lattice/kernel_choice.h"
 #include "physics_node/step/multigrid/cell_batches.h"
 
 namespace palpate::physics {
@@ -76,15 +76,8 @@ LevelKernel<Real> level_kernel(bool physical);
 /// Of the widest vectors that this machine has.
 template <class Real>
 LevelKernel<Real> level_kernel_here(bool physical) {
-  switch (instruction_set()) {
-    case InstructionSet::avx512:
-      return avx512::level_kernel<Real>(physical);
-    case InstructionSet::avx2:
-      return avx2::level_kernel<Real>(physical);
-    case InstructionSet::sse2:
-      break;
-  }
-  return sse2::level_kernel<Real>(physical);
+  return kernel_for(instruction_set(), physical, &sse2::level_kernel<Real>, &avx2::level_kernel<Real>,
+                    &avx512::level_kernel<Real>);
 }
 
 }  // namespace palpate::physics
