@@ -51,6 +51,7 @@ struct BodySpec {
   ElementModel model = ElementModel::springs;
   HourglassKind hourglass = HourglassKind::physical;  // of fem
   StartKind start = StartKind::rest;                  // likewise
+  BorderCells border_cells = BorderCells::whole;      // likewise
   std::optional<double> spacing;  // [m]; absent only for a volume of voxels, which brings its own
   std::string material;
   std::vector<RegionSpec> regions;  // of other materials; later ones win

@@ -12,6 +12,9 @@ enum class TissueLaw { neo_hookean, green };
 /// What keeps a cell of one point from bending for nothing.
 enum class HourglassKind { physical, isotropic };
 
+/// whole: a cell is in the shape or not, by its centre. filled: those at its border are as stiff as the share of them that is in.
+enum class BorderCells { whole, filled };
+
 /// rest: as it is built, without stress. balanced: where it rests under its weight.
 enum class StartKind { rest, balanced };
 

@@ -1,4 +1,4 @@
-// `model`, `hourglass` and `start` of a body: springs or finite elements.
+// `model`, `hourglass`, `border_cells` and `start` of a body: springs or finite elements.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -100,6 +100,18 @@ void refuse_balanced(TableReader& reader, const ReadContext& context, const Body
   }
 }
 
+/// Shares of cells are of bodies whose cells are more than a wall of so many layers, and what breaks has whole ones.
+void refuse_filled(TableReader& reader, const BodySpec& spec) {
+  if (spec.border_cells != BorderCells::filled) return;
+  const auto* tube = std::get_if<TubeShape>(&spec.shape);
+  if (tube != nullptr && tube->wall_layers)
+    reader.complain("border_cells",
+                    "border_cells = \"filled\" beside wall_layers, which counts whole cells; "
+                    "give inner_radius_mm");
+  if (std::holds_alternative<KnifeShape>(spec.shape) || std::holds_alternative<NeedleShape>(spec.shape))
+    reader.complain("border_cells", "border_cells = \"filled\" is of tissue; leave it out of a tool");
+}
+
 void refuse_springs(TableReader& reader, const ReadContext& context, const BodySpec& spec) {
   for (const MaterialSpec& material : context.scene.materials) {
     if (!is_in(spec, material)) continue;
@@ -119,10 +131,15 @@ void read_elements(TableReader& reader, ReadContext& context, BodySpec& spec) {
     spec.hourglass = static_cast<HourglassKind>(*word);
   if (const auto word = reader.read_word("start", {"rest", "balanced"}))
     spec.start = static_cast<StartKind>(*word);
+  if (const auto word = reader.read_word("border_cells", {"whole", "filled"}))
+    spec.border_cells = static_cast<BorderCells>(*word);
   const bool fem = spec.model == ElementModel::fem;
   if (!fem && reader.has("hourglass"))
     reader.complain("hourglass",
                     "\"hourglass\" is of finite elements; write model = \"fem\", or leave it out");
+  if (!fem && spec.border_cells == BorderCells::filled)
+    reader.complain("border_cells",
+                    "\"filled\" is of finite elements; write model = \"fem\", or leave \"border_cells\" out");
   if (!fem && spec.start == StartKind::balanced)
     reader.complain("start",
                     "\"balanced\" is of finite elements; write model = \"fem\", or leave \"start\" out");
@@ -139,6 +156,7 @@ void read_elements(TableReader& reader, ReadContext& context, BodySpec& spec) {
   refuse_relaxation(reader, context, spec);
   refuse_implicit(reader, context, spec);
   refuse_balanced(reader, context, spec);
+  refuse_filled(reader, spec);
 }
 
 }  // namespace palpate

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 #include "common/math/hash.h"
 #include "common/math/units.h"
@@ -86,15 +88,16 @@ std::string tool_text(const ToolSpec& tool, const Scene& scene) {
 /// How many masses move, what they take and how fast they go.
 std::string forecast_text(const Scene& scene, const physics::World& world) {
   using namespace physics;
-  double masses = 0, bytes = bytes_of_program;
+  double bytes = bytes_of_program;
+  std::vector<double> masses;
   for (std::size_t b = 0; b < world.n_bodies(); ++b) {
     const BodySpec& spec = scene.bodies[b];
     const MemoryNeed need = memory_need(spec, scene);
     const auto built = static_cast<double>(world.body(b).body().lattice.n_masses());
-    masses += built;
+    masses.push_back(built);
     bytes += need.bytes - bytes_of_masses(need.masses, spec, scene) + bytes_of_masses(built, spec, scene);
   }
-  std::string text = fmt::format("masses       {:.0f}\n", masses);
+  std::string text = fmt::format("masses       {:.0f}\n", std::accumulate(masses.begin(), masses.end(), 0.0));
   text += fmt::format("memory       about {:.2g} GB of {:.2g} GB that may be taken here\n", 1e-9 * bytes,
                       1e-9 * usable_memory());
   const double stable_dt = world.stable_step_seconds();

@@ -1,5 +1,7 @@
 #include "physics_node/body/build_lattice.h"
 
+#include <algorithm>
+
 namespace palpate::physics {
 namespace {
 
@@ -7,12 +9,12 @@ struct CellBox {
   Vec3i lo, hi;
 };
 
-CellBox deformable_box(const Cells& cells) {
+CellBox moving_box(const Cells& cells) {
   CellBox box{cells.size, Vec3i::Constant(-1)};
   for (int k = 0; k < cells.size.z(); ++k)
     for (int j = 0; j < cells.size.y(); ++j)
       for (int i = 0; i < cells.size.x(); ++i) {
-        if (cells.deformable[cells.index(i, j, k)] == 0) continue;
+        if (cells.share_of(i, j, k) == 0) continue;
         box.lo = box.lo.cwiseMin(Vec3i(i, j, k));
         box.hi = box.hi.cwiseMax(Vec3i(i, j, k));
       }
@@ -40,17 +42,21 @@ void join_elements(Lattice& lattice, const Holds& holds) {
 }  // namespace
 
 Lattice voxel_lattice(const Cells& cells) {
-  const CellBox box = deformable_box(cells);
+  const CellBox box = moving_box(cells);
   const Vec3 origin = cells.corner + cells.spacing.cwiseProduct(box.lo.cast<double>());
   Lattice lattice =
       make_lattice(LatticeKind::voxel, box.hi - box.lo + Vec3i::Constant(2), origin, cells.spacing);
   for (int k = box.lo.z(); k <= box.hi.z(); ++k)
     for (int j = box.lo.y(); j <= box.hi.y(); ++j)
       for (int i = box.lo.x(); i <= box.hi.x(); ++i) {
-        if (cells.deformable[cells.index(i, j, k)] == 0) continue;
+        if (cells.share_of(i, j, k) == 0) continue;
         for (int corner = 0; corner < 8; ++corner) {
           const Vec3i at = Vec3i(i, j, k) - box.lo + Vec3i(corner & 1, corner >> 1 & 1, corner >> 2);
-          lattice.mass_share[static_cast<std::size_t>(lattice.cell_of(at))] += 0.125F;
+          float& share = lattice.mass_share[static_cast<std::size_t>(lattice.cell_of(at))];
+          if (cells.is_deformable(i, j, k))
+            share = (share <= share_beyond ? 0.0F : share) + 0.125F;
+          else
+            share = std::max(share, share_beyond);
         }
       }
   index_masses(lattice);

@@ -10,6 +10,7 @@
 #include "common/math/units.h"
 #include "common/record/slice_stack.h"
 #include "common/scene/body_spec.h"
+#include "physics_node/body/border_cells.h"
 #include "physics_node/body/deformable.h"
 #include "physics_node/body/solid_shape.h"
 
@@ -49,7 +50,18 @@ Cells solid_cells(const BodySpec& body) {
   Cells cells;
   const Bounds bounds = bounds_of(body);
   cells.spacing = Vec3::Constant(*body.spacing);
-  cells.size = ((bounds.hi - bounds.lo) / *body.spacing).array().round().max(1.0).cast<int>();
+  Eigen::Array3d edges = (bounds.hi - bounds.lo).array() / *body.spacing;
+  // Filled cells hold what is left over beyond whole ones.
+  const bool filled = body.border_cells == BorderCells::filled;
+  for (Eigen::Index a = 0; a < 3 && !filled; ++a)
+    if (edges[a] < 0.499)
+      throw InputError(
+          fmt::format("{}: body \"{}\" is {:.4g} mm along {}, less than half of a cell of {:.4g} mm; make "
+                      "spacing_mm smaller",
+                      body.place.text(), body.name, mm_from_m((bounds.hi - bounds.lo)[a]), "xyz"[a],
+                      mm_from_m(*body.spacing)));
+  edges = filled ? Eigen::Array3d((edges - 1e-6).ceil()) : Eigen::Array3d(edges.round());
+  cells.size = edges.max(1.0).cast<int>();
   cells.corner = body.at - 0.5 * cells.spacing.cwiseProduct(cells.size.cast<double>());
   cells.filled.assign(static_cast<std::size_t>(cells.size.cast<std::int64_t>().prod()), 0);
   for (int k = 0; k < cells.size.z(); ++k)
@@ -142,6 +154,7 @@ Cells make_cells(const BodySpec& body) {
                     "the deformable region must reach filled voxels (partition {} x {} x {})",
                     body.place.text(), body.name, cells.size.x(), cells.size.y(), cells.size.z()));
   }
+  if (body.border_cells == BorderCells::filled) fill_border_cells(body, cells);
   return cells;
 }
 

@@ -18,8 +18,11 @@ struct Cells {
   Vec3 corner = Vec3::Zero();            // of cell (0, 0, 0), world [m]
   std::vector<std::uint8_t> filled;      // 1: tissue                              (size, x fastest)
   std::vector<std::uint8_t> deformable;  // 1: tissue that moves; the rest is rigid (size)
-  std::vector<float> intensity;          // of each cell; empty where there is no image
-  std::vector<TransferPoint> transfer;   // colours; empty where there is no image
+  /// How much of each cell that moves is tissue, of cells not seen, too, that the shape reaches into; EMPTY: all of the deformable ones
+  /// (border_cells.h).                                                             (size)
+  std::vector<float> share;
+  std::vector<float> intensity;         // of each cell; empty where there is no image
+  std::vector<TransferPoint> transfer;  // colours; empty where there is no image
 
   std::size_t index(int i, int j, int k) const {
     return static_cast<std::size_t>(i) +
@@ -32,6 +35,11 @@ struct Cells {
   }
   bool is_filled(int i, int j, int k) const { return inside(i, j, k) && filled[index(i, j, k)] != 0; }
   bool is_deformable(int i, int j, int k) const { return inside(i, j, k) && deformable[index(i, j, k)] != 0; }
+  /// How much of a cell moves: 0 of one that does not.
+  float share_of(int i, int j, int k) const {
+    if (share.empty()) return is_deformable(i, j, k) ? 1.0F : 0.0F;
+    return inside(i, j, k) ? share[index(i, j, k)] : 0.0F;
+  }
   /// The cell that a place in the world lies in, which need not be inside.
   Vec3i cell_at(const Vec3& p) const { return ((p - corner).array() / spacing.array()).floor().cast<int>(); }
   Vec3 centre_of(int i, int j, int k) const {

@@ -88,19 +88,21 @@ void give_solid_elements(Body& body, const BodySpec& spec, const std::vector<Mat
   for (int k = 0; k < cells.size.z(); ++k)
     for (int j = 0; j < cells.size.y(); ++j)
       for (int i = 0; i < cells.size.x(); ++i) {
-        if (!cells.is_deformable(i, j, k)) continue;
+        const auto share = static_cast<double>(cells.share_of(i, j, k));
+        if (share == 0) continue;
         const Vec3i at = Vec3i(i, j, k) - corner;
         const MaterialSpec& material = *of_region[map.of_cell({i, j, k})];
         const double intensity =
             cells.intensity.empty() ? 0.0 : static_cast<double>(cells.intensity[cells.index(i, j, k)]);
         const double stiffness = modulus_at(material, intensity) / solid.modulus;
-        solid.stiffness[static_cast<std::size_t>(body.lattice.cell_of(at))] = static_cast<float>(stiffness);
+        solid.stiffness[static_cast<std::size_t>(body.lattice.cell_of(at))] =
+            static_cast<float>(share * stiffness);
         solid.largest_stiffness =
             std::max(solid.largest_stiffness, stiffness * solid.density / *material.density);
-        const double share = *material.density * body.lattice.step.prod() / 8;
+        const double eighth = share * *material.density * body.lattice.step.prod() / 8;
         for (int a = 0; a < 8; ++a)
           solid.mass[static_cast<std::size_t>(body.lattice.cell_of(at + Vec3i(a & 1, a >> 1 & 1, a >> 2)))] +=
-              share;
+              eighth;
       }
   body.solid = std::move(solid);
 }

@@ -69,7 +69,7 @@ class RegionMap {
     std::size_t n = 0;
     for (int s = 0; s < 8; ++s) {
       const Vec3i c = at - Vec3i(s & 1, s >> 1 & 1, s >> 2);
-      if (!cells.is_deformable(c.x(), c.y(), c.z())) continue;
+      if (cells.share_of(c.x(), c.y(), c.z()) == 0) continue;
       found[n++] = of_cell(c);
     }
     std::size_t best = 0;

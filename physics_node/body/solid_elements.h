@@ -23,7 +23,7 @@ struct SolidElements {
   TissueLaw law = TissueLaw::neo_hookean;  // of all materials in it
   HourglassKind hourglass = HourglassKind::physical;
   std::vector<float>
-      stiffness;  // modulus of a cell over `modulus`, by the storage cell of its lowest corner; 0: none (n_cells)
+      stiffness;  // modulus of a cell, times the share of it that is filled, over `modulus`, by the storage cell of its lowest corner; 0: none (n_cells)
   std::vector<double> mass;      // of each node, an eighth of each cell around it [kg]  (n_cells)
   double largest_stiffness = 1;  // over density / least density: what bounds the step
 };

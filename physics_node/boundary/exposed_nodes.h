@@ -14,6 +14,7 @@ class ExposedNodes {
   ExposedNodes(const Body& body, bool open_ones) : lattice_(&body.lattice), open_ones_(open_ones) {}
 
   bool contains(Index node, const Adjacency& now) const noexcept {
+    if (lattice_->is_beyond(node)) return false;
     return now.degree(node) < complete_degree(node) || (open_ones_ && lies_open(node));
   }
 

@@ -81,6 +81,7 @@ std::vector<LoosePart> loose_parts(const Body& body, const LiveElements& live) {
   const auto closing = apexes(lattice.kind);
   std::vector<LoosePart> parts;
   for (const Index mass : lattice.masses) {
+    if (lattice.is_beyond(mass)) continue;
     const Mask mask = live.mask(mass);
     if (mask == 0) parts.push_back({mass, mass});
     const auto kind = static_cast<std::size_t>(lattice.row_kind(mass));

@@ -31,6 +31,9 @@ namespace palpate::physics {
 
 using Vec3i = Eigen::Vector3i;
 
+/// mass_share of a mass that only cells which are not seen have at a corner.
+inline constexpr float share_beyond = 1.0F / 1024;
+
 struct Lattice {
   LatticeKind kind = LatticeKind::fcc;
   int n_half = 6;              // half directions; direction d + n_half is opposite to d
@@ -47,14 +50,17 @@ struct Lattice {
   std::array<Vec3, max_directions> rest_vector{};    // to the neighbour at rest [m]
   std::array<double, max_directions> rest_length{};  // L [m]
 
-  std::vector<RowSegment> rows;   // in storage order
-  std::vector<Chunk> chunks;      // of rows, in order
-  std::vector<Index> masses;      // storage cell of each mass, in storage order  (n_masses)
-  std::vector<Mask> mask;         // elements of each storage cell at the start   (n_cells)
-  std::vector<float> mass_share;  // mass of each storage cell in units of a cell's, 0 where empty (n_cells)
+  std::vector<RowSegment> rows;  // in storage order
+  std::vector<Chunk> chunks;     // of rows, in order
+  std::vector<Index> masses;     // storage cell of each mass, in storage order  (n_masses)
+  std::vector<Mask> mask;        // elements of each storage cell at the start   (n_cells)
+  std::vector<float>
+      mass_share;  // mass of each storage cell in units of a seen cell's, 0 where empty        (n_cells)
 
   Index n_cells() const { return pitch * size.y() * size.z(); }
   Index n_masses() const { return static_cast<Index>(masses.size()); }
+  /// Is a mass at the corners of cells only that are not seen? It moves with the others and nobody touches it.
+  bool is_beyond(Index cell) const { return mass_share[static_cast<std::size_t>(cell)] <= share_beyond; }
   std::int64_t n_elements() const;
   double total_share() const;  // sum of mass_share: the body's volume in cells (voxel) or masses (fcc)
 

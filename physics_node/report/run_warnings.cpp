@@ -55,7 +55,7 @@ const Kind kinds[] = {
     {[](const World& w) noexcept { return w.report().unsolved > 0; },
      [](const World& w) {
        return fmt::format(
-           "{} of {} steps of backward_euler were not solved to their tolerance; set a smaller "
+           "backward_euler did not reach its tolerance {} time(s) in {} steps; set a smaller "
            "physics.step_ms",
            w.report().unsolved, w.report().steps);
      }},

@@ -19,7 +19,7 @@ palpate_test(NAME physics_closed_forms_test KIND property SOURCES physics_closed
 palpate_test(NAME physics_falls_test KIND property SOURCES physics_falls_test.cpp
   LIBS palpate_physics_worlds palpate_bench_falls)
 target_compile_definitions(physics_falls_test PRIVATE SCENES="${PROJECT_SOURCE_DIR}/scenes")
-palpate_test(NAME physics_balance_test KIND property SOURCES physics_balance_test.cpp LIBS palpate_physics_worlds)
+palpate_test(NAME physics_balance_test KIND property SOURCES physics_balance_test.cpp physics_border_cells_test.cpp LIBS palpate_physics_worlds)
 target_compile_definitions(physics_balance_test PRIVATE SCENES="${PROJECT_SOURCE_DIR}/scenes")
 # What becomes of two bodies that meet.
 palpate_test(NAME physics_collide_test KIND property SOURCES physics_collide_test.cpp LIBS palpate_physics_worlds)

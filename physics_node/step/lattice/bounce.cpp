@@ -21,7 +21,9 @@ Bounces bounce(const Body& body, LatticeState<Real>& state, const Three<Real>& m
       const auto c = static_cast<std::size_t>(cell);
       const Vec3 u = vector_of(state.u, cell);
       const Vec3 v_move = vector_of(moving, cell);
-      if (rest + per_mass * i + plane.n.dot(u - dt * v_move) >= 0 || state.inverse_mass[c] == 0) continue;
+      if (rest + per_mass * i + plane.n.dot(u - dt * v_move) >= 0 || state.inverse_mass[c] == 0 ||
+          body.lattice.is_beyond(cell))
+        continue;
       const double v_n =
           plane.n.dot(before == nullptr ? v_move : Vec3(0.5 * (v_move + vector_of(*before, cell))));
       if (v_n >= 0) continue;

@@ -237,6 +237,23 @@ TEST(Elements, AreReadWithTheirMaterial) {
   EXPECT_EQ(parsed(elements(tissue)).materials[0].poisson_ratio, 0.45);
 }
 
+TEST(Elements, MayFillTheCellsAtTheirBorder) {
+  const std::string tissue = "density_kg_per_m3 = 1000\nmodulus_kPa = 10\n",
+                    filled = "border_cells = \"filled\"";
+  EXPECT_EQ(parsed(elements(tissue)).bodies[0].border_cells, BorderCells::whole);
+  EXPECT_EQ(parsed(elements(tissue) + filled).bodies[0].border_cells, BorderCells::filled);
+  EXPECT_THAT(complaints_about(elements(tissue) + "border_cells = \"smooth\""),
+              ElementsAre(HasSubstr("write \"whole\" or \"filled\"")));
+  std::string springs = elements(tissue) + filled;
+  springs.replace(springs.find("fem"), 3, "springs");
+  EXPECT_THAT(complaints_about(springs), ElementsAre(HasSubstr("\"filled\" is of finite elements")));
+  std::string tube = elements(tissue) + filled;
+  const std::string box = "shape = \"box\"\nsize_mm = [9, 9, 9]";
+  tube.replace(tube.find(box), box.size(),
+               "shape = \"tube\"\nlength_mm = 9\nouter_radius_mm = 5\nwall_layers = 2");
+  EXPECT_THAT(complaints_about(tube), ElementsAre(HasSubstr("beside wall_layers")));
+}
+
 TEST(Elements, MayBeginInBalance) {
   const std::string tissue = "density_kg_per_m3 = 1000\nmodulus_kPa = 10\n";
   EXPECT_EQ(parsed(elements(tissue)).bodies[0].start, StartKind::rest);

@@ -35,6 +35,22 @@ TEST(Cells, FillShapesByTheirCentres) {
         3 * 8u);
 }
 
+TEST(Cells, OfABodyThinnerThanHalfOfOneAreRefused) {
+  const auto complaint = [](double thin_mm) -> std::string {
+    Recipe recipe;
+    recipe.lattice = "voxel";
+    recipe.shape = Recipe::box(40, thin_mm, 40);
+    try {
+      body_of(recipe);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  EXPECT_EQ(complaint(5.1), "none");
+  EXPECT_THAT(complaint(4), HasSubstr("is 4 mm along y, less than half of a cell of 10 mm"));
+}
+
 TEST(Cells, AreCentredWhereTheBodyIs) {
   Recipe recipe;
   recipe.lattice = "voxel";

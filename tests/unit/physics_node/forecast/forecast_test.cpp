@@ -93,6 +93,25 @@ TEST(SpeedForecast, RefusesAFrameOfTooManySteps) {
   EXPECT_THROW(World{scene}, InputError);
 }
 
+/// What elements cost is not what springs do: `palpate bench fem`, and a term of relaxation beside.
+TEST(SpeedForecast, KnowsWhatElementsAreStepped) {
+  Scene scene = scene_of("shape = \"sphere\"\nradius_mm = 40\nspacing_mm = 3");
+  const auto speed = [&](const std::vector<double>& masses) {
+    return forecast_speed(scene, masses, 1e-3).real_time_factor;
+  };
+  const double of_springs = speed({10000});
+  EXPECT_NEAR(speed({20000}), 0.5 * of_springs, 1e-9 * of_springs);
+  scene.bodies[0].model = ElementModel::fem;
+  const double of_elements = speed({10000});
+  EXPECT_GT(of_elements, 1.2 * of_springs);
+  scene.bodies[0].hourglass = HourglassKind::isotropic;
+  EXPECT_GT(speed({10000}), 1.2 * of_elements);
+  scene.bodies[0].hourglass = HourglassKind::physical;
+  scene.materials[0].relaxation = {{0.3, 0.1}, {0.2, 1}};
+  EXPECT_LT(speed({10000}), 0.5 * of_elements);
+  EXPECT_EQ(speed({}), 0);
+}
+
 // Keys of every part, each with a number.
 constexpr const char* numbers = R"(title = "Numbers"
 seed = 7

@@ -1,0 +1,133 @@
+#include "physics_node/body/border_cells.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "common/scene/body_spec.h"
+#include "physics_node/body/solid_shape.h"
+
+namespace palpate::physics {
+namespace {
+
+/// The intensity of an image between the centres of its cells; beyond the outermost it stays.
+class Between {
+ public:
+  explicit Between(const Cells& cells) : cells_(cells) {}
+
+  double at(const Vec3& p) const {
+    const Vec3 in_cells = ((p - cells_.corner).array() / cells_.spacing.array() - 0.5).matrix();
+    double sum = 0;
+    const Vec3 lowest = in_cells.array().floor();
+    const Vec3 t = in_cells - lowest;
+    for (int c = 0; c < 8; ++c) {
+      const Vec3i step(c & 1, c >> 1 & 1, c >> 2);
+      const Vec3i cell = (lowest.cast<int>() + step).cwiseMax(0).cwiseMin(cells_.size - Vec3i::Ones());
+      double weight = 1;
+      for (int a = 0; a < 3; ++a) weight *= step[a] != 0 ? t[a] : 1 - t[a];
+      sum += weight * static_cast<double>(cells_.intensity[cells_.index(cell.x(), cell.y(), cell.z())]);
+    }
+    return sum;
+  }
+
+ private:
+  const Cells& cells_;
+};
+
+/// Is there tissue at a place of the world?
+class Tissue {
+ public:
+  Tissue(const BodySpec& body, const Cells& cells)
+      : body_(body), image_(std::get_if<VolumeShape>(&body.shape)), between_(cells) {}
+
+  bool at(const Vec3& p) const {
+    for (const CavitySpec& cavity : body_.cavities)
+      if (std::visit([&p](const auto& where) { return holds(where, p); }, cavity.where)) return false;
+    if (image_ == nullptr) return holds(body_, p - body_.at, 0.0);
+    const double intensity = between_.at(p);
+    return intensity >= image_->keep_min && intensity <= image_->keep_max;
+  }
+
+  int looks() const { return image_ != nullptr ? 4 : 16; }  // along an edge
+
+ private:
+  const BodySpec& body_;
+  const VolumeShape* image_;
+  Between between_;
+};
+
+double share_of(const Cells& cells, const Tissue& tissue, const Vec3& centre) {
+  const auto count = [&](int n, double first, double step) {
+    int inside = 0;
+    for (int i = 0; i < n * n * n; ++i) {
+      const Vec3 at = Vec3(i % n, i / n % n, i / n / n) * step + Vec3::Constant(first);
+      inside += tissue.at(centre + cells.spacing.cwiseProduct(at)) ? 1 : 0;
+    }
+    return inside;
+  };
+  // Just inside its faces, which may lie on those of the shape.
+  constexpr double to_face = 0.5 - 1e-6;
+  const int coarse = count(5, -to_face, to_face / 2);
+  if (coarse == 0 || coarse == 125) return coarse / 125;
+  const int n = tissue.looks();
+  return count(n, 0.5 / n - 0.5, 1.0 / n) / std::pow(n, 3);
+}
+
+/// May a cell that is not seen hold tissue of this body? It must lie at one that moves; what the image keeps but not the
+/// body, being of another piece of it, must not come back.
+bool may_hold(const BodySpec& body, const Cells& cells, const Vec3i& at) {
+  if (cells.filled[cells.index(at.x(), at.y(), at.z())] != 0) return false;
+  if (const auto* image = std::get_if<VolumeShape>(&body.shape)) {
+    const auto own = static_cast<double>(cells.intensity[cells.index(at.x(), at.y(), at.z())]);
+    const bool carved = std::any_of(body.cavities.begin(), body.cavities.end(), [&](const CavitySpec& c) {
+      return std::visit(
+          [&](const auto& where) { return holds(where, cells.centre_of(at.x(), at.y(), at.z())); }, c.where);
+    });
+    if (!carved && own >= image->keep_min && own <= image->keep_max) return false;
+  }
+  for (int n = 0; n < 27; ++n)
+    if (cells.is_deformable(at.x() + n % 3 - 1, at.y() + n / 3 % 3 - 1, at.z() + n / 9 - 1)) return true;
+  return false;
+}
+
+struct Sliver {
+  Vec3i cell;
+  float share;
+};
+
+/// Gives it to the cells across its faces or, where none of these moves, across its edges and corners.
+void give_away(const Sliver& sliver, Cells& cells) {
+  for (int apart = 1; apart <= 3; ++apart) {
+    std::array<std::size_t, 26> to;
+    std::size_t n = 0;
+    for (int s = 0; s < 27; ++s) {
+      const Vec3i step(s % 3 - 1, s / 3 % 3 - 1, s / 9 - 1), other = sliver.cell + step;
+      if (step.cwiseAbs().sum() == apart && cells.share_of(other.x(), other.y(), other.z()) > 0)
+        to[n++] = cells.index(other.x(), other.y(), other.z());
+    }
+    for (std::size_t c = 0; c < n; ++c) cells.share[to[c]] += sliver.share / static_cast<float>(n);
+    if (n > 0) return;
+  }
+}
+
+}  // namespace
+
+void fill_border_cells(const BodySpec& body, Cells& cells) {
+  const Tissue tissue(body, cells);
+  std::vector<Sliver> slivers;
+  cells.share.assign(cells.filled.size(), 0.0F);
+  for (int k = 0; k < cells.size.z(); ++k)
+    for (int j = 0; j < cells.size.y(); ++j)
+      for (int i = 0; i < cells.size.x(); ++i) {
+        const bool seen = cells.is_deformable(i, j, k);
+        if (!seen && !may_hold(body, cells, {i, j, k})) continue;
+        const auto share = static_cast<float>(share_of(cells, tissue, cells.centre_of(i, j, k)));
+        if (seen || share >= least_share)
+          cells.share[cells.index(i, j, k)] = std::max(share, least_share);
+        else if (share > 0)
+          slivers.push_back({{i, j, k}, share});
+      }
+  for (const Sliver& sliver : slivers) give_away(sliver, cells);
+}
+
+}  // namespace palpate::physics
