@@ -52,6 +52,8 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
   Index n_masses = 0;
   std::size_t n_pieces = 0;
   stable_dt_ = std::numeric_limits<double>::infinity();
+  if (scene.floor) planes_.push_back({Vec3::UnitZ(), scene.floor->height});
+  for (const WallSpec& wall : scene.walls) planes_.push_back({wall.normal, wall.normal.dot(wall.point)});
   const bool feels = std::any_of(scene.tools.begin(), scene.tools.end(), meets_facets);
   for (const BodySpec& spec : scene.bodies) {
     Body body = build_body(spec, scene.materials);
@@ -66,7 +68,7 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
     }
     any_yields_ = any_yields_ || any_yields(body);
     const double bucket = 4 * body.spacing();
-    std::vector<Vec3> start = start_of_body(spec, body, scene.gravity, remarks_);
+    std::vector<Vec3> start = start_of_body(spec, body, scene.gravity, planes_, remarks_);
     bodies_.push_back(
         make_body_model(std::move(body), scene.physics->precision, integrator, std::move(start)));
     fragments_.push_back(any_yields(bodies_.back()->body()) ? std::make_unique<Fragments>(*bodies_.back())
@@ -79,13 +81,12 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
   if (collisions_)
     for (const std::size_t b : toolbox_.felt) collisions_->feel(b);
   if (bodies_.size() > 1 || any_yields_) inside_ = std::make_unique<InsideOthers>(bodies_);
-  if (scene.floor) planes_.push_back({Vec3::UnitZ(), scene.floor->height});
-  if (scene.floor || !scene.walls.empty())
+  if (!planes_.empty())
     for (auto& body : bodies_) body->prepare_for(Disturbance::impulses);
-  for (const WallSpec& wall : scene.walls) planes_.push_back({wall.normal, wall.normal.dot(wall.point)});
   choice_ = choose_threads(scene, spare_cores, n_masses, n_pieces);
   if (choice_.most() > 1) team_ = std::make_unique<Team>(choice_.most());
-  gathered_.reserve(toolbox_.pressing.size() * PointTool::most_forces);
+  gathered_.resize(bodies_.size());
+  for (auto& forces : gathered_) forces.reserve(toolbox_.pressing.size() * PointTool::most_forces);
 
   frame_dt_ = 1.0 / scene.physics->frame_Hz;
   n_substeps_ = static_cast<int>(steps_a_frame(scene, stable_dt_));
@@ -148,12 +149,24 @@ void World::follow_breaks() noexcept {
   if (collisions_) collisions_->follow_breaks();
 }
 
-std::span<const NodalForce> World::gathered(std::size_t body) noexcept {
-  gathered_.clear();
+void World::gather() noexcept {
+  for (auto& forces : gathered_) forces.clear();
   for (const PressingTool* tool : toolbox_.pressing)
-    if (tool->touched_body() == body)
-      gathered_.insert(gathered_.end(), tool->forces().begin(), tool->forces().end());
-  return gathered_;
+    if (!tool->forces().empty()) {
+      auto& to = gathered_[tool->touched_body()];
+      to.insert(to.end(), tool->forces().begin(), tool->forces().end());
+    }
+}
+
+void World::take(const StepOutcome& outcome) noexcept {
+  report_.broken += outcome.broken;
+  stiffening_ = std::max(stiffening_, outcome.stiffening);
+  report_.least_corner_J = std::min(report_.least_corner_J, outcome.least_corner_J);
+  report_.newton_iterations += outcome.newton_iterations;
+  report_.cg_iterations += outcome.cg_iterations;
+  if (!outcome.solved) ++report_.unsolved;
+  book_work(outcome.work);
+  report_.contact_lost += outcome.contact_lost;
 }
 
 void World::move_bodies(double dt, bool watch) noexcept {
@@ -163,22 +176,22 @@ void World::move_bodies(double dt, bool watch) noexcept {
                          .threads = choice_.threads(),
                          .verlet = scene_.physics->integrator == Integrator::velocity_verlet,
                          .watch = watch,
-                         .exact = may_be_struck() || pressed_ || pressed_before_};
+                         .exact = may_be_struck() || pressed_ || pressed_before_,
+                         .planes = planes_,
+                         .restitution = scene_.contact->restitution};
   stiffening_ = 1;
+  gather();
   const Stage stage = is_implicit() ? Stage::integrate : Stage::element_forces;
   const std::int64_t before = report_[stage].total_ns;
   {
     const StageTimer timer(report_, stage);
-    for (std::size_t b = 0; b < bodies_.size(); ++b) {
-      const StepOutcome outcome = bodies_[b]->advance(how, gathered(b));
-      report_.broken += outcome.broken;
-      stiffening_ = std::max(stiffening_, outcome.stiffening);
-      report_.least_corner_J = std::min(report_.least_corner_J, outcome.least_corner_J);
-      report_.newton_iterations += outcome.newton_iterations;
-      report_.cg_iterations += outcome.cg_iterations;
-      if (!outcome.solved) ++report_.unsolved;
-      book_work(outcome.work);
-    }
+    const bool joint = is_implicit() && near_;
+    const double driven = joint ? collisions_->tally().driven_work : 0;
+    if (joint && !collisions_->solve(how, gathered_)) ++report_.unsolved;
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+      take(joint ? bodies_[b]->pending()->end(how, {gathered_[b], collisions_->contact(b)})
+                 : bodies_[b]->advance(how, gathered_[b]));
+    if (joint) book_work(collisions_->tally().driven_work - driven);
   }
   choice_.took(report_[stage].total_ns - before);
   ++report_[is_implicit() ? Stage::element_forces : Stage::integrate].skipped;  // one pass does both
@@ -195,12 +208,13 @@ void World::touch(double dt, double done) noexcept {
     book_work(led.work);
     report_.contact_lost += led.lost;
   }
-  if (near_) {
+  if (near_ && !is_implicit()) {
     const CollisionTally before = collisions_->tally();
     collisions_->step(dt);
     book_work(collisions_->tally().driven_work - before.driven_work);
     report_.contact_lost += collisions_->tally().lost - before.lost;
   }
+  if (is_implicit()) return;  // planes are in its equations, as is contact
   for (const Plane& plane : planes_)
     for (auto& body : bodies_)
       report_.contact_lost += body->bounce_off(plane, scene_.contact->restitution, dt).lost;

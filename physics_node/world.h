@@ -88,8 +88,9 @@ class World {
   bool is_implicit() const noexcept;
   /// May a velocity jump in this frame? Then contact wants to know what it was.
   bool may_be_struck() const noexcept { return near_ || stick_near_ || !planes_.empty(); }
-  bool is_pressed() const noexcept;                                 // by a tool that gives forces
-  std::span<const NodalForce> gathered(std::size_t body) noexcept;  // forces of all tools on a body
+  bool is_pressed() const noexcept;  // by a tool that gives forces
+  void gather() noexcept;            // forces of all tools
+  void take(const StepOutcome& outcome) noexcept;
   void guard() noexcept;
   void save_all(bool good) noexcept;
   void book_work(double work) noexcept;
@@ -105,8 +106,8 @@ class World {
   bool stick_near_ = false;  // one of those that lead may touch in this frame
   std::unique_ptr<Collisions> collisions_;
   std::unique_ptr<InsideOthers> inside_;
-  std::vector<Plane> planes_;  // floor and walls
-  std::vector<NodalForce> gathered_;
+  std::vector<Plane> planes_;                      // floor and walls
+  std::vector<std::vector<NodalForce>> gathered_;  // forces of all tools, by body
   StepReport report_;
   EnergyAccount account_;
   Booked watched_;  // by tools and contact before the last step of the frame

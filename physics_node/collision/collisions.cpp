@@ -46,6 +46,8 @@ Collisions::Collisions(const BodyModels& bodies, const std::vector<std::unique_p
       smallest_L_(std::numeric_limits<double>::infinity()) {
   for (const auto& body : bodies) body->prepare_for(Disturbance::impulses);
   if (swept_) swept_contact_ = std::make_unique<SweptContact>(bodies_, near_.most_facets());
+  if (bodies.front()->pending() != nullptr)
+    joint_contact_ = std::make_unique<JointContact>(bodies_, near_.most_pairs());
   for (const auto& body : bodies_) smallest_L_ = std::min(smallest_L_, body.candidates().length());
 }
 
@@ -92,6 +94,7 @@ bool Collisions::begin_frame(double frame_seconds) noexcept {
     }
   wanted_step_ =
       swept_ && fastest_ > 0 ? 0.25 * smallest_L_ / fastest_ : std::numeric_limits<double>::infinity();
+  if (!any_near && joint_contact_) joint_contact_->restart();
   return any_near;
 }
 
@@ -141,6 +144,32 @@ void Collisions::step(double dt) noexcept {
   give_impulses(dt);
 }
 
+bool Collisions::solve(const ExplicitStep& step, std::span<const std::vector<NodalForce>> tools) noexcept {
+  const auto solve_all = [&] {
+    for (std::size_t b = 0; b < moving_.size(); ++b)
+      moving_[b]->pending()->solve(step, {tools[b], contact(b)});
+  };
+  const bool finite = read_where_they_are(step.dt);  // before it is solved: where it begins
+  tally_.rebuilds = near_.rebuilds();
+  if (finite)
+    joint_contact_->begin(bodies_, near_.links(), step.dt);
+  else
+    joint_contact_->restart();  // the guard's
+  solve_all();
+  for (bool better = finite; better;) {
+    for (auto& body : bodies_) body.refresh_listed(step.dt);
+    better = joint_contact_->improve(bodies_, step.dt);
+    if (better) solve_all();
+  }
+  impulses_.begin_step();
+  const JointReport report = joint_contact_->end(bodies_, step.dt, impulses_);
+  tally_.collisions += report.touching;
+  active_overflows_ += report.overflows;
+  tally_.overflows = near_.overflows() + active_overflows_;
+  tally_.driven_work += impulses_.driven_work();
+  return report.converged;
+}
+
 void Collisions::give_impulses(double dt) noexcept {
   impulses_.for_each([&](PairEnd at, const Vec3& dv) {
     pushes_[at.body].add(*moving_[at.body], {bodies_[at.body].candidates().cell()[at.n], dv}, dt);
@@ -150,6 +179,7 @@ void Collisions::give_impulses(double dt) noexcept {
 
 void Collisions::restart() noexcept {
   for (auto& body : bodies_) body.restart();
+  if (joint_contact_) joint_contact_->restart();
   std::fill(apart_.begin(), apart_.end(), 0.0);
   std::fill(stays_near_.begin(), stays_near_.end(), 0);
   for (std::size_t b = 0; b < bodies_.size(); ++b) impulses_.take(static_cast<std::uint32_t>(b));

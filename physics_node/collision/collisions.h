@@ -9,6 +9,7 @@
 #include "common/math/vec3.h"
 #include "common/scene/surroundings_spec.h"
 #include "physics_node/collision/exchange.h"
+#include "physics_node/collision/joint_contact.h"
 #include "physics_node/collision/swept_contact.h"
 
 namespace palpate::physics {
@@ -40,6 +41,13 @@ class Collisions {
   /// One step of contact in a frame in which something is near, after the masses have moved by it; the bodies have remembered
   /// their velocities before. Contract: allocates and throws nothing.
   void step(double dt) noexcept;
+  /// With backward_euler in its place: solves the steps of all bodies, those that touch with forces of contact; then they end with
+  /// these forces, contact(body). @param tools  forces on each body. Contract: allocates and throws nothing.
+  /// @return false: some of what touches is nearer than it should be
+  bool solve(const ExplicitStep& step, std::span<const std::vector<NodalForce>> tools) noexcept;
+  std::span<const NodalForce> contact(std::size_t body) const noexcept {
+    return joint_contact_->forces(body);
+  }
 
   /// The longest step in which nothing near moves farther than a quarter of the smallest L; only swept contact asks for one.
   double wanted_step() const noexcept { return wanted_step_; }
@@ -71,6 +79,7 @@ class Collisions {
   NearPairs near_;
   ContactImpulses impulses_;
   std::unique_ptr<SweptContact> swept_contact_;  // swept only
+  std::unique_ptr<JointContact> joint_contact_;  // backward_euler only
   CollisionTally tally_;
   std::vector<double>
       apart_;  // of each pair of bodies: how far they may still travel until they could be near [m]

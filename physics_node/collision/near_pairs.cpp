@@ -126,6 +126,12 @@ void NearPairs::rebuild(const std::vector<ContactBody>& bodies, Link& link) noex
   ++rebuilds_;
 }
 
+std::size_t NearPairs::most_pairs() const noexcept {
+  std::size_t n = 0;
+  for (const Link& link : links_) n += link.masses.pairs().capacity() + link.facets.pairs().capacity();
+  return n;
+}
+
 std::size_t NearPairs::size() const noexcept {
   std::size_t n = 0;
   for (const Link& link : links_) n += link.masses.pairs().size() + link.facets.pairs().size();

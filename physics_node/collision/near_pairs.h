@@ -45,6 +45,7 @@ class NearPairs {
   std::int64_t rebuilds() const { return rebuilds_; }
   std::int64_t overflows() const noexcept;                  // pairs that found no room
   std::size_t most_facets() const { return most_facets_; }  // pairs that there can be
+  std::size_t most_pairs() const noexcept;                  // of both kinds
 
  private:
   double skin(const std::vector<ContactBody>& bodies, const Link& link) const noexcept;  // [m]

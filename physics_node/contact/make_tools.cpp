@@ -10,9 +10,10 @@
 namespace palpate::physics {
 namespace {
 
-void add_point(const ToolSpec& spec, std::uint32_t n, const BodyModels& bodies,
+void add_point(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
                const std::vector<TouchableBody>& touchable, Toolbox& box) {
-  auto point = std::make_unique<PointTool>(spec, n, touchable);
+  const bool solved = scene.physics->integrator == Integrator::backward_euler;
+  auto point = std::make_unique<PointTool>(scene.tools[n], n, touchable, solved);
   box.pressing.push_back(point.get());
   box.tools.push_back(std::move(point));
   for (const auto& body : bodies) body->prepare_for(Disturbance::forces);
@@ -50,7 +51,7 @@ Toolbox make_tools(const Scene& scene, const BodyModels& bodies,
   for (std::uint32_t n = 0; n < scene.tools.size(); ++n) {
     const ToolSpec& spec = scene.tools[n];
     if (spec.shape == ToolShape::point)
-      add_point(spec, n, bodies, touchable, box);
+      add_point(scene, n, bodies, touchable, box);
     else if (spec.shape == ToolShape::stick)
       add_stick(scene, n, bodies, touchable, box);
     else

@@ -16,8 +16,12 @@ constexpr double negligible_force = 1e-6;  // [N]; below this the tissue is let 
 
 }  // namespace
 
-PointTool::PointTool(const ToolSpec& tool, std::uint32_t index, const std::vector<TouchableBody>& bodies)
-    : PressingTool(index, tool.set_point), model_(force_model_of(tool)), stiffness_(tool.stiffness) {
+PointTool::PointTool(const ToolSpec& tool, std::uint32_t index, const std::vector<TouchableBody>& bodies,
+                     bool solved)
+    : PressingTool(index, tool.set_point),
+      model_(force_model_of(tool)),
+      stiffness_(tool.stiffness),
+      solved_(solved) {
   contacts_.reserve(bodies.size());
   for (const auto& body : bodies) {
     contacts_.emplace_back(*body.surface, *body.moving, tool.radius);
@@ -33,6 +37,7 @@ void PointTool::reset() noexcept {
   acted_.setZero();
   forces_.clear();
   K_o_ = {};
+  compliance_ = 0;
 }
 
 void PointTool::take(const ToolState* state, double dt) noexcept {
@@ -76,7 +81,8 @@ void PointTool::compute_force(double t) noexcept {
   if (!plane.found) return;
   const double depth = plane.normal.dot(plane.point - tip_);
   if (depth <= 0 || depth > contacts_[nearest].reach()) return;
-  force_ = raw_force_ = stiffness_ * depth * plane.normal;
+  const Vec3 whole = stiffness_ * depth * plane.normal;
+  force_ = raw_force_ = acted_ + (whole - acted_) / (1 + stiffness_ * compliance_);
   proxy_ = tip_ + depth * plane.normal;
 }
 
@@ -104,6 +110,18 @@ void PointTool::find_contact(double t) noexcept {
     if (!force_.isZero()) forces_.push_back({share.cell, -share.share * force_});
   }
   follow_stiffness();
+  find_compliance();
+}
+
+void PointTool::find_compliance() noexcept {
+  compliance_ = 0;
+  if (!solved_ || moving_share_ <= 0) return;
+  double w = 0;  // [1/kg]
+  for (const MassShare& share : contacts_[touched_].shares())
+    w += share.share * share.share *
+         moving_[touched_]->body().inverse_mass[static_cast<std::size_t>(share.cell)];
+  const double square = moving_share_ * moving_share_;
+  compliance_ = 1 / (K_o_.value() / square + 1 / (w * frame_dt_ * frame_dt_));
 }
 
 void PointTool::follow_stiffness() noexcept {

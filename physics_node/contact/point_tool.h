@@ -35,7 +35,9 @@ class PointTool final : public PressingTool {
  public:
   static constexpr std::size_t most_forces = 16384;
 
-  PointTool(const ToolSpec& tool, std::uint32_t index, const std::vector<TouchableBody>& bodies);
+  /// @param solved  the tissue's steps are as long as a frame, however soft it is: backward_euler
+  PointTool(const ToolSpec& tool, std::uint32_t index, const std::vector<TouchableBody>& bodies,
+            bool solved = false);
 
   /// Takes the newest state of the hand, or none where nothing fresh has come: then the force dies away.
   /// @param dt  of the frame [s]
@@ -65,8 +67,11 @@ class PointTool final : public PressingTool {
   /// along the force, by the shares that they take of it. For the first touch a half space under a round patch of the tip's
   /// radius.
   void follow_stiffness() noexcept;
-  /// ForceModel::direct: F = K d n under the tip.
+  /// ForceModel::direct: F = K d n under the tip. Where the tissue gives way within a frame, d is that of its end,
+  ///   F := F + (K d n - F) / (1 + K C),   C = 1 / (K_o / s^2 + 1 / (dt^2 sum of s_i^2 / m_i)),
+  /// C what the change of F moves it by: else a spring stiffer than the tissue would throw it to and fro, frame by frame.
   void compute_force(double t) noexcept;
+  void find_compliance() noexcept;
 
   ForceModel model_;
   double stiffness_;                   // of the hand's spring, K [N/m]
@@ -84,6 +89,8 @@ class PointTool final : public PressingTool {
   Vec3 indentation_ = Vec3::Zero();  // mean displacement of the masses under the tip [m]
   SecantStiffness K_o_;              // of the tissue under the tip, if it moved throughout
   double frame_dt_ = 0;
+  bool solved_;            // see the constructor
+  double compliance_ = 0;  // C of the masses under the tip; 0 where steps are short [m/N]
   Vec3 plane_velocity_ = Vec3::Zero();
   std::vector<NodalForce> forces_;
 };

@@ -7,6 +7,7 @@
 #include "common/scene/kinds.h"
 #include "physics_node/step/books.h"
 #include "physics_node/step/node_motion.h"
+#include "physics_node/step/pending_step.h"
 #include "physics_node/step/stepper.h"
 #include "physics_node/step/topology.h"
 
@@ -15,6 +16,8 @@ namespace palpate::physics {
 class BodyModel : public Stepper, public NodeMotion, public Books, public Topology {
  public:
   using NodeMotion::body;
+  /// Its step in parts, for bodies that touch; null: it is not of backward_euler.
+  virtual PendingStep* pending() noexcept = 0;
 
  protected:
   explicit BodyModel(const Body& body) : NodeMotion(body), Topology(body) {}

@@ -1,7 +1,10 @@
 #pragma once
 // What a step of a body is asked to do.
 
+#include <span>
+
 #include "common/math/vec3.h"
+#include "physics_node/step/plane.h"
 #include "physics_node/step/team.h"
 
 namespace palpate::physics {
@@ -14,6 +17,9 @@ struct ExplicitStep {
   bool verlet = false;          // velocity_verlet; else symplectic Euler
   bool watch = false;           // note speeds, accelerations and energies: Books::watch(), sleep
   bool exact = false;           // book dampers exactly, where velocities may jump: see lattice/element_step.h
+  // Only of backward_euler, whose step ends on the right side of them; other integrators bounce off afterwards:
+  std::span<const Plane> planes = {};
+  double restitution = 1;
 };
 
 }  // namespace palpate::physics

@@ -41,8 +41,9 @@ class NodeMotion {
                     std::span<const Vec3> rest, double dt, std::span<Vec3> x, std::span<Vec3> v,
                     std::span<Vec3> v_move) const noexcept = 0;
   /// Impulses at the beginning of the step just integrated: add dv to the velocity of a mass and dt dv to its place. A held mass
-  /// stays; a sleeping one wakes. With backward_euler, whose step is solved as a whole, contact acts at its end instead: an
-  /// impulse changes the velocity only, and read() and bounce_off() tell of the end.
+  /// stays; a sleeping one wakes. With backward_euler, whose step is solved as a whole, they act at its end instead: an impulse
+  /// changes the velocity only, and read() tells of the end; but while a step is solved and not over (pending_step.h), read() tells of
+  /// its beginning and of the velocity that the solution has. So only hands that lead bodies push there.
   virtual void push(std::span<const NodalPush> pushes, double dt) noexcept = 0;
   /// Adds forces that act during the step just integrated. Held masses ignore them; sleeping rows wake.
   virtual void kick(std::span<const NodalForce> forces, double dt) noexcept = 0;

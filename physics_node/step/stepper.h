@@ -13,6 +13,7 @@ struct StepOutcome {
   std::int64_t broken = 0;    // elements
   bool solved = true;         // false: backward_euler stopped before its tolerance
   double work = 0;            // of the forces, where the step solves for them: backward_euler [J]
+  double contact_lost = 0;    // to ExplicitStep::planes [J]
   int newton_iterations = 0;  // of backward_euler
   int cg_iterations = 0;
   /// How much stiffer the stiffest part is than at rest, at most: the stable step is shorter by its root. Springs never are.
@@ -24,11 +25,6 @@ struct StepOutcome {
 /// What comes to a body from outside: forces of tools that press, or impulses of contact, floor and tools that lead, too.
 enum class Disturbance { forces, impulses };
 
-/// A fixed plane; tissue stays where n . x >= height.
-struct Plane {
-  Vec3 n = Vec3::UnitZ();
-  double height = 0;  // [m]
-};
 struct Bounces {
   std::int64_t masses = 0;
   double lost = 0;  // kinetic energy [J]
@@ -45,7 +41,8 @@ class Stepper {
   virtual void prepare_for(Disturbance from_outside) = 0;
   /// Before a step in which something may touch: so that contact knows the velocities at its beginning. See NodeMotion::read().
   virtual void remember_velocities() noexcept = 0;
-  /// Masses that were behind the plane when the step began, and approached it, are reflected: v_n := -e v_n.
+  /// Masses that were behind the plane when the step began, and approached it, are reflected: v_n := -e v_n. After an explicit step;
+  /// backward_euler has the planes in its equations.
   /// @return how many, and the kinetic energy that the plane took
   virtual Bounces bounce_off(const Plane& plane, double e, double dt) noexcept = 0;
 

@@ -4,7 +4,7 @@
 
 namespace palpate::physics {
 template <class Real>
-Bounces bounce(const Body& body, LatticeState<Real>& state, const Three<Real>& moving, Three<Real>* before,
+Bounces bounce(const Body& body, LatticeState<Real>& state, const Three<Real>& moving, Three<Real>& before,
                const Plane& plane, double e, double dt, MomentumAccount& momentum) noexcept {
   Bounces sum;
   const bool verlet = state.v_half[0].size() > 0;
@@ -24,8 +24,7 @@ Bounces bounce(const Body& body, LatticeState<Real>& state, const Three<Real>& m
       if (rest + per_mass * i + plane.n.dot(u - dt * v_move) >= 0 || state.inverse_mass[c] == 0 ||
           body.lattice.is_beyond(cell))
         continue;
-      const double v_n =
-          plane.n.dot(before == nullptr ? v_move : Vec3(0.5 * (v_move + vector_of(*before, cell))));
+      const double v_n = plane.n.dot(Vec3(0.5 * (v_move + vector_of(before, cell))));
       if (v_n >= 0) continue;
       const double dv = rebound(e, v_n, plane.n.dot(v_move));
       for (std::size_t a = 0; a < 3; ++a) {
@@ -33,7 +32,7 @@ Bounces bounce(const Body& body, LatticeState<Real>& state, const Three<Real>& m
         state.v[a][c] += d;
         state.u[a][c] += static_cast<Real>(dt) * d;
         if (verlet) state.v_half[a][c] += d;
-        if (before != nullptr) (*before)[a][c] += d;
+        before[a][c] += d;
       }
       const double mass = 1 / static_cast<double>(state.inverse_mass[c]);
       const Vec3 J = mass * dv * plane.n;
@@ -45,9 +44,9 @@ Bounces bounce(const Body& body, LatticeState<Real>& state, const Three<Real>& m
   return sum;
 }
 
-template Bounces bounce(const Body&, LatticeState<float>&, const Three<float>&, Three<float>*, const Plane&,
+template Bounces bounce(const Body&, LatticeState<float>&, const Three<float>&, Three<float>&, const Plane&,
                         double, double, MomentumAccount&) noexcept;
-template Bounces bounce(const Body&, LatticeState<double>&, const Three<double>&, Three<double>*,
+template Bounces bounce(const Body&, LatticeState<double>&, const Three<double>&, Three<double>&,
                         const Plane&, double, double, MomentumAccount&) noexcept;
 
 }  // namespace palpate::physics

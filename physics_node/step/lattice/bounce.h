@@ -7,13 +7,13 @@
 
 namespace palpate::physics {
 
-/// Masses that were behind the plane when the step of dt began, and moved further behind it, are reflected there: by rebound(),
-/// with v as NodeMotion::read() has it, and the step goes on from there. Skips rows that sleep.
+/// After an explicit step: masses that were behind the plane when the step of dt began, and moved further behind it, are reflected
+/// there: by rebound(), with v as NodeMotion::read() has it, and the step goes on from there. Skips rows that sleep.
 /// @param moving  velocity that moved the masses in the step
-/// @param before  in the one before, which takes part in the bounce as the mean of both is v; null: v is `moving`
+/// @param before  in the one before, which takes part in the bounce as the mean of both is v
 /// Source: Wakamatsu & Honma 2011 (bodies that fall on a floor).
 template <class Real>
-Bounces bounce(const Body& body, LatticeState<Real>& state, const Three<Real>& moving, Three<Real>* before,
+Bounces bounce(const Body& body, LatticeState<Real>& state, const Three<Real>& moving, Three<Real>& before,
                const Plane& plane, double e, double dt, MomentumAccount& momentum) noexcept;
 
 }  // namespace palpate::physics

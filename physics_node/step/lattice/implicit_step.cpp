@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "physics_node/step/lattice/element_step.h"
+#include "physics_node/step/momentum_account.h"
 #include "physics_node/step/node_motion.h"
 
 namespace palpate::physics {
@@ -13,8 +14,10 @@ constexpr int most_newton = 30;
 constexpr int most_halvings = 5;
 constexpr int most_stalls = 4;  // iterations in a row that bring less than a tenth
 constexpr int most_cg = 400;
-constexpr double loose = 1e-3;   // of a linear system, relative to its right side
-constexpr double tight = 1e-10;  // of the residual, relative to the forces in play
+constexpr double lies_on = 1e-6;  // a plane, if it is nearer [of a cell]
+constexpr double deep = 0.25;     // where D would begin within a plane [of a cell]; then it begins at rest
+constexpr double loose = 1e-3;    // of a linear system, relative to its right side
+constexpr double tight = 1e-10;   // of the residual, relative to the forces in play
 
 void make_field(Field& field, std::size_t n, std::size_t& colour) {
   for (auto& axis : field) axis = ZeroedArray<double>(n, colour++);
@@ -50,6 +53,8 @@ ImplicitStep<Real>::ImplicitStep(const Body& body) : elements_(body) {
   std::size_t colour = 50;
   for (Field* field : {&D_, &trial_, &r_, &r_start_, &x_, &p_, &z_, &q_}) make_field(*field, n, colour);
   for (auto& part : inverse_) part = ZeroedArray<double>(n, colour++);
+  at_.assign(n, 0);
+  held_.reserve(body.lattice.masses.size());
   mass_ = ZeroedArray<double>(n, colour++);
   drag_ = ZeroedArray<double>(n, colour++);
   for (const Index cell : body.lattice.masses) {
@@ -69,19 +74,66 @@ void ImplicitStep<Real>::find_drag(const Body& body, const LatticeState<Real>& s
 }
 
 template <class Real>
-double ImplicitStep<Real>::residual(const Body& body, const LatticeState<Real>& state, double dt,
-                                    const Vec3& gravity, std::span<const NodalForce> forces) noexcept {
+double ImplicitStep<Real>::keep_out_of(const Body& body, const LatticeState<Real>& state,
+                                       std::span<const Plane> planes) noexcept {
+  double farthest = 0;
+  const double near = lies_on * body.lattice.spacing();
+  for (const Index cell : body.lattice.masses) {
+    const auto i = static_cast<std::size_t>(cell);
+    if (planes.empty() || mass_[i] == 0 || body.lattice.is_beyond(cell)) continue;
+    const KeptOut kept = keep_out(body.lattice.rest_position(cell) + vector_of(state.u, cell),
+                                  vector_at(D_, cell), planes, near);
+    at_[i] = kept.at;
+    if (!(kept.pushed > 0)) continue;
+    for (std::size_t a = 0; a < 3; ++a) D_[a][i] = kept.D[static_cast<Eigen::Index>(a)];
+    farthest = std::max(farthest, kept.pushed);
+  }
+  return farthest;
+}
+
+template <class Real>
+void ImplicitStep<Real>::find_reactions(const Body& body, std::span<const Plane> planes) noexcept {
+  held_.clear();
+  if (planes.empty()) return;
+  for (const Index cell : body.lattice.masses) {
+    const auto i = static_cast<std::size_t>(cell);
+    if (at_[i] == 0) continue;
+    const Vec3 r = vector_at(r_, cell);
+    const PlaneSet push = planes_that_push(at_[i], -r, planes);
+    if (push == 0) continue;
+    const HeldDirections held = directions_of(push, planes);
+    const Vec3 R = held.part_of(r);
+    held_.push_back({cell, held, R, Vec3::Zero()});
+    for (std::size_t a = 0; a < 3; ++a) r_[a][i] -= R[static_cast<Eigen::Index>(a)];
+  }
+}
+
+template <class Real>
+void ImplicitStep<Real>::take_held(Field& field) const noexcept {
+  for (const Held& one : held_) {
+    const auto i = static_cast<std::size_t>(one.cell);
+    const Vec3 part = one.directions.part_of(vector_at(field, one.cell));
+    for (std::size_t a = 0; a < 3; ++a) field[a][i] -= part[static_cast<Eigen::Index>(a)];
+  }
+}
+
+template <class Real>
+double ImplicitStep<Real>::residual(const Body& body, const LatticeState<Real>& state,
+                                    const ExplicitStep& how, const StepForces& forces) noexcept {
+  const double dt = how.dt;
   zero(body, r_);
   elements_.evaluate(body, state, D_, dt, r_);  // r = f for now
-  for (const NodalForce& nodal : forces)
-    for (std::size_t a = 0; a < 3; ++a)
-      r_[a][static_cast<std::size_t>(nodal.cell)] += nodal.force[static_cast<Eigen::Index>(a)];
+  for (const auto& list : {forces.tools, forces.contact})
+    for (const NodalForce& nodal : list)
+      for (std::size_t a = 0; a < 3; ++a)
+        r_[a][static_cast<std::size_t>(nodal.cell)] += nodal.force[static_cast<Eigen::Index>(a)];
   for (std::size_t a = 0; a < 3; ++a)
     for_cells(body, [&](std::size_t i) {
       const double inertia = mass_[i] * ((D_[a][i] / dt - static_cast<double>(state.v[a][i])) / dt -
-                                         gravity[static_cast<Eigen::Index>(a)]);
+                                         how.gravity[static_cast<Eigen::Index>(a)]);
       r_[a][i] = mass_[i] > 0 ? inertia + drag_[i] * D_[a][i] / dt - r_[a][i] : 0;
     });
+  find_reactions(body, how.planes);
   return std::sqrt(dot(body, r_, r_));
 }
 
@@ -103,6 +155,9 @@ void ImplicitStep<Real>::make_preconditioner(const Body& body, double dt) noexce
     inverse_[4][i] = over * XZ;
     inverse_[5][i] = over * XY;
   });
+  std::array<double*, 6> blocks{};
+  for (std::size_t e = 0; e < 6; ++e) blocks[e] = inverse_[e].data();
+  for (const Held& one : held_) hold_block(one.directions, blocks, static_cast<std::size_t>(one.cell));
 }
 
 template <class Real>
@@ -112,6 +167,7 @@ void ImplicitStep<Real>::apply(const Body& body, double dt, const Field& x, Fiel
   elements_.add_product(body, x, y);
   for (std::size_t a = 0; a < 3; ++a)
     for_cells(body, [&](std::size_t i) { y[a][i] = mass_[i] > 0 ? y[a][i] : 0; });
+  take_held(y);
 }
 
 template <class Real>
@@ -148,14 +204,92 @@ int ImplicitStep<Real>::conjugate_gradients(const Body& body, double dt, double 
       for_cells(body, [&](std::size_t i) { p_[a][i] = z_[a][i] + next / rz * p_[a][i]; });
     rz = next;
   }
+  take_held(x_);  // of the last digits, too
   return n;
 }
 
 template <class Real>
-void ImplicitStep<Real>::finish(const Body& body, LatticeState<Real>& state,
-                                const ExplicitStep& how) noexcept {
+void ImplicitStep<Real>::solve(const Body& body, const LatticeState<Real>& state, const ExplicitStep& how,
+                               const StepForces& forces, bool again) noexcept {
+  const double dt = how.dt;
+  if (!again) {
+    report_ = {};
+    find_drag(body, state);
+    for (std::size_t a = 0; a < 3; ++a)
+      for_cells(body, [&](std::size_t i) {
+        D_[a][i] = mass_[i] > 0 ? dt * static_cast<double>(state.v[a][i]) : 0;
+      });
+    if (keep_out_of(body, state, how.planes) > deep * body.lattice.spacing()) {
+      zero(body, D_);
+      keep_out_of(body, state, how.planes);
+    }
+  }
+  double r = residual(body, state, how, forces);
+  // The forces in play: of the first residual, and never less than those of a hundred-thousandth of a cell.
+  double k = 0;
+  for (const ElementLaw& law : body.laws) k = std::max(k, law.k1[0]);
+  const double enough = tight * std::max(r, 1e-5 * k * body.lattice.rest_length[0]);
+  enough_ = again ? std::max(enough_, enough) : enough;
+  int stalls = 0;
+  for (int n = 0; n < most_newton && stalls < most_stalls && r > enough_; ++n) {
+    make_preconditioner(body, dt);
+    for (std::size_t a = 0; a < 3; ++a) for_cells(body, [&](std::size_t i) { r_start_[a][i] = r_[a][i]; });
+    report_.cg_iterations += conjugate_gradients(body, dt, std::max(loose * r, 0.1 * enough_));
+    for (std::size_t a = 0; a < 3; ++a) for_cells(body, [&](std::size_t i) { trial_[a][i] = D_[a][i]; });
+    // Toward where the residual has no part along x any more (Matthies & Strang 1979).
+    const double slope = dot(body, r_start_, x_);
+    double s = 1;
+    double next = 0;
+    for (int halving = 0; halving <= most_halvings; ++halving, s *= 0.5) {
+      for (std::size_t a = 0; a < 3; ++a)
+        for_cells(body, [&](std::size_t i) { D_[a][i] = trial_[a][i] + s * x_[a][i]; });
+      keep_out_of(body, state, how.planes);
+      next = residual(body, state, how, forces);
+      const double left = dot(body, r_, x_);
+      if (next < r || left <= 0 || left < -0.8 * slope) break;
+    }
+    stalls = next > 0.9 * r ? stalls + 1 : 0;
+    r = next;
+    ++report_.newton_iterations;
+  }
+  report_.converged = r <= enough_;
+}
+
+template <class Real>
+double ImplicitStep<Real>::meet_planes(const Body& body, const LatticeState<Real>& state,
+                                       const ExplicitStep& how, MomentumAccount& momentum) noexcept {
+  // Why: a mass may not be thrown through its neighbours.
+  const double fastest = deep * body.lattice.spacing() / how.dt;
+  double numerical = 0;
+  for (Held& one : held_) {
+    const auto i = static_cast<std::size_t>(one.cell);
+    const Vec3 D = vector_at(D_, one.cell);
+    const PlaneImpact impact = impact_of(mass_[i], vector_of(state.v, one.cell), D, one.R, one.directions,
+                                         how.dt, how.restitution, fastest);
+    const Vec3 x = body.lattice.rest_position(one.cell) + vector_of(state.u, one.cell);
+    momentum.push(how.dt * one.R, x, how.dt);
+    momentum.hit(mass_[i] * impact.dv, x + D);
+    report_.contact_lost += impact.contact;
+    numerical += impact.numerical;
+    one.dv = impact.dv;
+  }
+  return numerical;
+}
+
+template <class Real>
+ImplicitReport ImplicitStep<Real>::finish(const Body& body, LatticeState<Real>& state,
+                                          const ExplicitStep& how, const StepForces& forces,
+                                          MomentumAccount& momentum) noexcept {
+  const auto work = [&](std::span<const NodalForce> list) {
+    double sum = 0;
+    for (const NodalForce& nodal : list)
+      if (mass_[static_cast<std::size_t>(nodal.cell)] > 0) sum += nodal.force.dot(vector_at(D_, nodal.cell));
+    return sum;
+  };
+  report_.work = work(forces.tools);
+  report_.contact_lost = -work(forces.contact);
   const StepLosses lost = elements_.losses(body, state, D_, how.dt);
-  double inertia = 0;  // (1/2) m |v' - v|^2
+  double inertia = meet_planes(body, state, how, momentum);
   double drag = 0;
   for (std::size_t a = 0; a < 3; ++a)
     for_cells(body, [&](std::size_t i) {
@@ -167,53 +301,13 @@ void ImplicitStep<Real>::finish(const Body& body, LatticeState<Real>& state,
       state.u[a][i] = static_cast<Real>(static_cast<double>(state.u[a][i]) + D_[a][i]);
       state.v[a][i] = static_cast<Real>(v);
     });
+  for (const Held& one : held_)
+    for (std::size_t a = 0; a < 3; ++a)
+      state.v[a][static_cast<std::size_t>(one.cell)] +=
+          static_cast<Real>(one.dv[static_cast<Eigen::Index>(a)]);
   state.ledger.front().viscous += lost.viscous + drag;
   state.ledger.front().numerical += lost.numerical + inertia;
-}
-
-template <class Real>
-ImplicitReport ImplicitStep<Real>::step(const Body& body, LatticeState<Real>& state, const ExplicitStep& how,
-                                        std::span<const NodalForce> forces) noexcept {
-  ImplicitReport report;
-  const double dt = how.dt;
-  find_drag(body, state);
-  for (std::size_t a = 0; a < 3; ++a)
-    for_cells(body,
-              [&](std::size_t i) { D_[a][i] = mass_[i] > 0 ? dt * static_cast<double>(state.v[a][i]) : 0; });
-  double r = residual(body, state, dt, how.gravity, forces);
-  // The forces in play: of the first residual, and never less than those of a hundred-thousandth of a cell.
-  double k = 0;
-  for (const ElementLaw& law : body.laws) k = std::max(k, law.k1[0]);
-  const double enough = tight * std::max(r, 1e-5 * k * body.lattice.rest_length[0]);
-  int stalls = 0;
-  for (; report.newton_iterations < most_newton && stalls < most_stalls && r > enough;
-       ++report.newton_iterations) {
-    make_preconditioner(body, dt);
-    for (std::size_t a = 0; a < 3; ++a) for_cells(body, [&](std::size_t i) { r_start_[a][i] = r_[a][i]; });
-    report.cg_iterations += conjugate_gradients(body, dt, std::max(loose * r, 0.1 * enough));
-    for (std::size_t a = 0; a < 3; ++a) for_cells(body, [&](std::size_t i) { trial_[a][i] = D_[a][i]; });
-    // Toward where the residual has no part along x any more (Matthies & Strang 1979).
-    const double slope = dot(body, r_start_, x_);
-    double s = 1;
-    double next = 0;
-    for (int halving = 0; halving <= most_halvings; ++halving, s *= 0.5) {
-      for (std::size_t a = 0; a < 3; ++a)
-        for_cells(body, [&](std::size_t i) { D_[a][i] = trial_[a][i] + s * x_[a][i]; });
-      next = residual(body, state, dt, how.gravity, forces);
-      const double left = dot(body, r_, x_);
-      if (next < r || left <= 0 || left < -0.8 * slope) break;
-    }
-    stalls = next > 0.9 * r ? stalls + 1 : 0;
-    r = next;
-  }
-  report.converged = r <= enough;
-  for (const NodalForce& nodal : forces)
-    if (mass_[static_cast<std::size_t>(nodal.cell)] > 0)
-      for (std::size_t a = 0; a < 3; ++a)
-        report.work +=
-            nodal.force[static_cast<Eigen::Index>(a)] * D_[a][static_cast<std::size_t>(nodal.cell)];
-  finish(body, state, how);
-  return report;
+  return report_;
 }
 
 template class ImplicitStep<float>;

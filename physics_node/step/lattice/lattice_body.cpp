@@ -37,7 +37,7 @@ std::unique_ptr<ImplicitSolver<Real>> make_implicit(const Body& body) {
 }
 
 template <class Real>
-class LatticeBody final : public BodyModel {
+class LatticeBody final : public BodyModel, private PendingStep {
  public:
   LatticeBody(Body body, Integrator integrator, std::vector<Vec3> start)
       : BodyModel(body_),
@@ -57,8 +57,12 @@ class LatticeBody final : public BodyModel {
   }
 
   StepOutcome advance(const ExplicitStep& step, std::span<const NodalForce> forces) noexcept override {
-    return implicit_ ? solve(step, forces) : integrate(step, forces);
+    if (!implicit_) return integrate(step, forces);
+    const StepForces all{forces, {}};
+    solve(step, all);
+    return end(step, all);
   }
+  PendingStep* pending() noexcept override { return implicit_ ? this : nullptr; }
 
   double power(std::span<const NodalForce> forces) const noexcept override {
     double sum = 0;
@@ -107,8 +111,8 @@ class LatticeBody final : public BodyModel {
   }
 
   Bounces bounce_off(const Plane& plane, double e, double dt) noexcept override {
-    if (implicit_) return bounce<Real>(body_, state_, state_.v, nullptr, plane, e, 0, momentum_);
-    return bounce(body_, state_, moving_velocity(state_), &v_before_, plane, e, dt, momentum_);
+    if (implicit_) return {};  // its step has ended on the right side
+    return bounce(body_, state_, moving_velocity(state_), v_before_, plane, e, dt, momentum_);
   }
 
   void sleep_and_wake(double frame_seconds) noexcept override { sleep_.look(body_, state_, frame_seconds); }
@@ -188,7 +192,7 @@ class LatticeBody final : public BodyModel {
     const Three<Real>& moving = moving_velocity(state_);
     const bool known = v_before_[0].size() > 0 && !implicit_;
     for (const std::uint32_t n : which) {
-      v_move[n] = vector_of(moving, cells[n]);
+      v_move[n] = pending_dt_ > 0 ? implicit_->velocity(cells[n], pending_dt_) : vector_of(moving, cells[n]);
       v[n] = known ? Vec3(0.5 * (v_move[n] + vector_of(v_before_, cells[n]))) : v_move[n];
       x[n] = rest[n] + vector_of(state_.u, cells[n]);
       if (!implicit_) x[n] -= dt * v_move[n];
@@ -257,12 +261,18 @@ class LatticeBody final : public BodyModel {
     return outcome;
   }
 
-  StepOutcome solve(const ExplicitStep& step, std::span<const NodalForce> forces) noexcept {
-    for (const NodalForce& nodal : forces) sleep_.wake_cell(body_, state_, nodal.cell);
-    for (const NodalForce& nodal : forces)
-      momentum_.hit(step.dt * nodal.force, position(nodal.cell));  // before it moves on with it
+  void solve(const ExplicitStep& step, const StepForces& forces) noexcept override {
+    implicit_->solve(body_, state_, step, forces, pending_dt_ > 0);
+    pending_dt_ = step.dt;
+  }
+
+  StepOutcome end(const ExplicitStep& step, const StepForces& forces) noexcept override {
+    for (const auto& list : {forces.tools, forces.contact})
+      for (const NodalForce& nodal : list)
+        momentum_.hit(step.dt * nodal.force, position(nodal.cell));  // before it moves on with it
     momentum_.step(step.gravity, step.dt, step.dt);
-    const ImplicitReport report = implicit_->step(body_, state_, step, forces);
+    const ImplicitReport report = implicit_->finish(body_, state_, step, forces, momentum_);
+    pending_dt_ = 0;
     // Commits yield and break where the step ended, and lets the ledger watch.
     ExplicitStep look = step;
     look.dt = 0;
@@ -270,6 +280,7 @@ class LatticeBody final : public BodyModel {
     return {.broken = looked.broken,
             .solved = report.converged,
             .work = report.work,
+            .contact_lost = report.contact_lost,
             .newton_iterations = report.newton_iterations,
             .cg_iterations = report.cg_iterations,
             .least_corner_J = looked.least_corner_J};
@@ -317,6 +328,7 @@ class LatticeBody final : public BodyModel {
   SavedState<Real> saved_[2];
   std::size_t good_ = 0;                            // the other one is to prove itself
   std::unique_ptr<ImplicitSolver<Real>> implicit_;  // only for backward_euler
+  double pending_dt_ = 0;                           // of a step that is solved and not over; 0: none [s]
 };
 
 }  // namespace

@@ -8,11 +8,6 @@
 namespace palpate::physics {
 namespace {
 
-Vec3 vector_at(const Field& field, Index cell) {
-  const auto c = static_cast<std::size_t>(cell);
-  return {field[0][c], field[1][c], field[2][c]};
-}
-
 void add_at(Field& field, Index cell, const Vec3& v) {
   for (std::size_t a = 0; a < 3; ++a)
     field[a][static_cast<std::size_t>(cell)] += v[static_cast<Eigen::Index>(a)];

@@ -10,6 +10,10 @@ namespace palpate::physics {
 
 /// A vector per storage cell: component a of cell i at [a][i].
 using Field = std::array<ZeroedArray<double>, 3>;
+inline Vec3 vector_at(const Field& field, Index cell) noexcept {
+  const auto c = static_cast<std::size_t>(cell);
+  return {field[0][c], field[1][c], field[2][c]};
+}
 
 /// What one implicit step does to the energy, beyond what the forces at its end say.
 struct StepLosses {

@@ -110,6 +110,7 @@ GradientReport ConjugateGradients<Real>::solve(Hierarchy<Real>& hierarchy, const
           crew, [&](Index l) { fine.kernel().product(m, p, l); },
           [&](Index n) { by_plane_[static_cast<std::size_t>(n)] = fine.kernel().keep(m, p, q, n); });
       pq = total();
+      hierarchy.take_held(crew, q_);
     }
     if (!(rz > 0 && pq > 0)) {
       if (restarts++ == most_restarts) break;
@@ -131,6 +132,7 @@ GradientReport ConjugateGradients<Real>::solve(Hierarchy<Real>& hierarchy, const
       break;
     }
   }
+  hierarchy.take_held(crew, x);  // of the last digits, too
   return report;
 }
 

@@ -11,7 +11,7 @@ struct GradientReport {
   bool converged = false;
 };
 
-/// Solves A x = b. Sums are by plane, in double, and planes in order. Where rounding or a bound that is too small makes a direction
+/// Solves A x = b, in the directions that nothing holds: b must have no part in the others. Sums are by plane, in double, and planes in order. Where rounding or a bound that is too small makes a direction
 /// of it not positive, the bound is doubled and the iteration begins again from where it is; twice at most.
 /// Contract: allocates and throws nothing after construction; the same bits on any number of threads.
 template <class Real>

@@ -74,11 +74,28 @@ void DenseSolver::add_cells(const LevelContext<Real>& m) noexcept {
 }
 
 template <class Real>
-void DenseSolver::factor(const LevelContext<Real>& m, bool physical) noexcept {
+void DenseSolver::factor(const LevelContext<Real>& m, bool physical, const Supports& supports,
+                         std::span<const Plane> planes) noexcept {
   std::ranges::fill(factor_, 0.0);
   physical ? add_cells<Real, true>(m) : add_cells<Real, false>(m);
   for (std::size_t n = 0; n < n_; ++n) at(n, n) += static_cast<double>(m.mass[free_[n / 3]]);
+  if (!planes.empty()) hold(supports, planes);
   decompose();
+}
+
+void DenseSolver::hold(const Supports& supports, std::span<const Plane> planes) noexcept {
+  constexpr double stiffer = 1e3;
+  for (std::size_t f = 0; f < free_.size(); ++f) {
+    const HeldDirections held = directions_of(supports.of(static_cast<std::size_t>(free_[f])), planes);
+    const std::size_t n = 3 * f;
+    const double spring = stiffer * (at(n, n) + at(n + 1, n + 1) + at(n + 2, n + 2));
+    for (int k = 0; k < held.count; ++k) {
+      const Vec3& d = held.n[static_cast<std::size_t>(k)];
+      for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t r = c; r < 3; ++r)
+          at(n + r, n + c) += spring * d[static_cast<Eigen::Index>(r)] * d[static_cast<Eigen::Index>(c)];
+    }
+  }
 }
 
 void DenseSolver::decompose() noexcept {
@@ -114,8 +131,10 @@ void DenseSolver::solve(const LevelContext<Real>& m) noexcept {
   for (std::size_t n = 0; n < n_; ++n) m.x[n % 3][free_[n / 3]] = static_cast<Real>(y_[n]);
 }
 
-template void DenseSolver::factor(const LevelContext<float>&, bool) noexcept;
-template void DenseSolver::factor(const LevelContext<double>&, bool) noexcept;
+template void DenseSolver::factor(const LevelContext<float>&, bool, const Supports&,
+                                  std::span<const Plane>) noexcept;
+template void DenseSolver::factor(const LevelContext<double>&, bool, const Supports&,
+                                  std::span<const Plane>) noexcept;
 template void DenseSolver::solve(const LevelContext<float>&) noexcept;
 template void DenseSolver::solve(const LevelContext<double>&) noexcept;
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "physics_node/step/multigrid/level.h"
+#include "physics_node/step/multigrid/supports.h"
 
 namespace palpate::physics {
 
@@ -19,10 +19,11 @@ class DenseSolver {
   DenseSolver(std::vector<Index> free, const GridLevel& level);
 
   bool any() const noexcept { return !free_.empty(); }
-  /// The matrix of the level, as it was linearised last.
+  /// The matrix of the level, as it was linearised last. What planes hold it holds by springs, a thousand times stiffer.
   template <class Real>
-  void factor(const LevelContext<Real>& m, bool physical) noexcept;
-  /// x = A^-1 r
+  void factor(const LevelContext<Real>& m, bool physical, const Supports& supports,
+              std::span<const Plane> planes) noexcept;
+  /// x = A^-1 r; r must have, and of x counts, only what is not held
   template <class Real>
   void solve(const LevelContext<Real>& m) noexcept;
 
@@ -31,6 +32,7 @@ class DenseSolver {
   template <class Real, bool physical>
   void add_cells(const LevelContext<Real>& m) noexcept;
   void add(const Index* corners, std::size_t row, std::size_t column, double entry) noexcept;
+  void hold(const Supports& supports, std::span<const Plane> planes) noexcept;
   void decompose() noexcept;
 
   std::size_t n_ = 0;

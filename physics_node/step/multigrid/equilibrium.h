@@ -12,8 +12,15 @@ struct Equilibrium {
 };
 
 /// Newton's method without inertia, from rest. Where that does not arrive, the way that a thick liquid would take: steps of time
-/// whose velocity is forgotten, longer while they go well. In double. Something must be held.
+/// whose velocity is forgotten, longer while they go well. No node passes a plane. Where nothing is held, planes must carry it: it is let
+/// down along gravity to the first that it meets, and then takes the liquid's way at once, since without friction
+/// nothing resists what slides along a floor. In double.
 /// Cost: about 3 us a cell; some times as much where the body folds. Allocates.
-Equilibrium equilibrium(const Body& body, const Vec3& gravity, const Crew& crew = {});
+Equilibrium equilibrium(const Body& body, const Vec3& gravity, std::span<const Plane> planes = {},
+                        const Crew& crew = {});
+
+/// How far it is along gravity to the first plane that a body at rest meets there; negative: it is behind that; infinite: there is
+/// none. [m]
+double way_down(const Body& body, const Vec3& gravity, std::span<const Plane> planes);
 
 }  // namespace palpate::physics

@@ -68,6 +68,7 @@ Hierarchy<Real>::Hierarchy(const Body& body)
     const bool small = 3 * static_cast<Index>(free.size()) <= most_dense_unknowns;
     CoarserLevel next = small ? CoarserLevel{} : coarsen(level);
     levels_.emplace_back(level, dense, mass, material);
+    supports_.emplace_back(level.n_nodes);
     if (small) {
       coarsest_ = DenseSolver(free, level);
       break;
@@ -97,8 +98,23 @@ void Hierarchy<Real>::linearise(const Crew& crew, double scale) noexcept {
                   level.planes()[static_cast<std::size_t>(p)]);
       });
     level.linearise(crew, scale);
+    if (planes_.empty()) continue;
+    level.each_plane(crew, [&](Index p) {
+      const GridPlane& plane = level.planes()[static_cast<std::size_t>(p)];
+      if (n > 0) supports_[n].carry_up(supports_[n - 1], transfers_[n - 1].up, plane);
+      supports_[n].hold_blocks(level.context(), plane, planes_);
+    });
   }
-  if (coarsest_.any()) coarsest_.factor(levels_.back().context(), physical_);
+  if (coarsest_.any()) coarsest_.factor(levels_.back().context(), physical_, supports_.back(), planes_);
+}
+
+template <class Real>
+void Hierarchy<Real>::take_held(std::size_t n, const Crew& crew, Three<Real>& three) const noexcept {
+  if (planes_.empty()) return;
+  const Level<Real>& level = levels_[n];
+  level.each_plane(crew, [&](Index p) {
+    supports_[n].take_from(three, level.planes()[static_cast<std::size_t>(p)], planes_);
+  });
 }
 
 template <class Real>
@@ -124,6 +140,7 @@ void Hierarchy<Real>::cycle(std::size_t n, const Crew& crew) noexcept {
   if (n + 1 == levels_.size()) return;
   level.sweep(
       crew, [&](Index l) { kernel.product(m, m.d, l); }, [&](Index p) { kernel.residual(m, p); });
+  take_held(n, crew, level.r);
   Level<Real>& coarse = levels_[n + 1];
   coarse.each_plane(crew, [&](Index p) {
     share_out(transfers_[n].up, level.r, coarse.r, coarse.planes()[static_cast<std::size_t>(p)]);
@@ -135,6 +152,7 @@ void Hierarchy<Real>::cycle(std::size_t n, const Crew& crew) noexcept {
   level.each_plane(crew, [&](Index p) {
     const GridPlane& plane = level.planes()[static_cast<std::size_t>(p)];
     share_out(transfers_[n].down, coarse.x, level.d, plane);
+    if (!planes_.empty()) supports_[n].take_from(level.d, plane, planes_);
     for (std::size_t a = 0; a < 3; ++a)
       for (Index i = plane.first; i < plane.last; ++i) m.x[a][i] += m.d[a][i];
   });
@@ -143,9 +161,12 @@ void Hierarchy<Real>::cycle(std::size_t n, const Crew& crew) noexcept {
 
 template <class Real>
 void Hierarchy<Real>::solve_coarsest(const Crew& crew) noexcept {
-  if (coarsest_.any())
-    coarsest_.solve(levels_.back().context());
-  else
+  Level<Real>& last = levels_.back();
+  if (coarsest_.any()) {
+    take_held(levels_.size() - 1, crew, last.r);
+    coarsest_.solve(last.context());
+    take_held(levels_.size() - 1, crew, last.x);
+  } else
     cycle(levels_.size() - 1, crew);
 }
 

@@ -2,6 +2,7 @@
 // A body of hexahedra on levels of twice, four, eight times its cells: what solves most of a system in one V-cycle.
 
 #include "physics_node/step/multigrid/dense_solver.h"
+#include "physics_node/step/multigrid/supports.h"
 
 namespace palpate::physics {
 
@@ -12,6 +13,7 @@ namespace palpate::physics {
 ///   d_k = (2k - 3)/(2k + 1) d_{k-1} + (8k - 4)/((2k + 1) l) D^-1 r,   x += d_k,   r -= A d_k,
 /// l the largest eigenvalue of one cell for its own blocks, which bounds that of any body, and 1.15 of it for what is deformed. It is
 /// symmetric, and a good preconditioner of conjugate gradients; on its own it may diverge on ragged bodies.
+/// Where planes hold nodes (supports.h) it is one of P A P, P leaving out what they hold, on every level.
 /// Source: Lottes 2023 for the polynomials.
 /// Cost: bench/fem. Contract: allocates and throws nothing after construction; the same bits on any number of threads.
 template <class Real>
@@ -28,8 +30,13 @@ class Hierarchy {
 
   /// @param dt  0: statics [s]
   void set_step(double dt) noexcept;
-  /// Takes the tangent at fine().u.
+  /// Planes that hold nodes of the fine level from the next linearise() on; without planes it does not look at them.
+  Supports& supports() noexcept { return supports_.front(); }
+  void set_planes(std::span<const Plane> planes) noexcept { planes_ = planes; }
+  /// Takes the tangent at fine().u, and what is held.
   void linearise(const Crew& crew, double scale) noexcept;
+  /// Takes from a vector of the fine level what is held of it.
+  void take_held(const Crew& crew, Three<Real>& three) const noexcept { take_held(0, crew, three); }
   /// fine().x, about A^-1 of fine().r, which it uses up.
   void v_cycle(const Crew& crew) noexcept;
   /// Where the bound turns out to be too small.
@@ -43,9 +50,12 @@ class Hierarchy {
   void smooth(std::size_t n, const Crew& crew, int from) noexcept;
   void cycle(std::size_t n, const Crew& crew) noexcept;
   void solve_coarsest(const Crew& crew) noexcept;
+  void take_held(std::size_t n, const Crew& crew, Three<Real>& three) const noexcept;
 
   std::vector<Level<Real>> levels_;
   std::vector<Transfer> transfers_;  // from level n to n + 1
+  std::vector<Supports> supports_;   // by level
+  std::span<const Plane> planes_;
   std::vector<Index> storage_;
   DenseSolver coarsest_;
   bool physical_;

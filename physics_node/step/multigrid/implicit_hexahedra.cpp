@@ -2,9 +2,16 @@
 
 #include <algorithm>
 
+#include "physics_node/step/momentum_account.h"
 #include "physics_node/step/node_motion.h"
 
 namespace palpate::physics {
+namespace {
+
+// Why: a mass that leaves a plane may not be thrown through its neighbours.
+constexpr double farthest_thrown = 0.25;  // in a step [of a cell]
+
+}  // namespace
 
 template <class Real>
 ImplicitHexahedra<Real>::ImplicitHexahedra(const Body& body)
@@ -20,16 +27,39 @@ ImplicitHexahedra<Real>::ImplicitHexahedra(const Body& body)
 }
 
 template <class Real>
-void ImplicitHexahedra<Real>::take(const LatticeState<Real>& state, const Crew& crew,
-                                   const Vec3& gravity) noexcept {
+void ImplicitHexahedra<Real>::take(const LatticeState<Real>& state, const Crew& crew) noexcept {
   newton_.each_node(crew, [&](std::size_t i) {
     const auto node = static_cast<std::size_t>(newton_.storage()[i]);
     for (std::size_t a = 0; a < 3; ++a) {
       newton_.u[a][i] = state.u[a][node];
-      newton_.push[a][i] = static_cast<Real>(mass_[i] * gravity[static_cast<Eigen::Index>(a)]);
       newton_.D[a][i] = newton_.coast[a][i] = 0;
     }
   });
+}
+
+template <class Real>
+void ImplicitHexahedra<Real>::push(const Crew& crew, const Vec3& gravity, const StepForces& forces) noexcept {
+  newton_.each_node(crew, [&](std::size_t i) {
+    for (std::size_t a = 0; a < 3; ++a)
+      newton_.push[a][i] = static_cast<Real>(mass_[i] * gravity[static_cast<Eigen::Index>(a)]);
+  });
+  for (const auto& list : {forces.tools, forces.contact})
+    for (const NodalForce& nodal : list) {
+      const Index i = node_of_[static_cast<std::size_t>(nodal.cell)];
+      for (std::size_t a = 0; a < 3 && i >= 0; ++a)
+        newton_.push[a][static_cast<std::size_t>(i)] +=
+            static_cast<Real>(nodal.force[static_cast<Eigen::Index>(a)]);
+    }
+}
+
+template <class Real>
+double ImplicitHexahedra<Real>::work_of(std::span<const NodalForce> forces) const noexcept {
+  double work = 0;
+  for (const NodalForce& nodal : forces) {
+    const Index i = node_of_[static_cast<std::size_t>(nodal.cell)];
+    if (i >= 0 && mass_[static_cast<std::size_t>(i)] > 0) work += nodal.force.dot(vector_of(newton_.D, i));
+  }
+  return work;
 }
 
 template <class Real>
@@ -76,37 +106,69 @@ void ImplicitHexahedra<Real>::book(LatticeState<Real>& state, const Crew& crew, 
 }
 
 template <class Real>
-ImplicitReport ImplicitHexahedra<Real>::step(const Body& body, LatticeState<Real>& state,
-                                             const ExplicitStep& how,
-                                             std::span<const NodalForce> forces) noexcept {
-  const Crew crew{how.team, how.threads};
-  take(state, crew, how.gravity);
-  for (const NodalForce& nodal : forces) {
-    const Index i = node_of_[static_cast<std::size_t>(nodal.cell)];
-    for (std::size_t a = 0; a < 3 && i >= 0; ++a)
-      newton_.push[a][static_cast<std::size_t>(i)] +=
-          static_cast<Real>(nodal.force[static_cast<Eigen::Index>(a)]);
-  }
-  const double before = newton_.evaluate(crew, 1);  // D = 0
-  newton_.each_node(crew, [&](std::size_t i) {
-    const auto node = static_cast<std::size_t>(newton_.storage()[i]);
-    for (std::size_t a = 0; a < 3 && mass_[i] > 0; ++a)
-      newton_.D[a][i] = newton_.coast[a][i] =
-          static_cast<Real>(how.dt * static_cast<double>(state.v[a][node]));
+void ImplicitHexahedra<Real>::bounce(LatticeState<Real>& state, const ExplicitStep& how,
+                                     MomentumAccount& momentum) noexcept {
+  if (how.planes.empty()) return;
+  const double fastest = farthest_thrown * newton_.edge() / how.dt;
+  // One thread: few nodes lie on planes, and momentum is summed in one order.
+  newton_.each_node({}, [&](std::size_t i) {
+    const PlaneSet by = newton_.held_by(i);
+    if (by == 0) return;
+    const auto node = static_cast<Index>(i);
+    const Vec3 D = vector_of(newton_.D, node), R = vector_of(newton_.reaction, node);
+    const PlaneImpact impact = impact_of(mass_[i], vector_of(newton_.coast, node) / how.dt, D, R,
+                                         directions_of(by, how.planes), how.dt, how.restitution, fastest);
+    const Vec3 x = newton_.rest(i) + vector_of(newton_.u, node);
+    momentum.push(how.dt * R, x, how.dt);
+    momentum.hit(mass_[i] * impact.dv, x + D);
+    report_.contact_lost += impact.contact;
+    state.ledger.front().numerical += impact.numerical;
+    for (std::size_t a = 0; a < 3; ++a)
+      state.v[a][static_cast<std::size_t>(newton_.storage()[i])] +=
+          static_cast<Real>(impact.dv[static_cast<Eigen::Index>(a)]);
   });
-  const NewtonTask task{.dt = how.dt, .beta = body.solid->beta};
-  const NewtonReport solved = newton_.solve(crew, task);
-  ImplicitReport report{
-      .newton_iterations = solved.iterations, .cg_iterations = solved.cycles, .converged = solved.converged};
-  for (const NodalForce& nodal : forces) {
-    const Index i = node_of_[static_cast<std::size_t>(nodal.cell)];
-    for (std::size_t a = 0; a < 3 && i >= 0 && mass_[static_cast<std::size_t>(i)] > 0; ++a)
-      report.work += nodal.force[static_cast<Eigen::Index>(a)] *
-                     static_cast<double>(newton_.D[a][static_cast<std::size_t>(i)]);
+}
+
+template <class Real>
+void ImplicitHexahedra<Real>::solve(const Body& body, const LatticeState<Real>& state,
+                                    const ExplicitStep& how, const StepForces& forces, bool again) noexcept {
+  const Crew crew{how.team, how.threads};
+  if (!again) {
+    report_ = {};
+    take(state, crew);
+    before_ = newton_.evaluate(crew, 1);  // D = 0
+    newton_.each_node(crew, [&](std::size_t i) {
+      const auto node = static_cast<std::size_t>(newton_.storage()[i]);
+      for (std::size_t a = 0; a < 3 && mass_[i] > 0; ++a)
+        newton_.D[a][i] = newton_.coast[a][i] =
+            static_cast<Real>(how.dt * static_cast<double>(state.v[a][node]));
+    });
   }
-  book(state, crew, task, before);
+  push(crew, how.gravity, forces);
+  const NewtonReport solved =
+      newton_.solve(crew, {.dt = how.dt, .beta = body.solid->beta, .planes = how.planes});
+  report_.newton_iterations += solved.iterations;
+  report_.cg_iterations += solved.cycles;
+  report_.converged = solved.converged;
+}
+
+template <class Real>
+Vec3 ImplicitHexahedra<Real>::velocity(Index cell, double dt) const noexcept {
+  const Index i = node_of_[static_cast<std::size_t>(cell)];
+  return i < 0 ? Vec3(Vec3::Zero()) : Vec3(vector_of(newton_.D, i) / dt);
+}
+
+template <class Real>
+ImplicitReport ImplicitHexahedra<Real>::finish(const Body& body, LatticeState<Real>& state,
+                                               const ExplicitStep& how, const StepForces& forces,
+                                               MomentumAccount& momentum) noexcept {
+  const Crew crew{how.team, how.threads};
+  report_.work = work_of(forces.tools);
+  report_.contact_lost = -work_of(forces.contact);
+  book(state, crew, {.dt = how.dt, .beta = body.solid->beta}, before_);
   give(state, crew, how.dt);
-  return report;
+  bounce(state, how, momentum);
+  return report_;
 }
 
 template class ImplicitHexahedra<float>;

@@ -18,19 +18,28 @@ template <class Real>
 class ImplicitHexahedra final : public ImplicitSolver<Real> {
  public:
   explicit ImplicitHexahedra(const Body& body);
-  ImplicitReport step(const Body& body, LatticeState<Real>& state, const ExplicitStep& how,
-                      std::span<const NodalForce> forces) noexcept override;
+  void solve(const Body& body, const LatticeState<Real>& state, const ExplicitStep& how,
+             const StepForces& forces, bool again) noexcept override;
+  Vec3 velocity(Index cell, double dt) const noexcept override;
+  ImplicitReport finish(const Body& body, LatticeState<Real>& state, const ExplicitStep& how,
+                        const StepForces& forces, MomentumAccount& momentum) noexcept override;
 
  private:
-  void take(const LatticeState<Real>& state, const Crew& crew, const Vec3& gravity) noexcept;
+  void take(const LatticeState<Real>& state, const Crew& crew) noexcept;
+  void push(const Crew& crew, const Vec3& gravity, const StepForces& forces) noexcept;
+  double work_of(std::span<const NodalForce> forces) const noexcept;
   void give(LatticeState<Real>& state, const Crew& crew, double dt) noexcept;
   /// What the step took: viscous and numerical [J].
   void book(LatticeState<Real>& state, const Crew& crew, const NewtonTask& task, double before) noexcept;
+  /// What planes did: their impulses, and the velocities with which masses leave them. After give().
+  void bounce(LatticeState<Real>& state, const ExplicitStep& how, MomentumAccount& momentum) noexcept;
   double work_of_elements(const Crew& crew) noexcept;
 
   Newton<Real> newton_;
   std::vector<Index> node_of_;  // of the level, by node of the body; -1: no cell has it  (n_cells)
   ZeroedArray<double> mass_;    // 0: held [kg]                                     (n_nodes of the level)
+  ImplicitReport report_;
+  double before_ = 0;  // elastic energy when the step began [J]
 };
 
 }  // namespace palpate::physics

@@ -12,15 +12,76 @@ constexpr double inner_tolerance = 0.1;
 constexpr double armijo = 1e-4;
 // Why: the last digit of a node is felt by its neighbours, too; a swinging bar of 1 MPa stayed at 3 to 4.
 constexpr double digits_felt = 6;
+constexpr double lies_on = 1e-6;  // a plane, if it is nearer [of a cell]
+constexpr double deep = 0.25;     // where D would begin within a plane [of a cell]; then it begins at rest
 
 }  // namespace
 
 template <class Real>
 Newton<Real>::Newton(const Body& body)
-    : hierarchy_(body), gradients_(hierarchy_), by_plane_(hierarchy_.fine().planes().size()) {
+    : hierarchy_(body),
+      gradients_(hierarchy_),
+      edge_(body.lattice.step.minCoeff()),
+      by_plane_(hierarchy_.fine().planes().size()) {
+  const auto n = static_cast<std::size_t>(fine().n_nodes());
   std::size_t colour = 30;
-  for (auto* three : {&u, &coast, &push, &D, &force, &from_})
-    for (auto& axis : *three) axis = ZeroedArray<Real>(static_cast<std::size_t>(fine().n_nodes()), colour++);
+  for (auto* three : {&u, &coast, &push, &D, &force, &reaction, &from_})
+    for (auto& axis : *three) axis = ZeroedArray<Real>(n, colour++);
+  for (auto& axis : rest_) axis = ZeroedArray<double>(n, colour++);
+  at_.assign(n, 0);
+  beyond_.assign(n, 0);
+  for (std::size_t i = 0; i < n; ++i)
+    if (storage()[i] >= 0 && body.lattice.is_beyond(storage()[i])) beyond_[i] = 1;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t a = 0; a < 3 && storage()[i] >= 0; ++a)
+      rest_[a][i] = body.rest_position(storage()[i])[static_cast<Eigen::Index>(a)];
+}
+
+template <class Real>
+double Newton<Real>::keep_out_of(const Crew& crew, std::span<const Plane> planes) noexcept {
+  if (planes.empty()) return 0;
+  const LevelContext<Real> m = hierarchy_.fine().context();
+  fine().each_plane(crew, [&](Index p) {
+    const GridPlane& plane = fine().planes()[static_cast<std::size_t>(p)];
+    double farthest = 0;
+    for (Index i = plane.first; i < plane.last; ++i) {
+      const auto n = static_cast<std::size_t>(i);
+      if (!(m.free[i] > 0) || beyond_[n] != 0) continue;
+      const KeptOut kept = keep_out(rest(n) + vector_of(u, i), vector_of(D, i), planes, lies_on * edge_);
+      at_[n] = kept.at;
+      if (!(kept.pushed > 0)) continue;
+      for (std::size_t a = 0; a < 3; ++a) D[a][n] = static_cast<Real>(kept.D[static_cast<Eigen::Index>(a)]);
+      farthest = std::max(farthest, kept.pushed);
+    }
+    by_plane_[static_cast<std::size_t>(p)] = farthest;
+  });
+  return *std::max_element(by_plane_.begin(), by_plane_.end());
+}
+
+template <class Real>
+void Newton<Real>::find_reaction(std::size_t node, std::span<const Plane> planes) noexcept {
+  if (planes.empty()) return;
+  Three<Real>& b = gradients_.b;
+  const Vec3 pressed = vector_of(b, static_cast<Index>(node));
+  const PlaneSet by = at_[node] != 0 ? planes_that_push(at_[node], pressed, planes) : 0;
+  hierarchy_.supports().set(node, by);
+  const Vec3 taken = by != 0 ? directions_of(by, planes).part_of(pressed) : Vec3::Zero();
+  for (std::size_t a = 0; a < 3; ++a) {
+    reaction[a][node] = static_cast<Real>(-taken[static_cast<Eigen::Index>(a)]);
+    if (by != 0) b[a][node] += reaction[a][node];
+  }
+}
+
+template <class Real>
+void Newton<Real>::begin(const Crew& crew, const NewtonTask& task) noexcept {
+  if (task.dt != dt_) hierarchy_.set_step(task.dt);
+  dt_ = task.dt;
+  hierarchy_.set_planes(task.planes);
+  if (keep_out_of(crew, task.planes) <= deep * edge_) return;
+  each_node(crew, [&](std::size_t i) {
+    for (auto& axis : D) axis[i] = 0;
+  });
+  keep_out_of(crew, task.planes);
 }
 
 template <class Real>
@@ -56,6 +117,7 @@ double Newton<Real>::look(const Crew& crew, const NewtonTask& task, NewtonReport
       phi += 0.5 * static_cast<double>(pull) * static_cast<double>(D[a][i] - coast[a][i]) -
              static_cast<double>(m.free[i] * push[a][i]) * static_cast<double>(D[a][i]);
     }
+    find_reaction(i, task.planes);
     return phi;
   });
   report.residual = std::sqrt(gradients_.dot(hierarchy_, crew, b, b));
@@ -75,6 +137,7 @@ bool Newton<Real>::search(const Crew& crew, const NewtonTask& task, double& phi,
     each_node(crew, [&](std::size_t i) {
       for (std::size_t a = 0; a < 3; ++a) D[a][i] = from_[a][i] + s * gradients_.x[a][i];
     });
+    keep_out_of(crew, task.planes);
     const double next = look(crew, task, report);
     // In float the slope along x is seen when what Phi falls by no longer is.
     const double left = gradients_.dot(hierarchy_, crew, gradients_.b, gradients_.x);
@@ -89,6 +152,7 @@ bool Newton<Real>::search(const Crew& crew, const NewtonTask& task, double& phi,
   each_node(crew, [&](std::size_t i) {
     for (std::size_t a = 0; a < 3; ++a) D[a][i] = from_[a][i];
   });
+  keep_out_of(crew, task.planes);
   phi = look(crew, task, report);
   return false;
 }
@@ -110,8 +174,7 @@ double Newton<Real>::rounding(const Crew& crew) noexcept {
 
 template <class Real>
 NewtonReport Newton<Real>::solve(const Crew& crew, const NewtonTask& task) noexcept {
-  if (task.dt != dt_) hierarchy_.set_step(task.dt);
-  dt_ = task.dt;
+  begin(crew, task);
   NewtonReport report;
   double phi = look(crew, task, report);
   const LevelContext<Real> m = hierarchy_.fine().context();

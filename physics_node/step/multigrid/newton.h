@@ -14,6 +14,7 @@ struct NewtonTask {
   double tolerance = 1e-3;
   int most_iterations = 12;
   int most_cycles = 80;  // V-cycles, in all
+  std::span<const Plane> planes = {};
 };
 
 struct NewtonReport {
@@ -32,6 +33,9 @@ struct NewtonReport {
 /// the slope of  Phi = M |D - coast|^2 / (2 dt^2) + W(u + s D) / s - push . D.  Each system is solved by conjugate gradients to a tenth
 /// of its residual, with the positive tangent on all levels of the hierarchy, so that every step leads downhill; a step is halved
 /// until Phi falls (Armijo), or the residual does, or half of its part along the step is gone (Matthies & Strang 1979).
+/// No node passes a plane: D is projected out of them, and what lies on a plane and is pressed into it is solved for in the other
+/// directions only, while the plane takes the part of -g that presses (Bertsekas 1982: projected Newton). The planes that hold a node
+/// are found anew in every iteration, from the sign of what they would take.
 /// Cost: bench/fem. Contract: allocates and throws nothing after construction; the same bits on any number of threads.
 template <class Real>
 class Newton {
@@ -40,7 +44,8 @@ class Newton {
 
   /// By node of the fine level. D is where the search begins, and its answer.
   Three<Real> u, coast, push, D;
-  Three<Real> force;  // of the elements, where they were asked last [N]
+  Three<Real> force;     // of the elements, where they were asked last [N]
+  Three<Real> reaction;  // of planes, where solve() ended; 0 without planes [N]
 
   NewtonReport solve(const Crew& crew, const NewtonTask& task) noexcept;
   /// Elastic energy at u + scale D [J]; `force` there.
@@ -65,6 +70,11 @@ class Newton {
       for (Index i = plane.first; i < plane.last; ++i) work(static_cast<std::size_t>(i));
     });
   }
+  /// Planes that hold a node, where solve() ended.
+  PlaneSet held_by(std::size_t node) noexcept { return hierarchy_.supports().of(node); }
+  double edge() const noexcept { return edge_; }  // of a cell, the shortest [m]
+  /// Where it rests [m].
+  Vec3 rest(std::size_t node) const noexcept { return vector_of(rest_, static_cast<Index>(node)); }
   const std::vector<Index>& storage() const noexcept { return hierarchy_.storage(); }
   const Level<Real>& fine() const noexcept { return hierarchy_.fine(); }
 
@@ -73,11 +83,20 @@ class Newton {
   double look(const Crew& crew, const NewtonTask& task, NewtonReport& report) noexcept;
   /// What the last digit of D is as a force, with the tangent taken last [N].
   double rounding(const Crew& crew) noexcept;
+  /// Moves D out of the planes. @return how far at most [m]
+  double keep_out_of(const Crew& crew, std::span<const Plane> planes) noexcept;
+  /// Takes from the right side of a node what planes hold, and notes it.
+  void find_reaction(std::size_t node, std::span<const Plane> planes) noexcept;
+  void begin(const Crew& crew, const NewtonTask& task) noexcept;
   bool search(const Crew& crew, const NewtonTask& task, double& phi, NewtonReport& report) noexcept;
 
   Hierarchy<Real> hierarchy_;
   ConjugateGradients<Real> gradients_;
   Three<Real> from_;
+  Three<double> rest_;                // places at rest
+  std::vector<PlaneSet> at_;          // planes on which a node lies; none without planes
+  std::vector<std::uint8_t> beyond_;  // the body's shape: no plane meets it
+  double edge_ = 0;                   // of a cell, the shortest [m]
   std::vector<double> by_plane_;
   double dt_ = 0;  // that the levels are set to
 };

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "common/error/error.h"
 #include "common/scene/body_spec.h"
 #include "physics_node/step/multigrid/equilibrium.h"
@@ -9,14 +11,14 @@
 namespace palpate::physics {
 
 std::vector<Vec3> start_of_body(const BodySpec& spec, const Body& body, const Vec3& gravity,
-                                std::vector<std::string>& remarks) {
+                                std::span<const Plane> planes, std::vector<std::string>& remarks) {
   if (spec.start != StartKind::balanced || !body.solid) return {};
-  if (body.n_held == 0)
+  if (body.n_held == 0 && !std::isfinite(way_down(body, gravity, planes)))
     throw InputError(fmt::format(
-        "{}: start = \"balanced\", but nothing holds body \"{}\"; write fixed = [\"-z\"], say, or leave "
-        "\"start\" out",
+        "{}: start = \"balanced\", but nothing holds body \"{}\"; write fixed = [\"-z\"], say, or a [floor] "
+        "below it, or leave \"start\" out",
         spec.place.text(), spec.name));
-  Equilibrium found = equilibrium(body, gravity);
+  Equilibrium found = equilibrium(body, gravity, planes);
   if (!found.report.converged)
     remarks.push_back(fmt::format(
         "{}: body \"{}\" has no balance that Newton's method finds: of a weight of {:.3g} N (root of the sum "

@@ -102,6 +102,38 @@ TEST(World, TakesNoMemoryWhileItSolvesFiniteElements) {
   EXPECT_EQ(world.report().unsolved, 0);
 }
 
+TEST(World, TakesNoMemoryWhileItSolvesForAFloor) {
+  for (const char* model : {"fem", "springs"}) {
+    Recipe recipe;
+    recipe.lattice = "voxel";
+    recipe.spacing_mm = 5;
+    recipe.material = "density_kg_per_m3 = 1000\nmodulus_kPa = 10";
+    recipe.body = std::string("velocity_m_per_s = [0, 0, -1]\nmodel = \"") + model + "\"";
+    recipe.physics = "integrator = \"backward_euler\"\nthreads = 2";
+    recipe.world = floor_at(-21);
+    World world(scene_of(recipe));
+    EXPECT_EQ(allocations_in(world, std::nullopt, 10), 0u);
+    EXPECT_GT(world.body(0).momenta().linear.z(), -0.9 * 0.0625) << "it has met the floor";
+  }
+}
+
+TEST(World, TakesNoMemoryWhileBodiesThatTouchAreSolved) {
+  for (const char* distance : {"swept", "paper"}) {
+    Recipe recipe;
+    recipe.lattice = "voxel";
+    recipe.spacing_mm = 5;
+    recipe.material = "density_kg_per_m3 = 1000\nmodulus_kPa = 10";
+    recipe.body = "model = \"fem\"\nvelocity_m_per_s = [0, 0, 1]";
+    recipe.physics = "integrator = \"backward_euler\"\nthreads = 2";
+    recipe.world = std::string("[contact]\ndistance = \"") + distance +
+                   "\"\n[[body]]\nname = \"upper\"\nlattice = \"voxel\"\nspacing_mm = 5\nmaterial = \"m\"\n"
+                   "shape = \"box\"\nsize_mm = [20, 20, 20]\nat_mm = [0, 0, 34]\n";
+    World world(scene_of(recipe));
+    EXPECT_EQ(allocations_in(world, std::nullopt, 30), 0u);
+    EXPECT_GT(world.body(1).momenta().linear.z(), 1e-3) << "it was hit";
+  }
+}
+
 TEST(World, TakesNoMemoryWhileItYieldsAndBreaks) {
   Recipe recipe;
   recipe.body = "velocity_m_per_s = [0, 0, -3]";

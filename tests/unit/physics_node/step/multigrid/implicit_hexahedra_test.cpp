@@ -224,5 +224,41 @@ TEST(ImplicitHexahedra, HasTheSameBitsOnAnyNumberOfThreads) {
   }
 }
 
+// Thrown onto a floor and against a wall that no axis follows.
+TEST(ImplicitHexahedra, HasTheSameBitsOnAFloorOnAnyNumberOfThreads) {
+  std::uint64_t first = 0;
+  const std::vector<Plane> planes{{Vec3::UnitZ(), -0.041}, {Vec3(0.6, 0, 0.8), -0.04}};
+  for (const int threads : {1, 2, 3, 8}) {
+    Team team(threads);
+    auto body = implicit(tissue(test::Recipe::box(100, 80, 80), "modulus_kPa = 10\npoisson_ratio = 0.45",
+                                "velocity_m_per_s = [-0.3, 0, -0.3]"),
+                         Precision::single_);
+    StepOutcome last;
+    for (int n = 0; n < 3; ++n)
+      last = body->advance(
+          {.dt = 0.01, .gravity = gravity, .team = &team, .threads = threads, .planes = planes}, {});
+    EXPECT_TRUE(last.solved);
+    if (threads == 1) first = body->hash(0);
+    EXPECT_EQ(body->hash(0), first) << threads;
+  }
+}
+
+// V-cycles of a step on a floor: as many as of a body that is held there, at any size.
+TEST(ImplicitHexahedra, AFloorCostsNoMoreCyclesThanABodyThatIsHeld) {
+  const std::vector<Plane> planes{{Vec3::UnitZ(), -0.04}};
+  const auto cycles = [&](double spacing, bool held) {
+    test::Recipe recipe = tissue(test::Recipe::box(80, 80, 80), "modulus_kPa = 10\npoisson_ratio = 0.45",
+                                 held ? "fixed = [\"-z\"]" : "");
+    recipe.spacing_mm = spacing;
+    auto body = implicit(recipe);
+    int sum = 0;
+    for (int n = 0; n < 5; ++n)
+      sum += body->advance({.dt = 0.02, .gravity = gravity, .planes = planes}, {}).cg_iterations;
+    return sum;
+  };
+  for (const double spacing : {10.0, 5.0, 2.5})
+    EXPECT_LE(cycles(spacing, false), 1.5 * cycles(spacing, true) + 3) << spacing;
+}
+
 }  // namespace
 }  // namespace palpate::physics
