@@ -66,21 +66,21 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
       need.bytes += bytes_of_masses(need.masses, spec, scene);
       refuse_too_large(scene, needs, memory);
     }
-    any_yields_ = any_yields_ || any_yields(body);
+    any_breaks_ = any_breaks_ || any_breaks(body);
     const double bucket = 4 * body.spacing();
     std::vector<Vec3> start = start_of_body(spec, body, scene.gravity, planes_, remarks_);
     bodies_.push_back(
         make_body_model(std::move(body), scene.physics->precision, integrator, std::move(start)));
-    fragments_.push_back(any_yields(bodies_.back()->body()) ? std::make_unique<Fragments>(*bodies_.back())
+    fragments_.push_back(any_breaks(bodies_.back()->body()) ? std::make_unique<Fragments>(*bodies_.back())
                                                             : nullptr);
     touchable_.push_back({bodies_.back().get(), std::make_unique<Boundary>(*bodies_.back(), bucket, feels)});
   }
   toolbox_ = make_tools(scene_, bodies_, touchable_);
-  if (scene.contact->enabled && (bodies_.size() > 1 || any_yields_))
+  if (scene.contact->enabled && (bodies_.size() > 1 || any_breaks_))
     collisions_ = std::make_unique<Collisions>(bodies_, fragments_, *scene.contact);
   if (collisions_)
     for (const std::size_t b : toolbox_.felt) collisions_->feel(b);
-  if (bodies_.size() > 1 || any_yields_) inside_ = std::make_unique<InsideOthers>(bodies_);
+  if (bodies_.size() > 1 || any_breaks_) inside_ = std::make_unique<InsideOthers>(bodies_);
   if (!planes_.empty())
     for (auto& body : bodies_) body->prepare_for(Disturbance::impulses);
   choice_ = choose_threads(scene, spare_cores, n_masses, n_pieces);
@@ -138,7 +138,7 @@ void World::book_work(double work) noexcept {
 }
 
 void World::follow_breaks() noexcept {
-  if (!any_yields_) {
+  if (!any_breaks_) {
     ++report_[Stage::yield_and_break].skipped;
     return;
   }

@@ -123,7 +123,7 @@ class World {
   double stiffening_ = 1;                      // largest of the bodies in the last step: see StepOutcome
   std::unique_ptr<Team> team_;                 // null: one thread
   TeamChoice choice_ = TeamChoice::always(1);
-  bool any_yields_ = false;
+  bool any_breaks_ = false;
   bool near_ = false;                              // bodies or fragments may touch in this frame
   bool pressed_ = false, pressed_before_ = false;  // by a tool, in this frame and in the one before
   Guard guard_;

@@ -30,6 +30,7 @@ HexCube make_hex_cube(const HexCubeKind& kind) {
   tissue.density = 1000;
   if (kind.damped) tissue.viscosity_bulk = 1;
   if (kind.relaxing) tissue.relaxation = {{.share = 0.5, .time = 0.1}};
+  if (kind.breaking) tissue.break_ratio = 2;
   BodySpec spec;
   spec.name = "cube";
   spec.lattice = LatticeKind::voxel;

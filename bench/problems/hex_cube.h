@@ -15,7 +15,8 @@ struct HexCubeKind {
   Precision precision = Precision::single_;
   bool damped = true;
   bool relaxing = false;
-  int cells = 40;  // along each side
+  bool breaking = false;  // may, and does not
+  int cells = 40;         // along each side
   int threads = 1;
 };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -93,11 +94,14 @@ void make_solid(std::uint64_t seed, Scene& scene) {
     m.poisson_ratio = nu;
     m.law = law;
     m.relaxation = relaxation;
-    m.yield_ratio.reset(), m.break_ratio.reset();
+    m.yield_ratio.reset();
+    if (law != TissueLaw::neo_hookean || !relaxation.empty()) m.break_ratio.reset();
     m.damper = Damper::axial;
     m.viscosity_bulk.reset();
     if (damped) m.viscosity_bulk = lag * *m.modulus;
   }
+  for (MaterialSpec& m : scene.materials)
+    if (m.break_ratio && dice.chance(0.5)) m.fracture_energy = dice.decades(1e-3, 1e3) * *m.modulus * 1e-3;
   for (BodySpec& body : scene.bodies) {
     body.lattice = LatticeKind::voxel;
     body.model = ElementModel::fem;
@@ -110,7 +114,9 @@ Integrator integrator_of(const Scene& scene, Dice& dice) {
   if (scene.bodies[0].model == ElementModel::springs) return integrator;
   const MaterialSpec& m = scene.materials[0];
   const bool implicit =
-      integrator == Integrator::backward_euler && m.relaxation.empty() && m.law == TissueLaw::neo_hookean;
+      integrator == Integrator::backward_euler && m.relaxation.empty() && m.law == TissueLaw::neo_hookean &&
+      std::ranges::none_of(scene.materials,
+                           [](const MaterialSpec& of) { return of.break_ratio.has_value(); });
   return implicit ? integrator : Integrator::symplectic_euler;
 }
 
@@ -210,7 +216,10 @@ std::string describe(const StressScene& s) {
       *scene.materials[1].modulus, *m.density, *scene.materials[1].density, *scene.bodies[0].spacing,
       scene.bodies[0].regions.size(), scene.bodies.size(),
       scene.bodies[0].model == ElementModel::fem
-          ? fmt::format(" elements nu {:.3f} {}{}{}", m.poisson_ratio,
+          ? fmt::format(" elements nu {:.3f}{} {}{}{}", m.poisson_ratio,
+                        m.break_ratio ? fmt::format(" break {:.4g} for {:.3g} J/m2", *m.break_ratio,
+                                                    m.fracture_energy.value_or(0))
+                                      : "",
                         scene.bodies[0].hourglass == HourglassKind::physical ? "physical" : "isotropic",
                         m.law == TissueLaw::green ? " green" : "", m.relaxation.empty() ? "" : " relaxing")
       : m.yield_ratio ? fmt::format(" yield {:.4g} break {:.4g}", *m.yield_ratio, *m.break_ratio)

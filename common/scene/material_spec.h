@@ -48,8 +48,10 @@ struct MaterialSpec {
   std::optional<double> viscosity_bulk;  // [Pa s]                    |
   Damper damper = Damper::axial;
   double drag = 0;                    // of every mass against the world, -b v [N s/m]
-  std::optional<double> yield_ratio;  // y_p > 1 |  both or neither: purely elastic
-  std::optional<double> break_ratio;  // b_p > y_p
+  std::optional<double> yield_ratio;  // y_p > 1 |  of springs both or neither: purely elastic
+  std::optional<double> break_ratio;  // b_p > y_p; of finite elements it may stand alone
+  std::optional<double>
+      fracture_energy;  // of finite elements that break: what a crack takes, by area [J/m^2]
   Place place;
 };
 

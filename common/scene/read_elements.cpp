@@ -17,7 +17,13 @@ std::string hindrance(const MaterialSpec& material, const BodySpec& spec) {
   if (!material.modulus) return "has no modulus_kPa; give it in place of k1_N_per_m or lambda_N";
   if (!material.density) return "has no density_kg_per_m3; give it in place of mass_g";
   if (material.yield_ratio)
-    return "yields and breaks, which only springs do so far; leave yield_ratio and break_ratio out";
+    return "yields, which only springs do so far; leave yield_ratio out, break_ratio may stand alone";
+  if (material.break_ratio && material.law == TissueLaw::green)
+    return "breaks beside law = \"green\"; only \"neo_hookean\" does";
+  if (material.break_ratio && !material.relaxation.empty())
+    return "breaks and relaxes; leave break_ratio or relaxation out";
+  if (material.break_ratio && spec.border_cells == BorderCells::filled)
+    return "breaks, and border_cells = \"filled\" has cells that nobody sees; leave one of them out";
   if (material.viscosity) return "has viscosity_N_s_per_m, which is of one spring; give viscosity_Pa_s";
   if (material.drag > 0) return "has drag_N_s_per_m, which is of the papers' masses; give viscosity_Pa_s";
   if (material.damper != Damper::axial) return "has a damper of springs; leave \"damper\" out";
@@ -59,6 +65,7 @@ void refuse_relaxation(TableReader& reader, const ReadContext& context, const Bo
 std::string beyond_backward_euler(const MaterialSpec& material) {
   if (!material.relaxation.empty()) return "relaxes";
   if (material.law == TissueLaw::green) return "has law = \"green\"";
+  if (material.break_ratio) return "breaks";
   return {};
 }
 
@@ -66,7 +73,7 @@ void refuse_implicit(TableReader& reader, const ReadContext& context, const Body
   if (context.scene.physics->integrator != Integrator::backward_euler) return;
   for (const MaterialSpec& material : context.scene.materials) {
     const std::string what = beyond_backward_euler(material);
-    if (material.name == spec.material && !what.empty())
+    if (is_in(spec, material) && !what.empty())
       reader.complain("material",
                       fmt::format("[material.{}] of {} {}, which \"backward_euler\" does not follow; "
                                   "leave \"integrator\" in [physics] out, or that",
@@ -79,6 +86,7 @@ std::string beyond_springs(const MaterialSpec& material) {
   if (!material.relaxation.empty()) return "a relaxation";
   if (!material.modulus_by_intensity.empty()) return "modulus_by_intensity";
   if (material.law != TissueLaw::neo_hookean) return "a law";
+  if (material.fracture_energy) return "fracture_energy_J_per_m2";
   return {};
 }
 

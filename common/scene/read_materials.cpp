@@ -110,12 +110,41 @@ void read_relaxation(TableReader& reader, MaterialSpec& spec) {
                     reader.title(), shares, most_relaxing_share));
 }
 
-void read_plasticity(TableReader& reader, MaterialSpec& spec) {
+/// Is it the material of finite elements, and of nothing else? Looks ahead, at bodies and tools that are not read yet.
+bool is_of_elements(const toml::table& scene, std::string_view material) {
+  const auto names = [material](const toml::node& node) {
+    return node.is_table() && (*node.as_table())["material"].value_or(std::string_view()) == material;
+  };
+  bool any = false;
+  for (const std::string_view kind : {"body", "tool"}) {
+    const toml::array* list = scene[kind].as_array();
+    if (list == nullptr) continue;
+    for (const toml::node& node : *list) {
+      const toml::table* table = node.as_table();
+      if (table == nullptr) continue;
+      const toml::array* regions = (*table)["regions"].as_array();
+      if (!names(node) && (regions == nullptr || std::none_of(regions->begin(), regions->end(), names)))
+        continue;
+      if ((*table)["model"].value_or(std::string_view()) != "fem") return false;
+      any = true;
+    }
+  }
+  return any;
+}
+
+/// @param of_elements  of finite elements, which may break without yielding
+void read_plasticity(TableReader& reader, MaterialSpec& spec, bool of_elements) {
   const Range above_one{.lo = 1, .without_lo = true};
   spec.yield_ratio = reader.read_number("yield_ratio", above_one);
   spec.break_ratio = reader.read_number("break_ratio", above_one);
+  spec.fracture_energy = reader.read_number("fracture_energy_J_per_m2", positive);
+  if (reader.has("fracture_energy_J_per_m2") && !reader.has("break_ratio"))
+    reader.complain("fracture_energy_J_per_m2",
+                    fmt::format("\"fracture_energy_J_per_m2\" stands alone in {}; give break_ratio too, at "
+                                "which tissue begins to break",
+                                reader.title()));
   const bool yields = reader.has("yield_ratio");
-  if (yields != reader.has("break_ratio"))
+  if (yields != reader.has("break_ratio") && !of_elements)
     reader.complain(
         yields ? "yield_ratio" : "break_ratio",
         fmt::format("\"{}\" stands alone in {}; give yield_ratio and break_ratio, or neither for an "
@@ -127,7 +156,7 @@ void read_plasticity(TableReader& reader, MaterialSpec& spec) {
                                 reader.title(), *spec.break_ratio, *spec.yield_ratio));
 }
 
-MaterialSpec read_material(TableReader& reader) {
+MaterialSpec read_material(TableReader& reader, bool of_elements) {
   MaterialSpec spec;
   spec.place = reader.place();
   if (const auto mass_g = reader.read_number("mass_g", positive)) spec.mass = kg_from_g(*mass_g);
@@ -136,7 +165,7 @@ MaterialSpec read_material(TableReader& reader) {
   read_stiffness(reader, spec);
   read_damping(reader, spec);
   read_relaxation(reader, spec);
-  read_plasticity(reader, spec);
+  read_plasticity(reader, spec, of_elements);
   reader.refuse_left_over();
   return spec;
 }
@@ -146,7 +175,7 @@ MaterialSpec read_material(TableReader& reader) {
 void read_materials(TableReader& root, ReadContext& context) {
   for (const auto& [name, table] : named_tables(root, "material")) {
     TableReader reader(*table, fmt::format("[material.{}]", name), context.complaints);
-    auto spec = read_material(reader);
+    auto spec = read_material(reader, is_of_elements(root.table(), name));
     spec.name = name;
     context.scene.materials.push_back(std::move(spec));
   }

@@ -36,6 +36,7 @@ class TableReader {
   const Place& place() const { return place_; }
   const std::string& title() const { return title_; }
   bool has(std::string_view key) const { return table_.contains(key); }
+  const toml::table& table() const { return table_; }  // as written, for who must look ahead
 
   /// The value of a key, which then counts as known.
   const toml::node* find(std::string_view key);

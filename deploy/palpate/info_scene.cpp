@@ -74,6 +74,8 @@ std::string material_text(const MaterialSpec& material) {
   text += fmt::format(" k2/k1 {:.6g}", material.k2_ratio);
   if (material.yield_ratio) text += fmt::format(", yields at {:.6g}", *material.yield_ratio);
   if (material.break_ratio) text += fmt::format(", breaks at {:.6g}", *material.break_ratio);
+  if (material.fracture_energy)
+    text += fmt::format(", a crack takes {:.6g} J/m^2", *material.fracture_energy);
   return text + "\n";
 }
 

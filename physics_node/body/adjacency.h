@@ -21,18 +21,18 @@ class Adjacency {
   template <class Visit>
   void each_neighbour(Index node, const Visit& visit) const noexcept {
     const auto& offset = lattice_->offset[static_cast<std::size_t>(lattice_->row_kind(node))];
-    for (Mask left = live_elements(node); left != 0; left &= left - 1)
+    for (Mask left = live_elements(node) & element_bits; left != 0; left &= left - 1)
       visit(node + offset[static_cast<std::size_t>(std::countr_zero(left))]);
   }
   bool are_joined(Index a, Index b) const noexcept {
     const auto& offset = lattice_->offset[static_cast<std::size_t>(lattice_->row_kind(a))];
-    for (Mask left = live_elements(a); left != 0; left &= left - 1)
+    for (Mask left = live_elements(a) & element_bits; left != 0; left &= left - 1)
       if (a + offset[static_cast<std::size_t>(std::countr_zero(left))] == b) return true;
     return false;
   }
   /// How many it is joined to.
-  int degree(Index node) const noexcept { return std::popcount(live_elements(node)); }
-  /// Is an element gone that joined it to another when the body was loaded?
+  int degree(Index node) const noexcept { return std::popcount(live_elements(node) & element_bits); }
+  /// Is an element gone that joined it to another when the body was loaded, or a cell that it was a corner of?
   bool has_lost(Index node) const noexcept {
     return live_elements(node) != lattice_->mask[static_cast<std::size_t>(node)];
   }

@@ -63,8 +63,14 @@ inline const ElementLaw& law_at(const Body& body, Index cell) {
 inline double node_mass(const Body& body, Index node) {
   return body.solid ? body.solid->mass[static_cast<std::size_t>(node)] : law_at(body, node).mass;
 }
+/// Springs that yield and break.
 inline bool any_yields(const Body& body) {
-  return std::any_of(body.laws.begin(), body.laws.end(), [](const ElementLaw& law) { return law.yields; });
+  return !body.solid &&
+         std::any_of(body.laws.begin(), body.laws.end(), [](const ElementLaw& law) { return law.yields; });
+}
+/// Springs, or finite elements.
+inline bool any_breaks(const Body& body) {
+  return body.solid ? !body.solid->failures.empty() : any_yields(body);
 }
 inline bool any_damped(const Body& body) {
   return std::any_of(body.laws.begin(), body.laws.end(), [](const ElementLaw& law) { return law.damped; });

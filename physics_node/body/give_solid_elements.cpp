@@ -60,6 +60,18 @@ double modulus_at(const MaterialSpec& material, double intensity) {
   return points.back().modulus;
 }
 
+Failure failure_of(const MaterialSpec& material) {
+  return {.ratio = material.break_ratio.value_or(0.0), .energy = material.fracture_energy.value_or(0.0)};
+}
+
+/// Masks that know of cells, since these break as a whole.
+void mark_cell(Lattice& lattice, const Vec3i& lowest) {
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    const Vec3i at = lowest + Vec3i(corner & 1, corner >> 1 & 1, corner >> 2);
+    lattice.mask[static_cast<std::size_t>(lattice.cell_of(at))] |= cell_bit(7 - corner);
+  }
+}
+
 }  // namespace
 
 void give_solid_elements(Body& body, const BodySpec& spec, const std::vector<MaterialSpec>& materials) {
@@ -78,9 +90,14 @@ void give_solid_elements(Body& body, const BodySpec& spec, const std::vector<Mat
     refuse_mixture(spec, region, own, *of_region.back());
     solid.density = std::min(solid.density, *of_region.back()->density);
   }
+  body.lattice.has_cells = std::ranges::any_of(
+      of_region, [](const MaterialSpec* material) { return material->break_ratio.has_value(); });
+  if (body.lattice.has_cells)
+    for (const MaterialSpec* material : of_region) solid.failures.push_back(failure_of(*material));
   const auto n = static_cast<std::size_t>(body.capacity());
   solid.stiffness.assign(n, 0.0F);
   solid.mass.assign(n, 0.0);
+  if (body.lattice.has_cells) solid.failure_of.assign(n, 0);
   solid.largest_stiffness = 0;
   const Cells& cells = *body.cells;
   const Vec3i corner = lattice_corner(cells, body.lattice);
@@ -91,7 +108,13 @@ void give_solid_elements(Body& body, const BodySpec& spec, const std::vector<Mat
         const auto share = static_cast<double>(cells.share_of(i, j, k));
         if (share == 0) continue;
         const Vec3i at = Vec3i(i, j, k) - corner;
-        const MaterialSpec& material = *of_region[map.of_cell({i, j, k})];
+        const auto region = map.of_cell({i, j, k});
+        const MaterialSpec& material = *of_region[region];
+        if (body.lattice.has_cells) {
+          mark_cell(body.lattice, at);
+          solid.failure_of[static_cast<std::size_t>(body.lattice.cell_of(at))] =
+              static_cast<std::uint8_t>(region);
+        }
         const double intensity =
             cells.intensity.empty() ? 0.0 : static_cast<double>(cells.intensity[cells.index(i, j, k)]);
         const double stiffness = modulus_at(material, intensity) / solid.modulus;

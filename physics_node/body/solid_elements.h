@@ -1,6 +1,7 @@
 #pragma once
 // What the finite elements of a body are made of.
 
+#include <cstdint>
 #include <vector>
 
 #include "common/scene/element_kinds.h"
@@ -11,6 +12,12 @@ namespace palpate::physics {
 struct Relaxation {
   double share = 0;
   double time = 0;  // [s]
+};
+
+/// When cells of a material break.
+struct Failure {
+  double ratio = 0;   // stretch of a bar that breaks; 0: never
+  double energy = 0;  // that a crack takes, by its area at rest; 0: what the cell holds [J/m^2]
 };
 
 /// Stiffness of a cell and the mass of a node are per cell, as the cells around a node may be of several materials.
@@ -24,8 +31,11 @@ struct SolidElements {
   HourglassKind hourglass = HourglassKind::physical;
   std::vector<float>
       stiffness;  // modulus of a cell, times the share of it that is filled, over `modulus`, by the storage cell of its lowest corner; 0: none (n_cells)
-  std::vector<double> mass;      // of each node, an eighth of each cell around it [kg]  (n_cells)
-  double largest_stiffness = 1;  // over density / least density: what bounds the step
+  std::vector<double> mass;       // of each node, an eighth of each cell around it [kg]  (n_cells)
+  double largest_stiffness = 1;   // over density / least density: what bounds the step
+  std::vector<Failure> failures;  // of the body's own material and each region's; EMPTY: nothing breaks
+  std::vector<std::uint8_t>
+      failure_of;  // of a cell, as stiffness: an index of failures; EMPTY with them (n_cells)
 };
 
 }  // namespace palpate::physics

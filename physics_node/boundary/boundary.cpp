@@ -43,7 +43,7 @@ Boundary::Boundary(const BodyModel& moving, double bucket_size, bool follows)
     bucket_facets_.push_back(facet);
   }
   for (std::size_t b = 1; b < bucket_start_.size(); ++b) bucket_start_[b] += bucket_start_[b - 1];
-  if (follows && any_yields(moving.body())) prepare_to_follow();
+  if (follows && any_breaks(moving.body())) prepare_to_follow();
 }
 
 void Boundary::prepare_to_follow() {

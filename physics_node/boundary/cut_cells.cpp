@@ -12,9 +12,13 @@ Vec3i corner_of(unsigned bits) {
 }  // namespace
 
 CellsNow::CellsNow(const Body& body, std::span<const Mask> masks)
-    : cells_(*body.cells), net_(body.lattice, masks), shift_(lattice_corner(*body.cells, body.lattice)) {}
+    : cells_(*body.cells),
+      net_(body.lattice, masks),
+      shift_(lattice_corner(*body.cells, body.lattice)),
+      whole_or_gone_(body.lattice.has_cells) {}
 
 unsigned CellsNow::left_of(const Vec3i& cell) const noexcept {
+  if (whole_or_gone_) return (net_.mask(mass(cell)) & cell_bit(7)) != 0 ? whole : 0;
   unsigned left = 0;
   bool all = true;
   for (unsigned n = 0; n < 8; ++n) {
@@ -46,7 +50,7 @@ unsigned CellsNow::left_of_any(const Vec3i& cell) const noexcept {
 }
 
 bool CellsNow::is_triangle(const Vec3i& a, const Vec3i& b, const Vec3i& c) const noexcept {
-  return net_.joined(a - shift_, b - shift_) && net_.joined(b - shift_, c - shift_) &&
+  return !whole_or_gone_ && net_.joined(a - shift_, b - shift_) && net_.joined(b - shift_, c - shift_) &&
          net_.joined(a - shift_, c - shift_);
 }
 

@@ -33,7 +33,7 @@ class CellsNow {
     return (left >> static_cast<unsigned>(corner.x() + 2 * corner.y() + 4 * corner.z()) & 1) != 0;
   }
   static bool has_middle(unsigned left) noexcept { return (left >> middle & 1) != 0; }
-  /// Do three live elements join these corners of cells?
+  /// Do three live elements join these corners of cells? Never asked of cells that live as a whole, which leave no sheets.
   bool is_triangle(const Vec3i& a, const Vec3i& b, const Vec3i& c) const noexcept;
   bool is_odd(const Vec3i& corner) const noexcept { return ((corner - shift_).sum() & 1) != 0; }
   /// The mass at a corner of cells, -1: none.
@@ -44,6 +44,7 @@ class CellsNow {
   const Cells& cells_;
   LiveNet net_;
   Vec3i shift_;
+  bool whole_or_gone_;  // Lattice::has_cells
 };
 
 /// One cell and the six that share a face with it, each looked at once: what VoxelFacets asks of a cell.

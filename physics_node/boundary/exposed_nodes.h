@@ -6,7 +6,7 @@
 
 namespace palpate::physics {
 
-/// A node that is joined to fewer others than deep inside (EQUATIONS C-12).
+/// A node that is joined to fewer others than deep inside (EQUATIONS C-12), or that was a corner of a cell that broke.
 class ExposedNodes {
  public:
   /// @param open_ones  also nodes that lack nothing but that space reaches, as at the bottom of a pit of the fcc surface or in
@@ -15,7 +15,7 @@ class ExposedNodes {
 
   bool contains(Index node, const Adjacency& now) const noexcept {
     if (lattice_->is_beyond(node)) return false;
-    return now.degree(node) < complete_degree(node) || (open_ones_ && lies_open(node));
+    return now.degree(node) < complete_degree(node) || (open_ones_ && lies_open(node)) || now.has_lost(node);
   }
 
  private:

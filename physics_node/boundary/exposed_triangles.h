@@ -29,7 +29,9 @@ class ExposedTriangles {
     for (const TrianglePattern& triangle : patterns_[static_cast<std::size_t>(lattice_->row_kind(a))]) {
       if (!holds(triangle.edges[0], a, live)) continue;
       const Index b = a + triangle.corner[0], c = a + triangle.corner[1];
-      if (wanted(b) && wanted(c) && is_exposed(triangle, a, live)) take(b, c);
+      if (!wanted(b) || !wanted(c)) continue;
+      // Three elements that other cells hold are no sheet where these live as a whole.
+      if (lattice_->has_cells ? is_boundary(triangle, a, live) : is_exposed(triangle, a, live)) take(b, c);
     }
   }
 

@@ -83,7 +83,7 @@ std::vector<LoosePart> loose_parts(const Body& body, const LiveElements& live) {
   for (const Index mass : lattice.masses) {
     if (lattice.is_beyond(mass)) continue;
     const Mask mask = live.mask(mass);
-    if (mask == 0) parts.push_back({mass, mass});
+    if ((mask & element_bits) == 0) parts.push_back({mass, mass});
     const auto kind = static_cast<std::size_t>(lattice.row_kind(mass));
     for (std::size_t d = 0; d < static_cast<std::size_t>(lattice.n_half); ++d) {
       if ((mask >> d & 1) == 0) continue;

@@ -11,6 +11,8 @@ void Boundary::follow() noexcept {
   const TopologyEvents events = body_.events();
   if (events.overflow) return restart();
   for (const EdgeGone& gone : events.edges_gone) mark(gone.a), mark(gone.b);
+  for (const CellGone& gone : events.cells_gone)
+    for (const Index corner : gone.corners) mark(corner);
 }
 
 /// As loaded, and every mass that lacks an element is looked at anew.

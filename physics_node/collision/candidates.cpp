@@ -12,7 +12,7 @@ Candidates::Candidates(const BodyModel& moving, bool with_front)
   longest_element_ = 1.01 * body.longest_element();
   number_.assign(static_cast<std::size_t>(body.capacity()), -1);
   most_ = body.nodes().size();
-  if (!any_yields(body))
+  if (!any_breaks(body))
     most_ = static_cast<std::size_t>(std::count_if(body.nodes().begin(), body.nodes().end(), [&](Index node) {
       return exposed_.contains(node, body.adjacency());
     }));
@@ -60,11 +60,16 @@ void Candidates::add_front(Index cell) noexcept {
   moving_->adjacency().each_neighbour(cell, [this](Index other) { add(other); });
 }
 
-void Candidates::follow(std::span<const EdgeGone> edges) noexcept {
-  for (const EdgeGone& gone : edges) {
+void Candidates::follow(const TopologyEvents& events) noexcept {
+  for (const EdgeGone& gone : events.edges_gone) {
     add(gone.a), add(gone.b);
     if (with_front_) add_front(gone.a), add_front(gone.b);
   }
+  for (const CellGone& gone : events.cells_gone)
+    for (const Index corner : gone.corners) {
+      add(corner);
+      if (with_front_) add_front(corner);
+    }
 }
 
 bool Candidates::refresh(double dt, std::span<const std::uint32_t> which) noexcept {

@@ -20,7 +20,7 @@ class Candidates {
   /// Finds them anew: after a reset, or when elements came back.
   void restart() noexcept;
   /// Takes the ends of elements that broke.
-  void follow(std::span<const EdgeGone> edges) noexcept;
+  void follow(const TopologyEvents& events) noexcept;
 
   /// Reads where they were when the step of dt just integrated began, and how fast; with dt = 0 where they are now.
   /// @param which  of them; the others stay as they were last read

@@ -19,7 +19,7 @@ void ContactBody::follow_breaks() noexcept {
   if (events.overflow) return restart();
   if (events.none()) return;
   changed_ = true;
-  candidates_.follow(events.edges_gone);
+  candidates_.follow(events);
   find_main_piece();
   if (facets_) facets_->restart(candidates_);
 }

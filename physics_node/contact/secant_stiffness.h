@@ -40,6 +40,6 @@ inline double half_space_stiffness(const Body& body, double a) noexcept {
 }
 
 /// Does it always come back to its rest shape? Then the plane at zero force is the surface at rest.
-inline bool remembers_rest(const Body& body) noexcept { return body.n_held > 0 && !any_yields(body); }
+inline bool remembers_rest(const Body& body) noexcept { return body.n_held > 0 && !any_breaks(body); }
 
 }  // namespace palpate::physics

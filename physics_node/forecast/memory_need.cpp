@@ -32,6 +32,8 @@ constexpr double elastic_bytes = 200, elastic_double_bytes = 310;  // of a mass
 constexpr double fem_bytes = 52, fem_double_bytes = 92;
 // Of what backward_euler solves them with: three vectors of Newton's, five of the gradients', those of all levels and their shares.
 constexpr double solved_bytes = 430, solved_double_bytes = 780;
+// Where cells break: what they have lost, twice more to go back to, their limits and fragments.
+constexpr double failing_bytes = 72, failing_double_bytes = 116;
 constexpr double plastic_bytes = 680, plastic_double_bytes = 1030;
 // A point or a stick feels what breaks open: two sites of 9 bytes a mass, and room for a facet.
 constexpr double felt_bytes = 42;
@@ -112,8 +114,8 @@ MemoryNeed image_need(const BodySpec& body, const VolumeShape& shape) {
   return need;
 }
 
-bool yields(const std::string& material, const Scene& scene) {
-  return scene.material(material).yield_ratio.has_value();
+bool breaks(const std::string& material, const Scene& scene) {
+  return scene.material(material).break_ratio.has_value();
 }
 
 /// What a person may write instead, so that a body takes `share` of what it does.
@@ -128,16 +130,21 @@ std::string what_fits(const BodySpec& body, double share) {
 }  // namespace
 
 double bytes_of_masses(double masses, const BodySpec& body, const Scene& scene) {
-  bool plastic = yields(body.material, scene);
+  bool any_breaks = breaks(body.material, scene);
   for (const RegionSpec& region : body.regions)
-    plastic = plastic || (!region.material.empty() && yields(region.material, scene));
+    any_breaks = any_breaks || (!region.material.empty() && breaks(region.material, scene));
   const bool doubled = scene.physics->precision == Precision::double_;
   const bool felt = std::any_of(scene.tools.begin(), scene.tools.end(), meets_facets);
-  const double fem = body.model != ElementModel::fem ? 0 : doubled ? fem_double_bytes : fem_bytes;
+  const bool of_cells = body.model == ElementModel::fem;
+  const bool plastic = any_breaks && !of_cells;
+  const double fem = !of_cells ? 0 : doubled ? fem_double_bytes : fem_bytes;
+  const double failing = !any_breaks || !of_cells
+                             ? 0
+                             : (doubled ? failing_double_bytes : failing_bytes) + (felt ? felt_bytes : 0.0);
   const bool solved =
       body.model == ElementModel::fem && scene.physics->integrator == Integrator::backward_euler;
   const double solver = !solved ? 0 : doubled ? solved_double_bytes : solved_bytes;
-  return masses * (fem + solver +
+  return masses * (fem + solver + failing +
                    (plastic ? (doubled ? plastic_double_bytes : plastic_bytes) + (felt ? felt_bytes : 0.0)
                             : (doubled ? elastic_double_bytes : elastic_bytes)));
 }

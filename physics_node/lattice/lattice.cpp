@@ -114,7 +114,7 @@ Index Lattice::mass_at(const Vec3i& grid) const {
 
 std::int64_t Lattice::n_elements() const {
   std::int64_t ends = 0;
-  for (const Index cell : masses) ends += std::popcount(mask[static_cast<std::size_t>(cell)]);
+  for (const Index cell : masses) ends += std::popcount(mask[static_cast<std::size_t>(cell)] & element_bits);
   return ends / 2;
 }
 

@@ -54,6 +54,7 @@ struct Lattice {
   std::vector<Chunk> chunks;     // of rows, in order
   std::vector<Index> masses;     // storage cell of each mass, in storage order  (n_masses)
   std::vector<Mask> mask;        // elements of each storage cell at the start   (n_cells)
+  bool has_cells = false;  // masks hold cell_bits: an element lives while one of the cells that hold it does
   std::vector<float>
       mass_share;  // mass of each storage cell in units of a seen cell's, 0 where empty        (n_cells)
 

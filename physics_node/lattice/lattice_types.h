@@ -12,6 +12,13 @@ inline constexpr int max_half = 9;
 inline constexpr int max_directions = 2 * max_half;
 inline constexpr int max_row_kinds = 4;
 
+/// Of the elements in a mask, by direction.
+inline constexpr Mask element_bits = (Mask{1} << max_directions) - 1;
+/// Where cells live and break as a whole (Lattice::has_cells), a mask also tells which of the eight cells around a mass live.
+/// @param octant  bits 0, 1, 2: the cell lies toward +x, +y, +z
+constexpr Mask cell_bit(unsigned octant) noexcept { return Mask{1} << (max_directions + octant); }
+inline constexpr Mask cell_bits = Mask{0xFF} << max_directions;
+
 /// A run of storage cells that begins and ends with a mass and has no gap as long as a vector of cells.
 struct RowSegment {
   Index first = 0;

@@ -48,4 +48,16 @@ std::vector<Need> Surroundings::needs(const std::vector<Vec3i>& points) const {
   return list;
 }
 
+std::vector<Need> Surroundings::needs_of_volume(const std::vector<Vec3i>& points) const {
+  std::vector<Need> list = needs(points);
+  if (!lattice_.has_cells) return list;
+  Vec3i lowest = points.front();
+  for (const Vec3i& point : points) lowest = lowest.cwiseMin(point);
+  unsigned octant = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    if (points.front()[axis] == lowest[axis]) octant |= 1U << axis;
+  list.front().bits |= cell_bit(octant);  // the first corner is joined to all others
+  return list;
+}
+
 }  // namespace palpate::physics

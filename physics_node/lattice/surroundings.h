@@ -33,6 +33,8 @@ class Surroundings {
   Index offset(const Vec3i& delta) const { return lattice_.cell_of(at_ + delta) - lattice_.cell_of(at_); }
   /// What all elements among `points` need, each at the end that comes first: in storage order that one is known to exist.
   std::vector<Need> needs(const std::vector<Vec3i>& points) const;
+  /// Of a volume: where cells live as a whole, also that of the volume. @param points  the first is the first corner
+  std::vector<Need> needs_of_volume(const std::vector<Vec3i>& points) const;
 
  private:
   const Lattice& lattice_;

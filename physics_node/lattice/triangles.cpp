@@ -44,7 +44,7 @@ TrianglePatterns triangle_patterns(const Lattice& lattice) {
         const auto edges = around.needs({t[0], t[1], t[2]});
         PALPATE_CHECK(edges.size() == 2, "three elements at two masses");
         pattern.edges = {edges[0], edges[1]};
-        for (std::size_t s = 0; s < 2; ++s) pattern.side[s] = around.needs(sides[s]);
+        for (std::size_t s = 0; s < 2; ++s) pattern.side[s] = around.needs_of_volume(sides[s]);
         patterns[static_cast<std::size_t>(kind)].push_back(pattern);
       }
   }

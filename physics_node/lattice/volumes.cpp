@@ -13,7 +13,7 @@ VolumePattern pattern_of(const Surroundings& around, const std::vector<Vec3i>& c
     pattern.corner.push_back(around.offset(corner));
     pattern.lowest = pattern.lowest.cwiseMin(corner);
   }
-  pattern.needs = around.needs(corners);
+  pattern.needs = around.needs_of_volume(corners);
   return pattern;
 }
 

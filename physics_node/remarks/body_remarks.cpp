@@ -7,8 +7,10 @@
 #include "common/scene/body_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/surroundings_spec.h"
+#include "physics_node/material/lame.h"
 #include "physics_node/remarks/enclosure.h"
 #include "physics_node/remarks/remarks.h"
+#include "physics_node/step/fem/hex_tension.h"
 
 namespace palpate::physics {
 namespace {
@@ -122,6 +124,36 @@ void add_overlaps(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
     }
 }
 
+/// A crack through cells takes no less than these hold when they begin to break: see step/lattice/hex_failure.h.
+void add_cracks(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const Body& body = bodies[b]->body();
+    if (!body.solid) continue;
+    const SolidElements& solid = *body.solid;
+    const Lame lame = lame_of(solid.modulus, solid.poisson_ratio);
+    std::vector<double> most(solid.failures.size(), 0.0);  // modulus of a cell of each, over the body's
+    for (const Index cell : body.nodes()) {
+      const auto c = static_cast<std::size_t>(cell);
+      if (solid.failures.empty() || solid.stiffness[c] <= 0) continue;
+      double& of = most[solid.failure_of[c]];
+      of = std::max(of, static_cast<double>(solid.stiffness[c]));
+    }
+    for (std::size_t m = 0; m < most.size(); ++m) {
+      const Failure& failure = solid.failures[m];
+      if (failure.energy == 0 || most[m] == 0) continue;
+      const double held = most[m] * energy_at_limit(failure.ratio, lame.mu, lame.lambda);
+      const double edge = body.lattice.step.maxCoeff();
+      if (held * edge <= failure.energy) continue;
+      remarks.push_back(fmt::format(
+          "{}: cells of {:.3g} mm hold {:.3g} J/m^2 when they begin to break, and a crack takes that, not "
+          "fracture_energy_J_per_m2 = {:.3g} of material \"{}\"; cells of {:.3g} mm would do",
+          who(scene, b), 1e3 * edge, held * edge, failure.energy,
+          m == 0 ? scene.bodies[b].material : scene.bodies[b].regions[m - 1].material,
+          1e3 * failure.energy / held));
+    }
+  }
+}
+
 }  // namespace
 
 Remarks body_remarks(const Scene& scene, const Bodies& bodies) {
@@ -130,6 +162,7 @@ Remarks body_remarks(const Scene& scene, const Bodies& bodies) {
   add_voxels(scene, bodies, remarks);
   add_planes(scene, bodies, remarks);
   add_overlaps(scene, bodies, remarks);
+  add_cracks(scene, bodies, remarks);
   return remarks;
 }
 

@@ -51,6 +51,7 @@ Recipe ball(const char* lattice, const char* precision, const char* integrator, 
 struct SolidKind {
   const char *name, *law, *hourglass;
   double lag_ms;  // viscosity over modulus
+  bool breaks = false;
 };
 
 /// Such a ball of finite elements, with a stiffer half.
@@ -119,10 +120,11 @@ std::vector<Golden> all_worlds() {
   for (const SolidKind kind :
        {SolidKind{"elastic", "", "physical", 0}, SolidKind{"isotropic", "", "isotropic", 0},
         SolidKind{"damped", "", "physical", 0.2},
-        SolidKind{"relaxing", "relaxation = [[0.3, 0.01], [0.2, 1]]", "physical", 0}})
+        SolidKind{"relaxing", "relaxation = [[0.3, 0.01], [0.2, 1]]", "physical", 0},
+        SolidKind{"breaks", "break_ratio = 1.15\nfracture_energy_J_per_m2 = 2", "physical", 0.2, true}})
     for (const char* precision : {"single", "double"})
       all.push_back({std::string("hexahedra_") + precision + "_" + kind.name,
-                     [=] { return scene_of(solid_ball(precision, kind)); }, nullptr});
+                     [=] { return scene_of(solid_ball(precision, kind)); }, nullptr, kind.breaks});
   for (const char* lattice : {"fcc", "voxel"}) {
     const std::string of = lattice;
     for (const char* precision : {"single", "double"}) {

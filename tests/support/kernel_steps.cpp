@@ -23,6 +23,7 @@ int step_hexahedra(Precision precision, const std::string& work, int steps) {
   kind.hourglass = work == "isotropic" ? HourglassKind::isotropic : HourglassKind::physical;
   kind.damped = work == "damped";
   kind.relaxing = work == "relaxing";
+  kind.breaking = work == "breaking";
   kind.cells = 19;
   bench::HexCube cube = bench::make_hex_cube(kind);
   cube.step(steps, nullptr, 1);

@@ -43,6 +43,16 @@ TEST_F(ShippedScenes, OfMadeBodiesAccountForTheirEnergy) {
   simulate("block_100k", "--seconds 0.9");
 }
 
+TEST_F(ShippedScenes, StripOfFiniteElementsTearsInTwo) {
+  const auto summary = simulate("fem_tear", "");
+  const auto& strip = summary["bodies"]["strip"];
+  EXPECT_EQ(strip["outcome"], "disunion");
+  EXPECT_GT(strip["largest_fragment"].get<double>(), 0.5);
+  EXPECT_GT(strip["second_fragment"].get<double>(), 0.15);
+  EXPECT_GT(strip["min_corner_J"].get<double>(), 0.3);
+  EXPECT_GT(summary["energy"]["broken"].get<double>(), 1e-3);
+}
+
 TEST_F(ShippedScenes, VesselPushedAsideReturns) {
   const auto summary = simulate("vessel_push", "");
   // Let go at 2 s; its length is 1 m.

@@ -38,7 +38,22 @@ void add_rows(const Lattice& lattice, const HexRun& run, const HexGrid& grid, st
   rows.erase(std::unique(rows.begin() + begin, rows.end()), rows.end());
 }
 
+/// From the storage cell of a corner to that of the next along x.
+Index to_the_right(const Lattice& lattice, Index cell) noexcept {
+  const Index half = lattice.pitch / 2;
+  return cell % lattice.pitch >= half ? 1 - half : half;
+}
+
 }  // namespace
+
+std::array<Index, 8> corners_of_cell(const Lattice& lattice, Index cell) noexcept {
+  const Index right = to_the_right(lattice, cell), up_y = lattice.pitch,
+              up_z = lattice.pitch * lattice.size.y();
+  std::array<Index, 8> corners;
+  for (Index a = 0; a < 8; ++a)
+    corners[static_cast<std::size_t>(a)] = cell + (a & 1) * right + (a >> 1 & 1) * up_y + (a >> 2) * up_z;
+  return corners;
+}
 
 void share_out(const HexGrid& grid, std::span<const HexLayer> layers, std::vector<HexSlab>& slabs) {
   const auto cells_of = [&grid](const HexLayer& layer) {
@@ -74,8 +89,7 @@ HexGrid make_hex_grid(const Body& body) {
     if (extends) {
       grid.runs.back().count = cell - grid.runs.back().first + 1;
     } else {
-      const bool odd = cell % lattice.pitch >= half;
-      grid.runs.push_back({cell, 1, odd ? 1 - half : half});
+      grid.runs.push_back({cell, 1, to_the_right(lattice, cell)});
     }
   }
   std::size_t run = 0;

@@ -21,8 +21,11 @@ struct HexContext {
   const Index* runs_of_row;
   const std::uint8_t* acts;  // of each run, 0: all around it sleeps; null: all act
   const Real* stiffness;     // of a cell in units of the body's own, by its lowest corner; 0: none  (n_cells)
-  Real* high[3];             // zero between steps [N]                                               (n_cells)
-  Real* seen_v[3];           // velocity and force one step ago; only damped [m/s, N]                (n_cells)
+  const std::uint8_t* torn;  // of each run, 1: cells have lost stiffness; null: none ever does
+  const Real*
+      damage;       // share of it that a cell has lost; only with torn                             (n_cells)
+  Real* high[3];    // zero between steps [N]                                               (n_cells)
+  Real* seen_v[3];  // velocity and force one step ago; only damped [m/s, N]                (n_cells)
   Real* seen_f[3];
   double* elastic;   // of each run at u, when watched [J]
   double* ahead;     // how much more it would be at u + beta v, when watched; only damped [J]

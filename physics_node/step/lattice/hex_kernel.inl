@@ -65,6 +65,7 @@ void run_forces(const HexContext<Real>& m, std::size_t r) {
   for (Index a = 0; a < 8; ++a) at[a] = (a & 1) * run.right + (a >> 1 & 1) * m.up_y + (a >> 2) * m.up_z;
   V elastic{}, ahead{}, stiffest{}, lost_before{}, lost_after{};
   V least = P::all(1);  // of J - 1
+  const bool torn = m.torn != nullptr && m.torn[r] != 0;
   // Whole packs only: cells beyond the run's end have no stiffness.
   for (Index i = run.first; i < run.first + run.count; i += P::width) {
     Corners<P> w;
@@ -74,6 +75,13 @@ void run_forces(const HexContext<Real>& m, std::size_t r) {
         if constexpr (damped) w[c][a] = P::fma_all(P::load(m.masses.v[c] + i + at[a]), m.beta, w[c][a]);
       }
     const V stiffness = P::load(m.stiffness + i);
+    V whole = P::all(1);
+    if (torn) {
+      whole = whole - P::load(m.damage + i);
+      // Corners of what is gone may be anywhere; no strain of theirs may become infinite.
+      for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t a = 0; a < 8; ++a) w[c][a] = P::where(stiffness > V{}, w[c][a]);
+    }
     Here here;
     if constexpr (relaxing) here.load(m, i);
     [[maybe_unused]] std::conditional_t<watched && damped, Here, NothingRemembered> before;
@@ -87,6 +95,7 @@ void run_forces(const HexContext<Real>& m, std::size_t r) {
       lost_after = P::fma(stiffness, lost.after, lost_after);
     }
     // Lanes without a cell see the corners of others: what strain that makes is nobody's.
+    if (torn) out.stiffness = whole * out.stiffness;
     stiffest = P::larger(stiffest, stiffness > V{} ? out.stiffness : V{});
     for (std::size_t c = 0; c < 3; ++c)
       for (std::size_t a = 0; a < 8; ++a) {
@@ -96,7 +105,10 @@ void run_forces(const HexContext<Real>& m, std::size_t r) {
     if constexpr (watched && damped) {
       HexForces<P> at_u;
       for (std::size_t c = 0; c < 3; ++c)
-        for (std::size_t a = 0; a < 8; ++a) w[c][a] = P::load(m.masses.u[c] + i + at[a]);
+        for (std::size_t a = 0; a < 8; ++a) {
+          w[c][a] = P::load(m.masses.u[c] + i + at[a]);
+          if (torn) w[c][a] = P::where(stiffness > V{}, w[c][a]);
+        }
       if constexpr (relaxing) here = before;
       cell_forces<Real, Law, physical, true>(m, w, here, at_u, lost);
       ahead = P::fma(stiffness, out.energy - at_u.energy, ahead);
@@ -106,7 +118,9 @@ void run_forces(const HexContext<Real>& m, std::size_t r) {
     }
     if constexpr (watched) {  // at u
       const V change = least_corner_change<P>(m.k, w);
-      least = stiffness > V{} && change < least ? change : least;
+      // What tears may fold: its corners part.
+      const V counted = torn ? (whole < P::all(1) ? V{} : stiffness) : stiffness;
+      least = counted > V{} && change < least ? change : least;
     }
   }
   m.stiffest[r] = static_cast<double>(P::largest(stiffest));

@@ -78,7 +78,7 @@ MeasuredHexahedra measure_hexahedra(const Body& body, const HexGrid& grid, const
   MeasuredHexahedra sum;
   sum.force.assign(static_cast<std::size_t>(body.capacity()), Vec3::Zero());
   const HexCellMeter<Real> meter(body, state);
-  for_each_cell(body, grid, [&](double stiffness, const std::array<Index, 8>& corner) {
+  for_each_cell(body, grid, state, [&](double stiffness, const std::array<Index, 8>& corner) {
     const MeasuredCell now = meter.at(corner, body.solid->beta);
     const auto& out = now.forces;
     const double at_u = meter.at(corner, 0).forces.energy;

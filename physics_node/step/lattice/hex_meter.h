@@ -38,18 +38,21 @@ std::array<RelaxationTerm<Real>, most_relaxations> relaxation_terms(const Body& 
 /// Bound of the tangent of law and terms at rest [Pa].
 double hex_bound_at_rest(const Body& body);
 
-/// Calls visit(stiffness, corners) for each cell, corners as storage cells.
-template <class Visit>
-void for_each_cell(const Body& body, const HexGrid& grid, const Visit& visit) {
+/// Calls visit(stiffness, corners) for each cell that lives, corners as storage cells.
+template <class Real, class Visit>
+void for_each_cell(const Body& body, const HexGrid& grid, const LatticeState<Real>& state,
+                   const Visit& visit) {
   for (const HexRun& run : grid.runs)
     for (Index i = run.first; i < run.first + run.count; ++i) {
-      const float stiffness = body.solid->stiffness[static_cast<std::size_t>(i)];
+      auto stiffness = static_cast<double>(body.solid->stiffness[static_cast<std::size_t>(i)]);
+      if (state.failed.damage.size() > 0)
+        stiffness *= 1 - static_cast<double>(state.failed.damage[static_cast<std::size_t>(i)]);
       if (stiffness <= 0) continue;
       std::array<Index, 8> corner;
       for (Index a = 0; a < 8; ++a)
         corner[static_cast<std::size_t>(a)] =
             i + (a & 1) * run.right + (a >> 1 & 1) * grid.up_y + (a >> 2) * grid.up_z;
-      visit(static_cast<double>(stiffness), corner);
+      visit(stiffness, corner);
     }
 }
 

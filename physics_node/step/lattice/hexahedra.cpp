@@ -33,6 +33,10 @@ Hexahedra<Real>::Hexahedra(const Body& body)
   for (auto& axis : high_) axis = ZeroedArray<Real>(n, colour++);
   if (!solid.relaxation.empty())
     for (auto* lost : {&lost_before_, &lost_after_}) lost->resize(grid_.runs.size());
+  if (any_breaks(body)) {
+    failure_ = std::make_unique<HexFailure<Real>>(body, grid_, colour);
+    colour += 2;
+  }
   if (solid.beta == 0) return;
   for (auto* three : {&seen_v_, &seen_f_})
     for (auto& axis : *three) axis = ZeroedArray<Real>(n, colour++);
@@ -66,6 +70,7 @@ template <class Real>
 StepOutcome Hexahedra<Real>::step(const Body& body, LatticeState<Real>& state,
                                   const ExplicitStep& step) noexcept {
   follow_rows(body, state);
+  const std::int64_t broken = failure_ ? failure_->begin_step(state, acting_, step, stiffness_) : 0;
   HexContext<Real> m = {};
   ElementContext<Real>& masses = m.masses;
   masses.rows = body.lattice.rows.data();
@@ -89,6 +94,7 @@ StepOutcome Hexahedra<Real>::step(const Body& body, LatticeState<Real>& state,
   m.runs_of_row = grid_.runs_of_row.data();
   m.acts = acting_.flags();
   m.stiffness = stiffness_.data();
+  if (failure_) m.torn = failure_->torn(), m.damage = state.failed.damage.data();
   m.elastic = elastic_.data();
   m.ahead = ahead_.data();
   m.least_J = least_J_.data();
@@ -130,7 +136,7 @@ StepOutcome Hexahedra<Real>::step(const Body& body, LatticeState<Real>& state,
       if (acting_.acts(static_cast<Index>(r))) stiffest = std::max(stiffest, stiffest_[r]);
       if (step.watch) least_corner_J_ = std::min(least_corner_J_, least_J_[r]);
     }
-  return {.stiffening = stiffest / at_rest_, .least_corner_J = least_corner_J_};
+  return {.broken = broken, .stiffening = stiffest / at_rest_, .least_corner_J = least_corner_J_};
 }
 
 template <class Real>
@@ -173,8 +179,12 @@ BodyCounts Hexahedra<Real>::counts(const Body& body, const LatticeState<Real>& s
   BodyCounts counts;
   counts.least_corner_J = least_corner_J_;
   const HexConstants<double> k = hex_constants_of<double>(body);
-  for_each_cell(body, grid_, [&](double, const std::array<Index, 8>& corner) {
-    ++counts.elements;
+  for (const HexRun& run : grid_.runs)
+    for (Index i = run.first; i < run.first + run.count; ++i)
+      counts.elements += body.solid->stiffness[static_cast<std::size_t>(i)] > 0 ? 1 : 0;
+  if (failure_)
+    for (const Index node : body.nodes()) counts.yielded_masses += is_weakened(body, state, node) ? 1 : 0;
+  for_each_cell(body, grid_, state, [&](double, const std::array<Index, 8>& corner) {
     ++counts.live_elements;
     Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
     for (std::size_t a = 0; a < 8; ++a)

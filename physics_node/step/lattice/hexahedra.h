@@ -1,9 +1,11 @@
 #pragma once
 // Finite elements of one point on the cells of a voxel lattice: see step/fem/hex_element.h.
 
+#include <memory>
 #include <vector>
 
 #include "physics_node/step/lattice/hex_acting.h"
+#include "physics_node/step/lattice/hex_failure.h"
 #include "physics_node/step/lattice/hex_grid.h"
 #include "physics_node/step/lattice/hex_kernel.h"
 #include "physics_node/step/lattice/lattice_elements.h"
@@ -11,7 +13,7 @@
 namespace palpate::physics {
 
 /// A step is one sweep upwards, or as many as there are slabs: see HexSlab. Symplectic Euler, and its energy is that of
-/// the leapfrog: see element_step.h. Nothing breaks.
+/// the leapfrog: see element_step.h. Cells break: hex_failure.h.
 /// Cost: bench/fem.
 template <class Real>
 class Hexahedra final : public LatticeElements<Real> {
@@ -40,6 +42,7 @@ class Hexahedra final : public LatticeElements<Real> {
   std::vector<double> stiffest_;                  // by run: the same [Pa]
   std::vector<double> lost_before_, lost_after_;  // by run: see HexContext; only where it relaxes [J]
   std::vector<double> passed_;                    // by row [J]
+  std::unique_ptr<HexFailure<Real>> failure_;     // only where a material breaks
   HexKernel<Real> kernel_;
   double at_rest_ = 0;  // bound of the tangent of the law [Pa]
 };

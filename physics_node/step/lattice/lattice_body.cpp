@@ -199,17 +199,21 @@ class LatticeBody final : public BodyModel, private PendingStep {
     }
   }
   TopologyEvents events() const noexcept override {
-    return {state_.fresh.list, any_yields(body_) && state_.fresh.overflow};
+    return {state_.fresh.list, state_.fresh.cells, any_breaks(body_) && state_.fresh.overflow};
   }
   std::int64_t breaks() const noexcept override { return state_.breaks; }
   void conditions(std::span<const Index> cells, std::span<Condition> out) const noexcept override {
     const bool yields = any_yields(body_);
+    const bool cells_break = body_.solid && any_breaks(body_);
     for (std::size_t n = 0; n < cells.size(); ++n) {
       const Index cell = cells[n];
       out[n] = {};
       if (adjacency().has_lost(cell)) out[n].flags |= mass_broken;
       if (yields && has_yielded(body_, state_, cell)) out[n].flags |= mass_yielded;
       if (yields) out[n].yielded_share = yielded_share(body_, state_, cell);
+      if (!cells_break) continue;
+      if (is_weakened(body_, state_, cell)) out[n].flags |= mass_yielded;
+      out[n].yielded_share = weakened_share(body_, state_, cell);
     }
   }
 
@@ -243,6 +247,8 @@ class LatticeBody final : public BodyModel, private PendingStep {
       seed = hash_state(&state_.mask[first], count * sizeof(Mask), seed);
       for (const auto& array : state_.remembered)
         seed = hash_state(&array[first], count * sizeof(Real), seed);
+      for (const auto* array : {&state_.failed.damage, &state_.failed.begun, &state_.failed.ductility})
+        if (array->size() > 0) seed = hash_state(&(*array)[first], count * sizeof(Real), seed);
       if (!any_yields(body_)) continue;
       for (std::size_t d = 0; d < static_cast<std::size_t>(body_.lattice.n_half); ++d) {
         seed = hash_state(&state_.l_c[d][first], count * sizeof(Real), seed);
@@ -257,6 +263,9 @@ class LatticeBody final : public BodyModel, private PendingStep {
     if (step.verlet && step.dt != state_.dt_before) begin_leapfrog();
     momentum_.step(step.gravity, step.verlet && !state_.v_half_known ? 0.5 * step.dt : step.dt, step.dt);
     const StepOutcome outcome = elements_->step(body_, state_, step);  // sleeping rows are skipped
+    // What was balanced by a cell is so no more.
+    for (const CellGone& gone : state_.fresh.cells)
+      for (const Index corner : gone.corners) sleep_.wake_cell(body_, state_, corner);
     kick(forces, step.dt);
     return outcome;
   }

@@ -12,6 +12,14 @@ void copy_rows(const Body& body, const ZeroedArray<T>& from, ZeroedArray<T>& to)
     std::copy_n(from.data() + row.first, row.count, to.data() + row.first);
 }
 
+/// Calls visit(of a, of b) for each array of what cells have lost.
+template <class Cells, class Others, class Visit>
+void each_array(Cells& a, Others& b, const Visit& visit) noexcept {
+  visit(a.damage, b.damage);
+  visit(a.begun, b.begun);
+  visit(a.ductility, b.ductility);
+}
+
 }  // namespace
 
 template <class Real>
@@ -20,8 +28,11 @@ SavedState<Real>::SavedState(const Body& body, const LatticeState<Real>& state) 
   for (auto& axis : u_) axis = ZeroedArray<Real>(n);
   remembered_.resize(state.remembered.size());
   for (auto& array : remembered_) array = ZeroedArray<Real>(n);
-  if (!any_yields(body)) return;
+  if (!any_breaks(body)) return;
   mask_ = ZeroedArray<Mask>(n);
+  if (body.solid)
+    for (auto* array : {&failed_.damage, &failed_.begun, &failed_.ductility}) *array = ZeroedArray<Real>(n);
+  if (!any_yields(body)) return;
   for (std::size_t h = 0; h < static_cast<std::size_t>(body.lattice.n_half); ++h) {
     l_c_[h] = ZeroedArray<Real>(n);
     hardening_[h] = ZeroedArray<Real>(n);
@@ -33,6 +44,12 @@ void SavedState<Real>::take(const Body& body, const LatticeState<Real>& state) n
   for (std::size_t a = 0; a < 3; ++a) copy_rows(body, state.u[a], u_[a]);
   for (std::size_t m = 0; m < remembered_.size(); ++m) copy_rows(body, state.remembered[m], remembered_[m]);
   ledger_ = state.ledger;
+  if (body.solid && any_breaks(body) && failed_.changes != state.failed.changes) {
+    failed_.changes = state.failed.changes;
+    breaks_ = state.breaks;
+    copy_rows(body, state.mask, mask_);
+    each_array(state.failed, failed_, [&body](const auto& from, auto& to) { copy_rows(body, from, to); });
+  }
   if (!any_yields(body)) return;
   std::int64_t yields = 0;
   for (const RowLedger& row : ledger_) yields += row.yields;
@@ -63,9 +80,15 @@ void SavedState<Real>::bring_back(const Body& body, LatticeState<Real>& state) c
         std::numeric_limits<double>::max();  // not known: nothing may sleep before the next look
   }
   state.breaks = breaks_;
+  ++state.replacements;
   state.fresh.replace_all();
-  if (!any_yields(body)) return;
+  if (!any_breaks(body)) return;
   copy_rows(body, mask_, state.mask);
+  if (body.solid) {
+    each_array(failed_, state.failed, [&body](const auto& from, auto& to) { copy_rows(body, from, to); });
+    ++state.failed.changes;
+  }
+  if (!any_yields(body)) return;
   for (std::size_t h = 0; h < static_cast<std::size_t>(body.lattice.n_half); ++h) {
     copy_rows(body, l_c_[h], state.l_c[h]);
     copy_rows(body, hardening_[h], state.hardening[h]);

@@ -32,7 +32,12 @@ LatticeState<Real>::LatticeState(const Body& body) {
   for (auto& array : remembered) array = ZeroedArray<Real>(n, colour++);
   row_state.resize(body.lattice.rows.size());
   ledger.resize(body.lattice.rows.size());
-  if (any_yields(body)) fresh.reserve(body.lattice.n_elements());
+  if (body.solid && any_breaks(body)) {
+    for (auto* array : {&failed.damage, &failed.begun, &failed.ductility})
+      *array = ZeroedArray<Real>(n, colour++);
+    fresh.reserve_cells(body.lattice.masses.size());
+  }
+  if (any_breaks(body)) fresh.reserve(body.lattice.n_elements());
   reset(body);
 }
 
@@ -49,6 +54,8 @@ void LatticeState<Real>::reset(const Body& body) {
     }
     mask[c] = body.lattice.mask[c];
     for (auto& array : remembered) array[c] = 0;
+    if (failed.begun.size() > 0 && failed.begun[c] != 0)
+      failed.begun[c] = failed.damage[c] = failed.ductility[c] = 0;
     for (std::size_t h = 0; yields && h < static_cast<std::size_t>(body.lattice.n_half); ++h) {
       if (l_c[h][c] != 0) l_c[h][c] = 0;  // only what was written: untouched pages stay free
       if (hardening[h][c] != 0) hardening[h][c] = 0;
@@ -56,6 +63,8 @@ void LatticeState<Real>::reset(const Body& body) {
   }
   forget_last_step();
   breaks = 0;
+  ++replacements;
+  ++failed.changes;
   fresh.replace_all();
   std::fill(row_state.begin(), row_state.end(), RowState::awake);
   ++row_changes;

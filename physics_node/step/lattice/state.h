@@ -30,6 +30,15 @@ struct VariedConstants {
   ZeroedArray<Real> drag;               // of each mass, where it differs [N s/m]  (n_cells)
 };
 
+/// What cells have lost, by their lowest corner: see hex_failure.h.
+template <class Real>
+struct FailedCells {
+  ZeroedArray<Real> damage;     // share of its stiffness that is gone; 1: broken                  (n_cells)
+  ZeroedArray<Real> begun;      // energy of the whole cell when that began; 0: it has not [J]      (n_cells)
+  ZeroedArray<Real> ductility;  // what the crack takes over `begun`; 0: no more than the cell holds (n_cells)
+  std::uint64_t changes = 0;    // how often any of them was another one
+};
+
 template <class Real>
 struct LatticeState {
   Three<Real> u, v;           // displacement from rest [m], velocity [m/s]               (n_cells)
@@ -45,7 +54,9 @@ struct LatticeState {
   ZeroedArray<Real> inverse_mass;  // constant, in this precision                       (n_cells)
   VariedConstants<Real> varied;
   std::vector<ZeroedArray<Real>>
-      remembered;  // of each cell, by term and entry of Remembered; only where it relaxes (n_cells)
+      remembered;            // of each cell, by term and entry of Remembered; only where it relaxes (n_cells)
+  FailedCells<Real> failed;  // only where cells break
+  std::uint64_t replacements = 0;  // how often the state was set from outside
 
   std::array<SlotList<Real>, max_row_kinds> all, level, up;  // constant: see ElementContext
   std::vector<RowState> row_state;                           // by row

@@ -34,7 +34,13 @@ concept Listed = std::is_aggregate_v<T> || std::is_same_v<T, Scene>;
 /// As many as can be given, each as {}: a struct takes no more than it has.
 template <class T>
 constexpr std::size_t n_members() {
-  if constexpr (requires { T{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}}; })
+  if constexpr (requires {
+                  T{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+                })
+    return 20;
+  else if constexpr (requires {
+                       T{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+                     })
     return 19;
   else if constexpr (requires { T{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}}; })
     return 18;
@@ -82,11 +88,11 @@ constexpr std::size_t n_members<Scene>() {
   return 16;
 }
 
-/// use(member...) for each of up to 18 members.
+/// use(member...) for each of up to 19 members.
 template <class T, class Use>
 void with_members(const T& x, Use use) {
   constexpr std::size_t n = n_members<T>();
-  static_assert(n >= 1 && n <= 18, "more members than are named here");
+  static_assert(n >= 1 && n <= 19, "more members than are named here");
   if constexpr (n == 1) {
     const auto& [a] = x;
     use(a);
@@ -158,6 +164,10 @@ void with_members(const T& x, Use use) {
   if constexpr (n == 18) {
     const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, o, p, q, r, s] = x;
     use(a, b, c, d, e, f, g, h, i, j, k, l, m, o, p, q, r, s);
+  }
+  if constexpr (n == 19) {
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, o, p, q, r, s, t] = x;
+    use(a, b, c, d, e, f, g, h, i, j, k, l, m, o, p, q, r, s, t);
   }
 }
 

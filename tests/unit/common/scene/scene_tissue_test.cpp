@@ -351,7 +351,25 @@ TEST(Elements, RefuseWhatTheyCannotFollow) {
   EXPECT_THAT(about(elements("density_kg_per_m3 = 1000\nk1_N_per_m = 10")),
               ElementsAre(HasSubstr("[material.m] has no modulus_kPa")));
   EXPECT_THAT(about(elements(tissue + "yield_ratio = 1.1\nbreak_ratio = 1.2")),
-              ElementsAre(HasSubstr("yields and breaks, which only springs do so far")));
+              ElementsAre(HasSubstr("yields, which only springs do so far")));
+  EXPECT_THAT(about(elements(tissue + "break_ratio = 1.2\nlaw = \"green\"")),
+              ElementsAre(HasSubstr("breaks beside law = \"green\"")));
+  EXPECT_THAT(about(elements(tissue + "break_ratio = 1.2\nrelaxation = [[0.3, 1]]")),
+              ElementsAre(HasSubstr("breaks and relaxes")));
+  EXPECT_THAT(about(elements(tissue + "fracture_energy_J_per_m2 = 2")),
+              ElementsAre(HasSubstr("\"fracture_energy_J_per_m2\" stands alone in [material.m]")));
+  EXPECT_THAT(about(elements(tissue + "break_ratio = 1.2\nfracture_energy_J_per_m2 = 0")),
+              ElementsAre(HasSubstr("write a number above 0")));
+  const std::string brittle = elements(tissue + "break_ratio = 1.2\nfracture_energy_J_per_m2 = 2");
+  EXPECT_THAT(about(brittle), ElementsAre());
+  EXPECT_THAT(about(brittle + "border_cells = \"filled\"\n"),
+              ElementsAre(HasSubstr("has cells that nobody sees")));
+  const std::string springs =
+      "[[body]]\nname = \"s\"\nshape = \"box\"\nsize_mm = [9, 9, 9]\nspacing_mm = 1\nmaterial = \"m\"\n";
+  EXPECT_THAT(about(elements(tissue + "break_ratio = 1.2") + springs),
+              ElementsAre(HasSubstr("\"break_ratio\" stands alone in [material.m]")));
+  EXPECT_THAT(about(brittle + "[physics]\nintegrator = \"backward_euler\"\n"),
+              ElementsAre(HasSubstr("breaks, which \"backward_euler\" does not follow")));
   EXPECT_THAT(about(elements(tissue + "viscosity_N_s_per_m = 1")),
               ElementsAre(HasSubstr("give viscosity_Pa_s")));
   EXPECT_THAT(about(elements(tissue + "drag_N_s_per_m = 1")), ElementsAre(HasSubstr("give viscosity_Pa_s")));

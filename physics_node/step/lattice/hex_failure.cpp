@@ -1,0 +1,271 @@
+#include "physics_node/step/lattice/hex_failure.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "physics_node/material/stable_neo_hookean.h"
+#include "physics_node/step/fem/hex_tension.h"
+#include "physics_node/step/lattice/hex_meter.h"
+
+namespace palpate::physics {
+namespace {
+
+using One = Scalar<double>;
+
+/// Bits of the cells around a mass in which an element in this direction lies, or runs along a face or an edge.
+Mask cells_along(const Vec3i& direction) {
+  Mask cells = 0;
+  for (unsigned octant = 0; octant < 8; ++octant) {
+    bool holds = true;
+    for (int axis = 0; axis < 3; ++axis)
+      if (direction[axis] != 0) holds = holds && (direction[axis] > 0) == ((octant >> axis & 1) != 0);
+    if (holds) cells |= cell_bit(octant);
+  }
+  return cells;
+}
+
+/// The storage cell of each cell around a mass, by octant.
+template <class Visit>
+void each_cell_around(const Body& body, Index node, Mask which, const Visit& visit) noexcept {
+  const Lattice& lattice = body.lattice;
+  const Vec3i at = lattice.grid_of(node);
+  for (unsigned octant = 0; octant < 8; ++octant) {
+    if ((which & cell_bit(octant)) == 0) continue;
+    const unsigned corner = 7 - octant;
+    visit(octant, lattice.cell_of(at - Vec3i(corner & 1, corner >> 1 & 1, corner >> 2)));
+  }
+}
+
+}  // namespace
+
+template <class Real>
+struct HexFailure<Real>::Cell {
+  Tensor<double> h;   // gradient of the displacement at its centre
+  double energy = 0;  // as if it were whole [J]
+  double middle = 0;  // the same in the middle of the step that led here [J]
+};
+
+template <class Real>
+HexFailure<Real>::HexFailure(const Body& body, const HexGrid& grid, std::size_t colour)
+    : body_(body),
+      grid_(grid),
+      k_(hex_constants_of<double>(body)),
+      stretch_(static_cast<std::size_t>(body.capacity()), colour),
+      tension_(static_cast<std::size_t>(body.capacity()), colour + 1),
+      found_(grid.runs.size(), Strained::far),
+      torn_(grid.runs.size(), 0),
+      kernel_(hex_strain_kernel_here<Real>()) {
+  for (const Failure& failure : body.solid->failures)
+    limits_.push_back(failure.ratio > 0 ? tension_limit(failure.ratio, k_.mu, k_.lambda)
+                                        : TensionLimit<double>{});
+  std::vector<Vec3i> half = half_directions(body.lattice.kind);
+  for (std::size_t d = 0; d < half.size(); ++d) {
+    sharing_[d] = cells_along(half[d]);
+    sharing_[d + half.size()] = cells_along(-half[d]);
+  }
+  breaking_.reserve(body.lattice.masses.size());
+}
+
+template <class Real>
+TensionLimit<double> HexFailure<Real>::limit_of(Index cell) const noexcept {
+  return limits_[body_.solid->failure_of[static_cast<std::size_t>(cell)]];
+}
+
+/// The state was set from outside: what has begun and what is gone may be other cells.
+template <class Real>
+void HexFailure<Real>::follow(const LatticeState<Real>& state, ZeroedArray<Real>& stiffness) noexcept {
+  if (replacements_ == state.replacements) return;
+  replacements_ = state.replacements;
+  breaking_.clear();
+  for (std::size_t r = 0; r < grid_.runs.size(); ++r) {
+    const HexRun& run = grid_.runs[r];
+    found_[r] = Strained::near;
+    torn_[r] = 0;
+    for (Index cell = run.first; cell < run.first + run.count; ++cell) {
+      const auto c = static_cast<std::size_t>(cell);
+      if (body_.solid->stiffness[c] <= 0) continue;
+      const bool begun = state.failed.begun[c] > 0;
+      stretch_[c] = begun ? Real(0) : static_cast<Real>(limit_of(cell).stretch);
+      tension_[c] = static_cast<Real>(limit_of(cell).tension);
+      stiffness[c] = static_cast<Real>(body_.solid->stiffness[c]) * (1 - state.failed.damage[c]);
+      if (!begun) continue;
+      torn_[r] = 1;
+      if (state.failed.damage[c] < 1) breaking_.push_back(cell);
+    }
+  }
+}
+
+template <class Real>
+void HexFailure<Real>::look(const LatticeState<Real>& state, const HexActing& acting,
+                            const ExplicitStep& step) noexcept {
+  HexStrain<Real> m = {};
+  m.runs = grid_.runs.data();
+  m.acts = acting.flags();
+  for (std::size_t a = 0; a < 3; ++a) {
+    m.u[a] = state.u[a].data();
+    m.per_4h[a] = static_cast<Real>(k_.per_4h[a]);
+  }
+  m.stretch = stretch_.data();
+  m.tension = tension_.data();
+  m.up_y = grid_.up_y, m.up_z = grid_.up_z;
+  m.of_volume = static_cast<Real>((k_.lambda + k_.mu) / k_.mu);
+  m.found = found_.data();
+  m.only_near = !step.watch;
+  if (m.only_near && std::ranges::all_of(found_, [](Strained s) { return s == Strained::far; })) return;
+  const std::span layers = acting.layers();
+  const std::span slabs = acting.slabs();
+  const auto look_at_slab = [&](std::size_t n) {
+    for (std::size_t l = slabs[n].begin; l < slabs[n].end; ++l)
+      kernel_(m, layers[l].first_run, layers[l].last_run);
+  };
+  if (step.team != nullptr && step.threads > 1)
+    step.team->each(slabs.size(), step.threads, look_at_slab);
+  else
+    for (std::size_t n = 0; n < slabs.size(); ++n) look_at_slab(n);
+}
+
+template <class Real>
+typename HexFailure<Real>::Cell HexFailure<Real>::look_at(const LatticeState<Real>& state,
+                                                          Index cell) const noexcept {
+  const auto corner = corners_of_cell(body_.lattice, cell);
+  Corners<One> w;
+  for (std::size_t a = 0; a < 8; ++a)
+    for (std::size_t c = 0; c < 3; ++c)
+      w[c][a] = static_cast<double>(state.u[c][static_cast<std::size_t>(corner[a])]);
+  HexForces<One> out;
+  if (body_.solid->hourglass == HourglassKind::physical)
+    hex_forces<One, StableNeoHookean, true, true>(k_, w, out);
+  else
+    hex_forces<One, StableNeoHookean, false, true>(k_, w, out);
+  Cell now;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Modes<double> mode = modes_of(w[i]);
+    now.h[i] = {mode.x * k_.per_4h[0], mode.y * k_.per_4h[1], mode.z * k_.per_4h[2]};
+  }
+  double power = 0;
+  for (std::size_t a = 0; a < 8; ++a)
+    power += Vec3(out.f[0][a], out.f[1][a], out.f[2][a]).dot(vector_of(state.v, corner[a]));
+  const auto stiffness = static_cast<double>(body_.solid->stiffness[static_cast<std::size_t>(cell)]);
+  now.energy = stiffness * out.energy;
+  now.middle = stiffness * (out.energy + 0.5 * state.dt_before * power);
+  return now;
+}
+
+/// Does this cell begin? Then by how much of its own energy it is outlived.
+template <class Real>
+void HexFailure<Real>::begin(LatticeState<Real>& state, Index cell, std::size_t run) noexcept {
+  const auto c = static_cast<std::size_t>(cell);
+  const Cell now = look_at(state, cell);
+  const Tensor<double> strain = stretching<One>(now.h);
+  const double B = breaking_stretch<One>(limit_of(cell), (k_.lambda + k_.mu) / k_.mu, now.h);
+  if (least_minor<One>(B, strain) > 0 || !(now.energy > 0)) return;
+  Eigen::Matrix3d c_i;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) c_i(i, j) = strain[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solved;
+  solved.computeDirect(c_i);
+  const double width = solved.eigenvectors().col(2).cwiseAbs().dot(body_.lattice.step);
+  const double crack =
+      body_.solid->failures[body_.solid->failure_of[c]].energy * body_.lattice.step.prod() / width;
+  state.failed.begun[c] = static_cast<Real>(now.energy);
+  state.failed.ductility[c] = static_cast<Real>(crack > now.energy ? crack / now.energy : 0.0);
+  stretch_[c] = 0;
+  torn_[run] = 1;
+  breaking_.push_back(cell);
+}
+
+/// @return it is gone
+template <class Real>
+bool HexFailure<Real>::go_on(LatticeState<Real>& state, Index cell, ZeroedArray<Real>& stiffness) noexcept {
+  const auto c = static_cast<std::size_t>(cell);
+  const double s = 1 - static_cast<double>(state.failed.damage[c]);
+  const Cell now = look_at(state, cell);
+  double target = 0;
+  if (const auto r = static_cast<double>(state.failed.ductility[c]); r > 0) {
+    const double e = std::sqrt(now.energy / static_cast<double>(state.failed.begun[c]));
+    // Only what is pulled opens.
+    const TensionLimit<double> pulled{.stretch = 0, .tension = limit_of(cell).tension};
+    const double B = breaking_stretch<One>(pulled, (k_.lambda + k_.mu) / k_.mu, now.h);
+    if (least_minor<One>(B, stretching<One>(now.h)) > 0 || e <= 1) return false;
+    target = std::max(0.0, (r - e) / (e * (r - 1)));
+  }
+  if (target >= s) return false;
+  const Real damage = static_cast<Real>(1 - std::max(target, s - 1 / break_ramp));
+  const double lost = static_cast<double>(damage) - (1 - s);
+  state.failed.damage[c] = damage;
+  ++state.failed.changes;
+  stiffness[c] = static_cast<Real>(body_.solid->stiffness[c]) * (1 - damage);
+  RowLedger& ledger = state.ledger[static_cast<std::size_t>(body_.lattice.row_of(cell))];
+  ledger.broken += lost * now.middle;
+  if (damage < 1) return false;
+  ++ledger.breaks;
+  take_away(state, cell);
+  return true;
+}
+
+/// Its corners lose it, and each other where no other cell joins them.
+template <class Real>
+void HexFailure<Real>::take_away(LatticeState<Real>& state, Index cell) noexcept {
+  const Lattice& lattice = body_.lattice;
+  const auto corners = corners_of_cell(lattice, cell);
+  for (unsigned a = 0; a < 8; ++a) state.mask[static_cast<std::size_t>(corners[a])] &= ~cell_bit(7 - a);
+  state.fresh.add(CellGone{corners});
+  for (const Index mass : corners) {
+    Mask& mask = state.mask[static_cast<std::size_t>(mass)];
+    const auto& offset = lattice.offset[static_cast<std::size_t>(lattice.row_kind(mass))];
+    for (std::size_t d = 0; d < static_cast<std::size_t>(2 * lattice.n_half); ++d) {
+      if ((mask >> d & 1) == 0 || (mask & sharing_[d]) != 0) continue;
+      mask &= ~(Mask{1} << d);
+      if (d < static_cast<std::size_t>(lattice.n_half)) state.fresh.add(EdgeGone{mass, mass + offset[d]});
+    }
+  }
+}
+
+template <class Real>
+std::int64_t HexFailure<Real>::begin_step(LatticeState<Real>& state, const HexActing& acting,
+                                          const ExplicitStep& step, ZeroedArray<Real>& stiffness) noexcept {
+  follow(state, stiffness);
+  state.fresh.begin_step();
+  look(state, acting, step);
+  for (std::size_t r = 0; r < found_.size(); ++r) {
+    if (found_[r] != Strained::beyond) continue;
+    const HexRun& run = grid_.runs[r];
+    for (Index cell = run.first; cell < run.first + run.count; ++cell)
+      if (stretch_[static_cast<std::size_t>(cell)] > 0) begin(state, cell, r);
+    found_[r] = Strained::near;
+  }
+  const std::size_t before = breaking_.size();
+  std::erase_if(breaking_, [&](Index cell) { return go_on(state, cell, stiffness); });
+  const auto gone = static_cast<std::int64_t>(before - breaking_.size());
+  state.breaks += gone;
+  return gone;
+}
+
+template <class Real>
+double weakened_share(const Body& body, const LatticeState<Real>& state, Index node) noexcept {
+  int live = 0, weakened = 0;
+  each_cell_around(body, node, state.mask[static_cast<std::size_t>(node)], [&](unsigned, Index cell) {
+    ++live;
+    weakened += state.failed.damage[static_cast<std::size_t>(cell)] > 0 ? 1 : 0;
+  });
+  return live > 0 ? static_cast<double>(weakened) / live : 1.0;
+}
+
+template <class Real>
+bool is_weakened(const Body& body, const LatticeState<Real>& state, Index node) noexcept {
+  bool any = false;
+  each_cell_around(body, node, body.lattice.mask[static_cast<std::size_t>(node)], [&](unsigned, Index cell) {
+    any = any || state.failed.damage[static_cast<std::size_t>(cell)] > 0;
+  });
+  return any;
+}
+
+template class HexFailure<float>;
+template class HexFailure<double>;
+template double weakened_share(const Body&, const LatticeState<float>&, Index) noexcept;
+template double weakened_share(const Body&, const LatticeState<double>&, Index) noexcept;
+template bool is_weakened(const Body&, const LatticeState<float>&, Index) noexcept;
+template bool is_weakened(const Body&, const LatticeState<double>&, Index) noexcept;
+
+}  // namespace palpate::physics

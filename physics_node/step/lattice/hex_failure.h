@@ -1,0 +1,81 @@
+#pragma once
+// Hexahedra that break.
+//
+// A cell that comes to its limit (step/fem/hex_tension.h) loses stiffness, all of it alike: its forces are s times those of a whole
+// cell, s from 1 to 0, and it never heals. With W its energy as if it were whole, W_c that when it began, and e = sqrt(W / W_c), the
+// largest so far while it was in tension,
+//
+//   s = (r - e) / (e (r - 1)),   1 <= e <= r,       r = G_c A / W_c
+//
+// Where stress goes with strain, stress falls on a straight line. Each loss of stiffness takes W (- ds), in all
+//   W_c + integral of s dW = r W_c = G_c A,
+// whatever the path: so a crack takes the fracture energy G_c by its area, and not by the size of cells. A = V / sum |N_i| h_i is the
+// share of a cell in a crack across N, the direction of the largest stretch at rest.
+// Limit: r <= 1, where a cell holds more at its limit than the crack may take, or no G_c is given: then it takes what the cell holds.
+// Large cells of brittle tissue do: edge > G_c / (energy of tissue at its limit by volume).
+// Nothing jumps: s falls by at most 1 / ramp in a step.
+//
+// Books. The step from one force to the next conserves K + sW but for what s falls, times W in the middle of the step:
+//   W_mid = W + 1/2 dt sum of f . v, f at its end: exact where forces go with displacements. See element_step.h.
+// Source: Bazant & Oh 1983 (crack band), Oliver 1989 (the share of a cell), Simo & Ju 1987 (damage driven by energy).
+
+#include "physics_node/step/explicit_step.h"
+#include "physics_node/step/fem/hex_element.h"
+#include "physics_node/step/fem/hex_tension.h"
+#include "physics_node/step/lattice/hex_acting.h"
+#include "physics_node/step/lattice/hex_strain.h"
+#include "physics_node/step/lattice/state.h"
+
+namespace palpate::physics {
+
+/// s may not jump: that would be a blow to all around. In steps. Why: FINITE_ELEMENTS E.5 asks for five at least.
+inline constexpr double break_ramp = 8;
+
+template <class Real>
+class HexFailure {
+ public:
+  /// @param body, grid  outlive this
+  HexFailure(const Body& body, const HexGrid& grid, std::size_t colour);
+
+  /// Before the forces of a step: cells begin to break, go on, and are gone. All cells are looked at in watched steps, those of runs
+  /// near to their limit in all. Cost: a tenth of a step, where nothing breaks less. Contract: allocates and throws nothing.
+  /// @param stiffness  of each cell in units of the body's own, follows  (n_cells)
+  /// @return cells gone
+  std::int64_t begin_step(LatticeState<Real>& state, const HexActing& acting, const ExplicitStep& step,
+                          ZeroedArray<Real>& stiffness) noexcept;
+
+  /// Of each run: 1 where a cell has lost anything.
+  const std::uint8_t* torn() const noexcept { return torn_.data(); }
+
+ private:
+  struct Cell;  // as it is now
+  void follow(const LatticeState<Real>& state, ZeroedArray<Real>& stiffness) noexcept;
+  void look(const LatticeState<Real>& state, const HexActing& acting, const ExplicitStep& step) noexcept;
+  void begin(LatticeState<Real>& state, Index cell, std::size_t run) noexcept;
+  bool go_on(LatticeState<Real>& state, Index cell, ZeroedArray<Real>& stiffness) noexcept;
+  void take_away(LatticeState<Real>& state, Index cell) noexcept;
+  Cell look_at(const LatticeState<Real>& state, Index cell) const noexcept;
+  TensionLimit<double> limit_of(Index cell) const noexcept;
+
+  const Body& body_;
+  const HexGrid& grid_;
+  HexConstants<double> k_;
+  std::vector<TensionLimit<double>> limits_;  // of body.solid->failures
+  ZeroedArray<Real> stretch_, tension_;       // as HexStrain has them  (n_cells)
+  std::vector<Strained> found_;               // of each run
+  std::vector<std::uint8_t> torn_;            // of each run
+  std::vector<Index> breaking_;               // cells that have begun and are not gone
+  std::array<Mask, max_directions>
+      sharing_{};                   // cells around a mass that hold its element in a direction, as cell_bits
+  std::uint64_t replacements_ = 0;  // of the state, when last followed
+  HexStrainKernel<Real> kernel_;
+};
+
+/// How many of the cells around a mass have lost stiffness, [0, 1]; of a mass without any, 1. Of a body whose cells break.
+template <class Real>
+double weakened_share(const Body& body, const LatticeState<Real>& state, Index node) noexcept;
+/// Has any of them, gone ones too?
+template <class Real>
+bool is_weakened(const Body& body, const LatticeState<Real>& state, Index node) noexcept;
+
+}  // namespace palpate::physics
