@@ -177,6 +177,7 @@ void World::move_bodies(double dt, bool watch) noexcept {
                          .verlet = scene_.physics->integrator == Integrator::velocity_verlet,
                          .watch = watch,
                          .exact = may_be_struck() || pressed_ || pressed_before_,
+                         .struck = may_be_struck(),
                          .planes = planes_,
                          .restitution = scene_.contact->restitution};
   stiffening_ = 1;

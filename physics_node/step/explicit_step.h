@@ -17,6 +17,7 @@ struct ExplicitStep {
   bool verlet = false;          // velocity_verlet; else symplectic Euler
   bool watch = false;           // note speeds, accelerations and energies: Books::watch(), sleep
   bool exact = false;           // book dampers exactly, where velocities may jump: see lattice/element_step.h
+  bool struck = false;          // velocities may jump at the end of this step, or did at that of the last
   // Only of backward_euler, whose step ends on the right side of them; other integrators bounce off afterwards:
   std::span<const Plane> planes = {};
   double restitution = 1;

@@ -96,9 +96,9 @@ TEST(FreshBreaks, SayWhenTheyAreNotAll) {
   fresh.reserve(2);
   const std::size_t room = fresh.list.capacity();
   fresh.begin_step();
-  for (std::size_t n = 0; n < room; ++n) fresh.add({});
+  for (std::size_t n = 0; n < room; ++n) fresh.add(EdgeGone{});
   EXPECT_FALSE(fresh.overflow);
-  fresh.add({});
+  fresh.add(EdgeGone{});
   EXPECT_TRUE(fresh.overflow);
   EXPECT_EQ(fresh.list.size(), room);
   fresh.begin_step();

@@ -85,7 +85,7 @@ TEST_F(RemarksOfScenes, AreSaidByInfoAndSimulateAndKeptInTheSummary) {
 /// Its masses, memory and speed cannot be told without.
 TEST_F(RemarksOfScenes, AreNotMadeOfASceneWhoseImageIsNotThere) {
   EXPECT_EQ(palpate("info " + test::quoted(folder / "scenes" / "head_press.toml")), 2);
-  EXPECT_THAT(log, HasSubstr("head_press.toml:19:14: there is no file"));
+  EXPECT_THAT(log, HasSubstr("head_press.toml:20:14: there is no file"));
   EXPECT_THAT(log, HasSubstr("make it with \"palpate import"));
 }
 

@@ -12,122 +12,12 @@
 //
 // G is linear in t, by the energy that such a bending or twisting mode has in a plane state of stress (E' = E / (1 - nu^2)):
 // a cell alone then bends as a beam does. It vanishes where the displacement is linear, and turns with the cell.
-// With `physical` off only k_i is left, which is a fit.
+// With `physical` off only k_i is left, which is a fit. Corners that are about to fold are held besides: see hex_corners.h.
 // Source: Flanagan & Belytschko 1981 for the modes; Wilson's incompatible modes for the bending energy.
 
-#include <array>
-#include <cstddef>
-
-#include "physics_node/material/tensor.h"
+#include "physics_node/step/fem/hex_corners.h"
 
 namespace palpate::physics {
-
-/// Of a cell of the body's own material; everything grows with its modulus.
-template <class Real>
-struct HexConstants {
-  Real mu = 0, lambda = 0;                     // [Pa]
-  Real volume = 0;                             // V [m^3]
-  std::array<Real, 3> per_4h{};                // 1 / (4 h_j) [1/m]
-  std::array<std::array<Real, 3>, 3> bend{};   // E' V / (48 h_i h_j), off the diagonal times nu [N/m]
-  std::array<std::array<Real, 3>, 3> twist{};  // mu V / (48 h_i h_j) [N/m]
-  Real every = 0;                              // k_i [N/m]
-};
-
-/// Which corner is which: bit 0 is +x, bit 1 +y, bit 2 +z.
-template <class P>
-using Corners = std::array<std::array<typename P::V, 8>, 3>;  // by component
-
-/// m_S of one component; `whole` is that of a translation.
-template <class T>
-struct Modes {
-  T whole, x, y, z, xy, xz, yz, xyz;
-};
-
-template <class T>
-Modes<T> modes_of(const std::array<T, 8>& c) noexcept {
-  const T s0 = c[0] + c[1], s1 = c[2] + c[3], s2 = c[4] + c[5], s3 = c[6] + c[7];
-  const T d0 = c[1] - c[0], d1 = c[3] - c[2], d2 = c[5] - c[4], d3 = c[7] - c[6];
-  const T ss0 = s0 + s1, ss1 = s2 + s3, sd0 = s1 - s0, sd1 = s3 - s2;
-  const T ds0 = d0 + d1, ds1 = d2 + d3, dd0 = d1 - d0, dd1 = d3 - d2;
-  return {.whole = ss0 + ss1,
-          .x = ds0 + ds1,
-          .y = sd0 + sd1,
-          .z = ss1 - ss0,
-          .xy = dd0 + dd1,
-          .xz = ds1 - ds0,
-          .yz = sd1 - sd0,
-          .xyz = dd1 - dd0};
-}
-
-/// The transpose, without a translation: sum over S of s_S(a) m_S.
-template <class T>
-std::array<T, 8> corners_of(const Modes<T>& m) noexcept {
-  // Corner (x, y, z) gets s_x A + B, A = m_x + s_y m_xy + s_z (m_xz + s_y m_xyz), B = s_y (m_y + s_z m_yz) + s_z m_z.
-  const T x0 = m.x - m.xz, x1 = m.x + m.xz, xy0 = m.xy - m.xyz, xy1 = m.xy + m.xyz;  // at -z, +z
-  const T y0 = m.y - m.yz, y1 = m.y + m.yz;
-  const T low0 = -m.z - y0, low1 = y0 - m.z, high0 = m.z - y1, high1 = m.z + y1;
-  const T a0 = x0 - xy0, a1 = x0 + xy0, a2 = x1 - xy1, a3 = x1 + xy1;
-  return {low0 - a0, low0 + a0, low1 - a1, low1 + a1, high0 - a2, high0 + a2, high1 - a3, high1 + a3};
-}
-
-/// The four hourglass modes, by component.
-template <class T>
-struct Hourglass {
-  std::array<T, 3> xy, xz, yz, xyz;
-};
-
-template <class P, class T = typename P::V>
-std::array<T, 3> transposed_times(const Tensor<T>& f, const std::array<T, 3>& m) noexcept {
-  std::array<T, 3> t;
-  for (std::size_t j = 0; j < 3; ++j) t[j] = P::fma(f[2][j], m[2], P::fma(f[1][j], m[1], f[0][j] * m[0]));
-  return t;
-}
-
-/// G of t: bending pairs share the direction in which they are linear, twists the axis about which they turn.
-template <class P, class Real, class T = typename P::V>
-Hourglass<T> hourglass_forces(const HexConstants<Real>& k, const Hourglass<T>& t) noexcept {
-  const auto all = [](Real r) { return P::all(r); };
-  const auto pair = [&](std::size_t i, std::size_t j, T own, T other) {
-    return P::fma(all(k.bend[i][i]), own, all(k.bend[i][j]) * other);
-  };
-  constexpr std::size_t x = 0, y = 1, z = 2;
-  Hourglass<T> g;
-  g.xy[x] = pair(x, z, t.xy[x], t.yz[z]), g.yz[z] = pair(z, x, t.yz[z], t.xy[x]);  // linear in y
-  g.xy[y] = pair(y, z, t.xy[y], t.xz[z]), g.xz[z] = pair(z, y, t.xz[z], t.xy[y]);  // linear in x
-  g.xz[x] = pair(x, y, t.xz[x], t.yz[y]), g.yz[y] = pair(y, x, t.yz[y], t.xz[x]);  // linear in z
-  // Shears g_xz = t_xy,z / h_x + t_yz,x / h_z and so on, each linear along the third axis.
-  const auto twist = [&](std::size_t i, std::size_t j, T a, T b) {  // of g_ij on what has h_i
-    return P::fma(all(k.twist[i][i]), a, all(k.twist[i][j]) * b);
-  };
-  const T a = t.xy[z], b = t.xz[y], c = t.yz[x];
-  g.xy[z] = twist(x, z, a, c) + twist(y, z, a, b);
-  g.xz[y] = twist(z, y, b, a) + twist(x, y, b, c);
-  g.yz[x] = twist(z, x, c, a) + twist(y, x, c, b);
-  const T third = all(Real(1) / Real(3));
-  for (std::size_t j = 0; j < 3; ++j) g.xyz[j] = all(k.bend[j][j]) * third * t.xyz[j];
-  return g;
-}
-
-/// Least J - 1 of the eight corners, each from the three edges that meet there: below -1 a corner is folded, which the centre need
-/// not show.
-/// @param w  displacements of the corners [m]
-template <class P, class Real, class T = typename P::V>
-T least_corner_change(const HexConstants<Real>& k, const Corners<P>& w) noexcept {
-  T least = P::all(1);
-  for (std::size_t a = 0; a < 8; ++a) {
-    Tensor<T> h;
-    for (std::size_t j = 0; j < 3; ++j) {
-      const std::size_t from = a & ~(std::size_t{1} << j), to = a | std::size_t{1} << j;
-      for (std::size_t i = 0; i < 3; ++i) h[i][j] = (w[i][to] - w[i][from]) * P::all(4 * k.per_4h[j]);
-    }
-    // J - 1 = tr H + tr cof H + det H
-    const Tensor<T> cof = cofactor<P>(h);
-    const T det = P::fma(h[0][2], cof[0][2], P::fma(h[0][1], cof[0][1], h[0][0] * cof[0][0]));
-    const T change = trace(h) + (trace(cof) + det);
-    least = change < least ? change : least;
-  }
-  return least;
-}
 
 /// What a cell does to its corners, and what energy it holds.
 template <class P>
@@ -135,21 +25,24 @@ struct HexForces {
   Corners<P> f;             // on each corner [N]
   typename P::V energy;     // [J]; only where it was asked for
   typename P::V stiffness;  // bound of the law's tangent at the centre [Pa]
+  typename P::V fold;       // above zero: corner_forces() has something to add
 };
 
-/// A cell whose stress does not fade; hex_relaxation.h has the other.
+/// A cell that nothing but its strain acts on; hex_relaxation.h and hex_damper.h have others.
 struct Lasting {
-  static constexpr bool any = false;
+  static constexpr bool any = false, fades = false;
 };
 
+/// All but what corners do that are about to fold.
 /// @param w  displacements of the corners [m]
 /// @param Law  of the material/ folder, with P
-/// @param memory  what else pulls; only of physical cells
+/// @param memory  what else pulls; where it fades, of physical cells only
 template <class P, template <class> class Law, bool physical, bool with_energy, class Real, class Memory,
           class T = typename P::V>
-inline __attribute__((always_inline)) void hex_forces(const HexConstants<Real>& k, const Corners<P>& w,
-                                                      HexForces<P>& out, Memory& memory) noexcept {
-  static_assert(physical || !Memory::any);
+inline __attribute__((always_inline)) void hex_centre_forces(const HexConstants<Real>& k, const Corners<P>& w,
+                                                             HexForces<P>& out, Memory& memory) noexcept {
+  static_assert(physical || !Memory::fades);
+  constexpr bool bends = physical || Memory::any;
   const Law<P> law{P::all(k.mu), P::all(k.lambda)};
   const T every = P::all(k.every);
   std::array<Modes<T>, 3> m;
@@ -165,68 +58,61 @@ inline __attribute__((always_inline)) void hex_forces(const HexConstants<Real>& 
   Tensor<T> stress = law.stress(h);
   out.stiffness = law.stiffness(h);
   if constexpr (Memory::any) out.stiffness = memory.stiffness(out.stiffness, k, h);
+  const Tensor<T> f = plus_identity<P>(h);
+  T q = P::all(0);
+  for (std::size_t i = 0; i < 3; ++i)
+    q = P::fma(
+        mode.xy[i], mode.xy[i],
+        P::fma(mode.xz[i], mode.xz[i], P::fma(mode.yz[i], mode.yz[i], P::fma(mode.xyz[i], mode.xyz[i], q))));
+  out.fold = may_fold_at<P>(k, q, h);
   Hourglass<T> g;
-  Tensor<T> f;
   [[maybe_unused]] T remembered;
-  if constexpr (physical) {
-    f = plus_identity<P>(h);
+  if constexpr (with_energy) out.energy = P::all(0);
+  if constexpr (bends) {
     const Hourglass<T> t{transposed_times<P>(f, mode.xy), transposed_times<P>(f, mode.xz),
                          transposed_times<P>(f, mode.yz), transposed_times<P>(f, mode.xyz)};
-    g = hourglass_forces<P>(k, t);
-    if constexpr (with_energy) {
-      out.energy = T{};
-      for (std::size_t j = 0; j < 3; ++j)
-        out.energy += t.xy[j] * g.xy[j] + t.xz[j] * g.xz[j] + t.yz[j] * g.yz[j] + t.xyz[j] * g.xyz[j];
+    if constexpr (physical) {
+      g = hourglass_forces<P>(k, t);
+      if constexpr (with_energy)
+        for (std::size_t j = 0; j < 3; ++j)
+          out.energy += t.xy[j] * g.xy[j] + t.xz[j] * g.xz[j] + t.yz[j] * g.yz[j] + t.xyz[j] * g.xyz[j];
+    } else {
+      for (std::size_t j = 0; j < 3; ++j) g.xy[j] = g.xz[j] = g.yz[j] = g.xyz[j] = P::all(0);
     }
-    if constexpr (Memory::any) {
+    if constexpr (Memory::fades) {
       const T share = P::all(memory.law_share());
       for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 3; ++j) stress[i][j] = share * stress[i][j];
         g.xy[i] = share * g.xy[i], g.xz[i] = share * g.xz[i], g.yz[i] = share * g.yz[i],
         g.xyz[i] = share * g.xyz[i];
       }
-      remembered = memory.add(k, h, f, t, stress, g);
     }
-  } else if constexpr (with_energy) {
-    out.energy = T{};
+    if constexpr (Memory::any) remembered = memory.add(k, h, f, mode, t, stress, g);
   }
   if constexpr (with_energy) {
-    for (std::size_t i = 0; i < 3; ++i)
-      out.energy += every * (mode.xy[i] * mode.xy[i] + mode.xz[i] * mode.xz[i] + mode.yz[i] * mode.yz[i] +
-                             mode.xyz[i] * mode.xyz[i]);
-    out.energy = P::fma(P::all(k.volume), law.psi(h), P::all(Real(0.5)) * out.energy);
-    if constexpr (Memory::any) {
-      // The stiffness of all modes alike does not fade.
-      T lasting = T{};
-      for (std::size_t i = 0; i < 3; ++i)
-        lasting += mode.xy[i] * mode.xy[i] + mode.xz[i] * mode.xz[i] + mode.yz[i] * mode.yz[i] +
-                   mode.xyz[i] * mode.xyz[i];
-      lasting = P::all(Real(0.5)) * every * lasting;
+    const T lasting = P::all(Real(0.5)) * every * q;
+    out.energy = P::fma(P::all(k.volume), law.psi(h), P::fma(P::all(Real(0.5)), out.energy, lasting));
+    // The stiffness of all modes alike does not fade.
+    if constexpr (Memory::fades)
       out.energy = P::fma(P::all(memory.law_share()), out.energy - lasting, lasting + remembered);
-    }
+    else if constexpr (Memory::any)
+      out.energy = out.energy + remembered;
   }
-  for (std::size_t i = 0; i < 3; ++i) {
-    Modes<T> force;
-    std::array<T, 3> of_strain;
-    for (std::size_t j = 0; j < 3; ++j) {
-      T sum = P::all(k.volume) * stress[i][j];
-      if constexpr (physical)
-        sum = P::fma(
-            mode.xy[i], g.xy[j],
-            P::fma(mode.xz[i], g.xz[j], P::fma(mode.yz[i], g.yz[j], P::fma(mode.xyz[i], g.xyz[j], sum))));
-      of_strain[j] = -(sum * P::all(k.per_4h[j]));
-    }
-    const auto back = [&](const std::array<T, 3>& g_m, T m_i) {
-      T sum = every * m_i;
-      if constexpr (physical)
-        for (std::size_t j = 0; j < 3; ++j) sum = P::fma(f[i][j], g_m[j], sum);
-      return -sum;
-    };
-    force.x = of_strain[0], force.y = of_strain[1], force.z = of_strain[2];
-    force.xy = back(g.xy, mode.xy[i]), force.xz = back(g.xz, mode.xz[i]);
-    force.yz = back(g.yz, mode.yz[i]), force.xyz = back(g.xyz, mode.xyz[i]);
-    out.f[i] = corners_of(force);
-  }
+  spread<P, bends>(k, every, f, mode, stress, g, out.f);
+}
+
+template <class P, template <class> class Law, bool physical, bool with_energy, class Real, class Memory,
+          class T = typename P::V>
+inline __attribute__((always_inline)) void hex_forces(const HexConstants<Real>& k, const Corners<P>& w,
+                                                      HexForces<P>& out, Memory& memory) noexcept {
+  hex_centre_forces<P, Law, physical, with_energy>(k, w, out, memory);
+  if (!P::any_above_zero(out.fold)) return;
+  CornerForces<P> corner;
+  corner_forces<P>(k, w, corner);
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t a = 0; a < 8; ++a) out.f[i][a] = out.f[i][a] + corner.f[i][a];
+  out.stiffness = out.stiffness + corner.stiffness;
+  if constexpr (with_energy) out.energy = out.energy + corner.energy;
 }
 
 template <class P, template <class> class Law, bool physical, bool with_energy, class Real,

@@ -106,7 +106,7 @@ TermNow<P> relax(const HexConstants<Real>& k, const RelaxationTerm<Real>& term, 
 template <class P, class Real>
 struct Relaxing {
   using T = typename P::V;
-  static constexpr bool any = true;
+  static constexpr bool any = true, fades = true;
   std::span<const RelaxationTerm<Real>> terms;
   std::span<Remembered<T>> remembered;  // by term; moves on
   T lost_before = T{}, lost_after = T{};
@@ -124,8 +124,8 @@ struct Relaxing {
     return P::fma(P::all(share), of_law, P::all(1 - share) * of_terms.stiffness(h));
   }
   /// Adds what the terms pull to stress and hourglass forces. @return their energy
-  T add(const HexConstants<Real>& k, const Tensor<T>& h, const Tensor<T>& f, const Hourglass<T>& t,
-        Tensor<T>& stress, Hourglass<T>& g) noexcept {
+  T add(const HexConstants<Real>& k, const Tensor<T>& h, const Tensor<T>& f, const Hourglass<T>&,
+        const Hourglass<T>& t, Tensor<T>& stress, Hourglass<T>& g) noexcept {
     const Remembered<T> now = to_remember<P>(h, t);
     Tensor<T> second{};
     T energy = T{};

@@ -6,7 +6,8 @@
 //
 // s is at least the largest stretch, so that q~ takes from turns and flips no more than mu gives them; at rest q~ = -mu and s = 1,
 // and the tangent is linear elasticity's. Of the hourglass modes dt = F^T dm, dG = G(dt), df = F dG + k_i dm: what turns with dH is
-// left out. All of a cell's tangent is then F and q~.
+// left out. Corners that are about to fold stiffen all hourglass modes: see corner_stiffness(). All of a cell's tangent is then F,
+// q~ and k_i.
 // Deviation: not the slope of the force far from rest, where that has directions of negative energy; Newton's method then takes
 // some steps more, and every one leads downhill.
 
@@ -18,19 +19,25 @@ template <class T>
 struct HexTangent {
   Tensor<T> f;  // F
   T q;          // q~ [Pa]
+  T every;      // k_i, and what corners add that are about to fold [N/m]
 };
 
 template <class P, class Real, class T = typename P::V>
 HexTangent<T> hex_tangent_at(const HexConstants<Real>& k, const Corners<P>& u) noexcept {
   Tensor<T> h;
+  T of_modes = P::all(0);  // sum of |m_M|^2
   for (std::size_t i = 0; i < 3; ++i) {
     const Modes<T> m = modes_of(u[i]);
+    of_modes = P::fma(m.xy, m.xy, P::fma(m.xz, m.xz, P::fma(m.yz, m.yz, P::fma(m.xyz, m.xyz, of_modes))));
     h[i] = {m.x * P::all(k.per_4h[0]), m.y * P::all(k.per_4h[1]), m.z * P::all(k.per_4h[2])};
   }
   const Tensor<T> cof = cofactor<P>(h);
   const T det = P::fma(h[0][2], cof[0][2], P::fma(h[0][1], cof[0][1], h[0][0] * cof[0][0]));
   const T change = trace(h) + (trace(cof) + det);  // J - 1
-  HexTangent<T> at{plus_identity<P>(h), P::fma(P::all(k.lambda + k.mu), change, P::all(-k.mu))};
+  HexTangent<T> at{plus_identity<P>(h), P::fma(P::all(k.lambda + k.mu), change, P::all(-k.mu)),
+                   P::all(k.every)};
+  if (P::any_above_zero(may_fold_at<P>(k, of_modes, h)))
+    at.every = at.every + corner_stiffness<P>(k, u, P::all(1) + change);
   T most = P::all(0);
   for (std::size_t r = 0; r < 3; ++r) {
     T row = P::all(0);
@@ -72,7 +79,7 @@ inline __attribute__((always_inline)) void hex_tangent_times(const HexConstants<
     for (std::size_t j = 0; j < 3; ++j)
       s[j] = P::fma(mu, dh[i][j], P::fma(along, cof[i][j], q * dcof[i][j])) * P::all(k.per_4h[j]);
     const auto back = [&](const std::array<T, 3>& g_m, T m_i) {
-      T sum = P::all(k.every) * m_i;
+      T sum = at.every * m_i;
       if constexpr (physical)
         for (std::size_t j = 0; j < 3; ++j) sum = P::fma(at.f[i][j], g_m[j], sum);
       return sum;
@@ -101,11 +108,12 @@ std::array<Symmetric<T>, 4> hex_tangent_blocks(const HexConstants<Real>& k,
   const auto w = [&](std::size_t i, std::size_t j) {
     return P::all(k.volume * (k.lambda + k.mu) * k.per_4h[i] * k.per_4h[j]);
   };
-  Real own = 4 * k.every;
-  for (const Real b : k.per_4h) own += k.volume * k.mu * b * b;
+  Real of_strain = 0;
+  for (const Real b : k.per_4h) of_strain += k.volume * k.mu * b * b;
+  const T own = P::fma(P::all(4), at.every, P::all(of_strain));
   Symmetric<T> base;
   for (std::size_t e = 0; e < 6; ++e) {
-    base[e] = P::all(e < 3 ? own : Real(0));
+    base[e] = e < 3 ? own : P::all(0);
     for (std::size_t j = 0; j < 3; ++j) {
       base[e] = P::fma(w(j, j) * cof[row[e]][j], cof[column[e]][j], base[e]);
       if constexpr (physical) {

@@ -40,22 +40,57 @@ struct LostByTerms {
   V before{}, after{};
 };
 
-/// Forces and energy of some cells; with a memory that moves on.
-template <class Real, template <class> class Law, bool physical, bool with_energy, class Here,
-          class P = Pack<Real>, class V = typename P::V>
+template <class Real>
+Damping<Pack<Real>, Real> damping_of(const HexContext<Real>& m, const Corners<Pack<Real>>& v) {
+  return {.beta = m.beta, .v = &v, .weight = m.damper_weight};
+}
+
+/// Forces and energy of some cells; with a memory that moves on. @param v  velocities of the corners; only damped
+/// @param of_rate  the damper's part; only exact
+template <class Real, template <class> class Law, bool physical, bool damped, bool with_energy, bool exact,
+          class Here, class P = Pack<Real>, class V = typename P::V>
 inline __attribute__((always_inline)) void cell_forces(const HexContext<Real>& m, const Corners<P>& w,
-                                                       Here& here, HexForces<P>& out, LostByTerms<V>& lost) {
-  if constexpr (std::is_same_v<Here, NothingRemembered>) {
-    hex_forces<P, Law, physical, with_energy>(m.k, w, out);
+                                                       const Corners<P>& v, Here& here, HexForces<P>& out,
+                                                       Corners<P>& of_rate, LostByTerms<V>& lost, V& power) {
+  if constexpr (std::is_same_v<Here, NothingRemembered> && !damped) {
+    Lasting lasting;
+    hex_centre_forces<P, Law, physical, with_energy>(m.k, w, out, lasting);
+  } else if constexpr (std::is_same_v<Here, NothingRemembered>) {
+    Damping<P, Real> damping = damping_of(m, v);
+    hex_centre_forces<P, Law, physical, with_energy>(m.k, w, out, damping);
+    power = damping.power;
+    if constexpr (exact) damping.forces(m.k, of_rate);
+  } else if constexpr (damped) {
+    RelaxingAndDamped<P, Real> both{{{m.terms, m.n_terms}, here.terms}, damping_of(m, v)};
+    hex_centre_forces<P, Law, physical, with_energy>(m.k, w, out, both);
+    lost = {both.relaxing.lost_before, both.relaxing.lost_after};
+    power = both.damping.power;
+    if constexpr (exact) both.damping.forces(m.k, of_rate);
   } else {
     Relaxing<P, Real> memory{{m.terms, m.n_terms}, here.terms};
-    hex_forces<P, Law, physical, with_energy>(m.k, w, out, memory);
+    hex_centre_forces<P, Law, physical, with_energy>(m.k, w, out, memory);
     lost = {memory.lost_before, memory.lost_after};
   }
 }
 
-/// Forces of the cells of a run, at w = u + beta v.
-template <class Real, template <class> class Law, bool physical, bool damped, bool relaxing, bool watched>
+/// Adds what corners do that are about to fold: few cells have one.
+template <class Real, class P = Pack<Real>, class V = typename P::V>
+__attribute__((noinline)) void hold_corners(const HexContext<Real>& m, const Corners<P>& w, Index i,
+                                            const Index* at, V stiffness, HexForces<P>& out) {
+  CornerForces<P> corner;
+  corner_forces<P>(m.k, w, corner);
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t a = 0; a < 8; ++a) {
+      Real* f = (a < 4 ? m.masses.f[c] : m.high[c]) + i + at[a];
+      P::store(f, P::fma(stiffness, corner.f[c][a], P::load(f)));
+    }
+  out.stiffness += corner.stiffness;
+  out.energy = corner.energy;
+}
+
+/// Forces of the cells of a run.
+template <class Real, template <class> class Law, bool physical, bool damped, bool relaxing, bool exact,
+          bool watched>
 void run_forces(const HexContext<Real>& m, std::size_t r) {
   using P = Pack<Real>;
   using V = typename P::V;
@@ -63,16 +98,17 @@ void run_forces(const HexContext<Real>& m, std::size_t r) {
   const HexRun run = m.runs[r];
   Index at[8];
   for (Index a = 0; a < 8; ++a) at[a] = (a & 1) * run.right + (a >> 1 & 1) * m.up_y + (a >> 2) * m.up_z;
-  V elastic{}, ahead{}, stiffest{}, lost_before{}, lost_after{};
+  V elastic{}, power{}, stiffest{}, lost_before{}, lost_after{};
   V least = P::all(1);  // of J - 1
   const bool torn = m.torn != nullptr && m.torn[r] != 0;
   // Whole packs only: cells beyond the run's end have no stiffness.
   for (Index i = run.first; i < run.first + run.count; i += P::width) {
     Corners<P> w;
+    [[maybe_unused]] Corners<P> v;
     for (std::size_t c = 0; c < 3; ++c)
       for (std::size_t a = 0; a < 8; ++a) {
         w[c][a] = P::load(m.masses.u[c] + i + at[a]);
-        if constexpr (damped) w[c][a] = P::fma_all(P::load(m.masses.v[c] + i + at[a]), m.beta, w[c][a]);
+        if constexpr (damped) v[c][a] = P::load(m.masses.v[c] + i + at[a]);
       }
     const V stiffness = P::load(m.stiffness + i);
     V whole = P::all(1);
@@ -80,43 +116,52 @@ void run_forces(const HexContext<Real>& m, std::size_t r) {
       whole = whole - P::load(m.damage + i);
       // Corners of what is gone may be anywhere; no strain of theirs may become infinite.
       for (std::size_t c = 0; c < 3; ++c)
-        for (std::size_t a = 0; a < 8; ++a) w[c][a] = P::where(stiffness > V{}, w[c][a]);
+        for (std::size_t a = 0; a < 8; ++a) {
+          w[c][a] = P::where(stiffness > V{}, w[c][a]);
+          if constexpr (damped) v[c][a] = P::where(stiffness > V{}, v[c][a]);
+        }
     }
     Here here;
     if constexpr (relaxing) here.load(m, i);
-    [[maybe_unused]] std::conditional_t<watched && damped, Here, NothingRemembered> before;
-    if constexpr (relaxing && watched && damped) before = here;
     HexForces<P> out;
     LostByTerms<V> lost;
-    cell_forces<Real, Law, physical, watched>(m, w, here, out, lost);
+    V taken{};
+    [[maybe_unused]] Corners<P> of_rate;
+    cell_forces<Real, Law, physical, damped, watched, exact>(m, w, v, here, out, of_rate, lost, taken);
+    if constexpr (damped) power = P::fma(stiffness, taken, power);
     if constexpr (relaxing) {
       here.store(m, i, stiffness);
       lost_before = P::fma(stiffness, lost.before, lost_before);
       lost_after = P::fma(stiffness, lost.after, lost_after);
     }
-    // Lanes without a cell see the corners of others: what strain that makes is nobody's.
-    if (torn) out.stiffness = whole * out.stiffness;
-    stiffest = P::larger(stiffest, stiffness > V{} ? out.stiffness : V{});
     for (std::size_t c = 0; c < 3; ++c)
       for (std::size_t a = 0; a < 8; ++a) {
         Real* f = (a < 4 ? m.masses.f[c] : m.high[c]) + i + at[a];
         P::store(f, P::fma(stiffness, out.f[c][a], P::load(f)));
       }
-    if constexpr (watched && damped) {
-      HexForces<P> at_u;
+    if constexpr (exact)
+      for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t a = 0; a < 8; ++a) {
+          Real* f = (a < 4 ? m.rate_low[c] : m.rate_high[c]) + i + at[a];
+          P::store(f, P::fma(stiffness, of_rate[c][a], P::load(f)));
+        }
+    // Lanes without a cell see the corners of others: what strain that makes is nobody's.
+    if (__builtin_expect(P::any_above_zero(stiffness > V{} ? out.fold : V{}), false)) {
       for (std::size_t c = 0; c < 3; ++c)
         for (std::size_t a = 0; a < 8; ++a) {
           w[c][a] = P::load(m.masses.u[c] + i + at[a]);
           if (torn) w[c][a] = P::where(stiffness > V{}, w[c][a]);
         }
-      if constexpr (relaxing) here = before;
-      cell_forces<Real, Law, physical, true>(m, w, here, at_u, lost);
-      ahead = P::fma(stiffness, out.energy - at_u.energy, ahead);
-      elastic = P::fma(stiffness, at_u.energy, elastic);
-    } else if constexpr (watched) {
-      elastic = P::fma(stiffness, out.energy, elastic);
+      HexForces<P> more;
+      more.stiffness = out.stiffness;
+      hold_corners(m, w, i, at, stiffness, more);
+      out.stiffness = more.stiffness;
+      if constexpr (watched) out.energy += more.energy;
     }
-    if constexpr (watched) {  // at u
+    if (torn) out.stiffness = whole * out.stiffness;
+    stiffest = P::larger(stiffest, stiffness > V{} ? out.stiffness : V{});
+    if constexpr (watched) elastic = P::fma(stiffness, out.energy, elastic);
+    if constexpr (watched) {
       const V change = least_corner_change<P>(m.k, w);
       // What tears may fold: its corners part.
       const V counted = torn ? (whole < P::all(1) ? V{} : stiffness) : stiffness;
@@ -132,36 +177,44 @@ void run_forces(const HexContext<Real>& m, std::size_t r) {
     m.lost_before[r] = static_cast<double>(P::sum(lost_before));
     m.lost_after[r] = static_cast<double>(P::sum(lost_after));
   }
-  if constexpr (watched && damped) m.ahead[r] = static_cast<double>(P::sum(ahead));
+  if constexpr (damped) {
+    const double now = static_cast<double>(P::sum(power));
+    m.damped[r] = m.books ? damper_loss(m.dt_before, m.power[r], now) : 0;
+    m.power[r] = now;
+  }
 }
 
-template <class Real, template <class> class Law, bool physical, bool damped, bool relaxing>
+template <class Real, template <class> class Law, bool physical, bool damped, bool relaxing,
+          bool exact = false>
 void forces(const HexContext<Real>& m, Index first_run, Index last_run) {
   for (auto r = static_cast<std::size_t>(first_run); r < static_cast<std::size_t>(last_run); ++r) {
     if (m.acts != nullptr && m.acts[r] == 0) continue;
-    m.masses.watch || !m.books ? run_forces<Real, Law, physical, damped, relaxing, true>(m, r)
-                               : run_forces<Real, Law, physical, damped, relaxing, false>(m, r);
+    m.masses.watch ? run_forces<Real, Law, physical, damped, relaxing, exact, true>(m, r)
+                   : run_forces<Real, Law, physical, damped, relaxing, exact, false>(m, r);
   }
 }
 
 /// Clears what cells gave to a row that is nobody's business: not all cells around it have given.
-template <class Real>
+template <class Real, bool exact>
 void forget_forces(const HexContext<Real>& m, const RowSegment& row) {
   using P = Pack<Real>;
   for (Index i = row.first; i < row.first + row.count; i += P::width)
     for (int a = 0; a < 3; ++a) {
       P::store(m.high[a] + i, typename P::V{});
       P::store(m.masses.f[a] + i, typename P::V{});
+      if constexpr (exact) {
+        P::store(m.rate_low[a] + i, typename P::V{});
+        P::store(m.rate_high[a] + i, typename P::V{});
+      }
     }
 }
 
 /// Moves the masses of a row with what all cells around them gave, and clears it. Rows at a rim stand.
-/// @return by how much f + f' and v' - v went together: see move()
-template <class Real, bool damped, bool stands>
+/// @return of dampers, - (f + f_before) . v; only exact
+template <class Real, bool exact, bool stands>
 typename Pack<Real>::V move_row(const HexContext<Real>& m, const RowSegment& row, Watched<Real>& watched) {
   using P = Pack<Real>;
-  using V = typename P::V;
-  V lost{};
+  typename P::V lost{};
   for (Index i = row.first; i < row.first + row.count; i += P::width) {
     Masses<Real> p;
     p.i = i;
@@ -169,12 +222,13 @@ typename Pack<Real>::V move_row(const HexContext<Real>& m, const RowSegment& row
       p.u[a] = P::load(m.masses.u[a] + i);
       p.v[a] = P::load(m.masses.v[a] + i);
       p.f[a] = P::load(m.high[a] + i) + P::load(m.masses.f[a] + i);
-      P::store(m.high[a] + i, V{});
-      if constexpr (damped) {
-        if (m.books)
-          lost = P::fma(p.f[a] + P::load(m.seen_f[a] + i), p.v[a] - P::load(m.seen_v[a] + i), lost);
-        P::store(m.seen_f[a] + i, p.f[a]);
-        P::store(m.seen_v[a] + i, p.v[a]);
+      P::store(m.high[a] + i, typename P::V{});
+      if constexpr (exact) {
+        const typename P::V f = P::load(m.rate_high[a] + i) + P::load(m.rate_low[a] + i);
+        lost = P::fnma(f + P::load(m.rate_seen[a] + i), p.v[a], lost);
+        P::store(m.rate_seen[a] + i, f);
+        P::store(m.rate_low[a] + i, typename P::V{});
+        P::store(m.rate_high[a] + i, typename P::V{});
       }
     }
     if constexpr (stands)
@@ -186,14 +240,8 @@ typename Pack<Real>::V move_row(const HexContext<Real>& m, const RowSegment& row
 }
 
 /// Moves the masses of some rows, and books them.
-///
-/// The damper's loss. A step changes K = sum of m v(-) . v(+) / 2 and W(w), the elastic energy at w = u + beta v, together by
-///   - beta/2 (f + f') . (v' - v),   exactly for linear elasticity,
-/// so that with `passed` the sum of it, passed + W(w) - W(u) is what was lost of K + W(u): for linear elasticity the damper's own
-/// work, beta v . K v dt, which never is negative.
-template <class Real, bool damped, bool relaxing>
+template <class Real, bool damped, bool relaxing, bool exact = false>
 void move(const HexContext<Real>& m, Index first_row, Index last_row) {
-  using P = Pack<Real>;
   for (auto r = static_cast<std::size_t>(first_row); r < static_cast<std::size_t>(last_row); ++r) {
     const RowState state = m.masses.row_state[r];
     if (state == RowState::asleep) continue;
@@ -201,54 +249,61 @@ void move(const HexContext<Real>& m, Index first_row, Index last_row) {
     RowLedger& ledger = m.masses.ledger[r];
     Watched<Real> watched;
     if (m.masses.watch || m.masses.begins) watched.clear();
-    [[maybe_unused]] typename P::V lost{};
+    typename Pack<Real>::V of_rate{};
     if (state == RowState::awake)
-      lost = move_row<Real, damped, false>(m, row, watched);
+      of_rate = move_row<Real, exact, false>(m, row, watched);
     else if (state == RowState::rim)
-      lost = move_row<Real, damped, true>(m, row, watched);
+      of_rate = move_row<Real, exact, true>(m, row, watched);
     else
-      forget_forces(m, row);
-    double elastic = 0, ahead = 0, lost_before = 0, lost_after = 0;
+      forget_forces<Real, exact>(m, row);
+    double elastic = 0, lost = 0, lost_after = 0;
+    const bool by_nodes = exact && m.rate_known;
+    if (by_nodes) lost = 0.5 * m.dt_before * static_cast<double>(Pack<Real>::sum(of_rate));
     for (Index n = m.runs_of_row[r]; n < m.runs_of_row[r + 1]; ++n) {
       elastic += m.elastic[n];
-      if constexpr (damped) ahead += m.ahead[n];
-      if constexpr (relaxing) lost_before += m.lost_before[n], lost_after += m.lost_after[n];
+      if constexpr (damped) lost += by_nodes ? 0 : m.damped[n];
+      if constexpr (relaxing) lost += m.lost_before[n], lost_after += m.lost_after[n];
     }
     if constexpr (damped || relaxing) {
       if (m.books)
-        m.passed[r] += 0.5 * static_cast<double>(m.beta) * static_cast<double>(P::sum(lost)) + lost_before;
+        m.passed[r] += lost;
       else
-        m.passed[r] = ledger.viscous - ahead;
-      if (m.masses.watch) ledger.viscous = m.passed[r] + ahead;
+        m.passed[r] = ledger.viscous;
+      if (m.masses.watch) ledger.viscous = m.passed[r];
       m.passed[r] += lost_after;
     }
-    if (m.masses.begins) ledger.numerical += static_cast<double>(P::sum(watched.begun));
+    if (m.masses.begins) ledger.numerical += static_cast<double>(Pack<Real>::sum(watched.begun));
     if (!m.masses.watch) continue;
     ledger.elastic = elastic;
     if (state != RowState::far_rim) book_watched(watched, state, ledger);
   }
 }
 
-template <class Real, template <class> class Law>
+template <class Real, template <class> class Law, bool physical>
 HexKernel<Real> kernel_of(HexKind kind) {
-  if (kind.damped)
-    return {kind.physical ? &forces<Real, Law, true, true, false> : &forces<Real, Law, false, true, false>,
-            &move<Real, true, false>};
-  return {kind.physical ? &forces<Real, Law, true, false, false> : &forces<Real, Law, false, false, false>,
-          &move<Real, false, false>};
+  if (!kind.damped) return {&forces<Real, Law, physical, false, false>, &move<Real, false, false>};
+  if (kind.exact) return {&forces<Real, Law, physical, true, false, true>, &move<Real, true, false, true>};
+  return {&forces<Real, Law, physical, true, false>, &move<Real, true, false>};
+}
+
+template <class Real>
+HexKernel<Real> relaxing_kernel(HexKind kind) {
+  if (!kind.damped) return {&forces<Real, StableNeoHookean, true, false, true>, &move<Real, false, true>};
+  if (kind.exact)
+    return {&forces<Real, StableNeoHookean, true, true, true, true>, &move<Real, true, true, true>};
+  return {&forces<Real, StableNeoHookean, true, true, true>, &move<Real, true, true>};
 }
 
 }  // namespace
 
 template <class Real>
 HexKernel<Real> hex_kernel(HexKind kind) {
-  if (kind.relaxing)
-    return kind.damped
-               ? HexKernel<Real>{&forces<Real, StableNeoHookean, true, true, true>, &move<Real, true, true>}
-               : HexKernel<Real>{&forces<Real, StableNeoHookean, true, false, true>,
-                                 &move<Real, false, true>};
-  return kind.law == TissueLaw::green ? kernel_of<Real, StVenantKirchhoff>(kind)
-                                      : kernel_of<Real, StableNeoHookean>(kind);
+  if (kind.relaxing) return relaxing_kernel<Real>(kind);
+  if (kind.law == TissueLaw::green)
+    return kind.physical ? kernel_of<Real, StVenantKirchhoff, true>(kind)
+                         : kernel_of<Real, StVenantKirchhoff, false>(kind);
+  return kind.physical ? kernel_of<Real, StableNeoHookean, true>(kind)
+                       : kernel_of<Real, StableNeoHookean, false>(kind);
 }
 
 template HexKernel<float> hex_kernel<float>(HexKind);

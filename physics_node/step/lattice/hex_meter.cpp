@@ -9,6 +9,8 @@ namespace palpate::physics {
 struct MeasuredCell {
   HexForces<Scalar<double>> forces;
   double lost_before = 0;  // by its terms since the last step [J]
+  double power = 0;        // that its damper takes [W]
+  Corners<Scalar<double>> of_rate{};
 };
 
 /// Measures cells of one state one by one, in double.
@@ -23,14 +25,17 @@ class HexCellMeter {
         k_(hex_constants_of<double>(body)),
         terms_(relaxation_terms<double>(body, state.dt_before, 0)) {}
 
-  /// @param beta  at u + beta v
-  MeasuredCell at(const std::array<Index, 8>& corner, double beta) const {
-    Corners<One> w;
+  MeasuredCell at(const std::array<Index, 8>& corner) const {
+    Corners<One> w, v;
     for (std::size_t a = 0; a < 8; ++a) {
-      const Vec3 x = vector_of(state_.u, corner[a]) + beta * vector_of(state_.v, corner[a]);
-      for (std::size_t c = 0; c < 3; ++c) w[c][a] = x[static_cast<Eigen::Index>(c)];
+      const Vec3 x = vector_of(state_.u, corner[a]), moves = vector_of(state_.v, corner[a]);
+      for (std::size_t c = 0; c < 3; ++c) {
+        w[c][a] = x[static_cast<Eigen::Index>(c)];
+        v[c][a] = moves[static_cast<Eigen::Index>(c)];
+      }
     }
     MeasuredCell now;
+    const Damping<One, double> damping{.beta = body_.solid->beta, .v = &v};
     const std::size_t n_terms = body_.solid->relaxation.size();
     if (n_terms > 0) {
       std::array<Remembered<double>, most_relaxations> remembered;
@@ -38,24 +43,28 @@ class HexCellMeter {
         for (std::size_t n = 0; n < n_remembered; ++n)
           remembered[t][n] = static_cast<double>(
               state_.remembered[n_remembered * t + n][static_cast<std::size_t>(corner[0])]);
-      Relaxing<One, double> memory{{terms_.data(), n_terms}, remembered};
+      RelaxingAndDamped<One, double> memory{{{terms_.data(), n_terms}, remembered}, damping};
       hex_forces<One, StableNeoHookean, true, true>(k_, w, now.forces, memory);
-      now.lost_before = memory.lost_before;
+      now.lost_before = memory.relaxing.lost_before;
+      now.power = memory.damping.power;
+      memory.damping.forces(k_, now.of_rate);
     } else if (body_.solid->law == TissueLaw::green) {
-      lasting<StVenantKirchhoff>(w, now.forces);
+      lasting<StVenantKirchhoff>(w, damping, now);
     } else {
-      lasting<StableNeoHookean>(w, now.forces);
+      lasting<StableNeoHookean>(w, damping, now);
     }
     return now;
   }
 
  private:
   template <template <class> class Law>
-  void lasting(const Corners<One>& w, HexForces<One>& out) const {
+  void lasting(const Corners<One>& w, Damping<One, double> damping, MeasuredCell& now) const {
     if (body_.solid->hourglass == HourglassKind::physical)
-      hex_forces<One, Law, true, true>(k_, w, out);
+      hex_forces<One, Law, true, true>(k_, w, now.forces, damping);
     else
-      hex_forces<One, Law, false, true>(k_, w, out);
+      hex_forces<One, Law, false, true>(k_, w, now.forces, damping);
+    now.power = damping.power;
+    damping.forces(k_, now.of_rate);
   }
 
   const Body& body_;
@@ -77,18 +86,23 @@ template <class Real>
 MeasuredHexahedra measure_hexahedra(const Body& body, const HexGrid& grid, const LatticeState<Real>& state) {
   MeasuredHexahedra sum;
   sum.force.assign(static_cast<std::size_t>(body.capacity()), Vec3::Zero());
+  sum.force_of_rate.assign(sum.force.size(), Vec3::Zero());
+  sum.power.assign(grid.runs.size(), 0);
   const HexCellMeter<Real> meter(body, state);
-  for_each_cell(body, grid, state, [&](double stiffness, const std::array<Index, 8>& corner) {
-    const MeasuredCell now = meter.at(corner, body.solid->beta);
-    const auto& out = now.forces;
-    const double at_u = meter.at(corner, 0).forces.energy;
-    sum.elastic += stiffness * at_u;
-    sum.ahead += stiffness * (out.energy - at_u);
-    sum.lost_before += stiffness * now.lost_before;
-    for (std::size_t a = 0; a < 8; ++a)
-      sum.force[static_cast<std::size_t>(corner[a])] +=
-          stiffness * Vec3(out.f[0][a], out.f[1][a], out.f[2][a]);
-  });
+  for_each_cell(body, grid, state,
+                [&](double stiffness, const std::array<Index, 8>& corner, std::size_t run) {
+                  const MeasuredCell now = meter.at(corner);
+                  const auto& out = now.forces;
+                  sum.elastic += stiffness * out.energy;
+                  sum.lost_before += stiffness * now.lost_before;
+                  sum.power[run] += stiffness * now.power;
+                  for (std::size_t a = 0; a < 8; ++a) {
+                    const auto node = static_cast<std::size_t>(corner[a]);
+                    sum.force[node] += stiffness * Vec3(out.f[0][a], out.f[1][a], out.f[2][a]);
+                    sum.force_of_rate[node] +=
+                        stiffness * Vec3(now.of_rate[0][a], now.of_rate[1][a], now.of_rate[2][a]);
+                  }
+                });
   return sum;
 }
 

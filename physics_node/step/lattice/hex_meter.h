@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "physics_node/step/fem/hex_constants.h"
-#include "physics_node/step/fem/hex_relaxation.h"
+#include "physics_node/step/fem/hex_damper.h"
 #include "physics_node/step/lattice/hex_grid.h"
 #include "physics_node/step/lattice/state.h"
 
@@ -38,11 +38,12 @@ std::array<RelaxationTerm<Real>, most_relaxations> relaxation_terms(const Body& 
 /// Bound of the tangent of law and terms at rest [Pa].
 double hex_bound_at_rest(const Body& body);
 
-/// Calls visit(stiffness, corners) for each cell that lives, corners as storage cells.
+/// Calls visit(stiffness, corners, run) for each cell that lives, corners as storage cells.
 template <class Real, class Visit>
 void for_each_cell(const Body& body, const HexGrid& grid, const LatticeState<Real>& state,
                    const Visit& visit) {
-  for (const HexRun& run : grid.runs)
+  for (std::size_t r = 0; r < grid.runs.size(); ++r) {
+    const HexRun& run = grid.runs[r];
     for (Index i = run.first; i < run.first + run.count; ++i) {
       auto stiffness = static_cast<double>(body.solid->stiffness[static_cast<std::size_t>(i)]);
       if (state.failed.damage.size() > 0)
@@ -52,15 +53,17 @@ void for_each_cell(const Body& body, const HexGrid& grid, const LatticeState<Rea
       for (Index a = 0; a < 8; ++a)
         corner[static_cast<std::size_t>(a)] =
             i + (a & 1) * run.right + (a >> 1 & 1) * grid.up_y + (a >> 2) * grid.up_z;
-      visit(stiffness, corner);
+      visit(stiffness, corner, r);
     }
+  }
 }
 
-/// Energy of all cells at u and how much more it is at w = u + beta v, their forces on the nodes at w, and what their terms have
-/// lost since the last step.
+/// Energy of all cells, their forces on the nodes, what their terms have lost since the last step and what their dampers take.
 struct MeasuredHexahedra {
-  double elastic = 0, ahead = 0, lost_before = 0;
-  std::vector<Vec3> force;  // (n_cells)
+  double elastic = 0, lost_before = 0;
+  std::vector<double> power;        // by run [W]
+  std::vector<Vec3> force;          // (n_cells)
+  std::vector<Vec3> force_of_rate;  // of dampers alone  (n_cells)
 };
 template <class Real>
 MeasuredHexahedra measure_hexahedra(const Body& body, const HexGrid& grid, const LatticeState<Real>& state);

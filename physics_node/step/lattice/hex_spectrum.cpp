@@ -48,7 +48,7 @@ class ScaledStiffness {
     m_.runs = grid_.runs.data();
     m_.runs_of_row = grid_.runs_of_row.data();
     m_.stiffness = stiffness_.data();
-    m_.elastic = m_.ahead = m_.least_J = m_.stiffest = elastic_.data();
+    m_.elastic = m_.least_J = m_.stiffest = elastic_.data();
     m_.up_y = grid_.up_y, m_.up_z = grid_.up_z;
     m_.books = true;  // and does not watch
     m_.k = hex_constants<double>(material_of(body), body.lattice.step);

@@ -2,25 +2,35 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "physics_node/step/lattice/hex_meter.h"
 
 namespace palpate::physics {
 
+namespace {
+
+HexKind kind_of(const Body& body, bool exact) {
+  return {.law = body.solid->law,
+          .physical = body.solid->hourglass == HourglassKind::physical,
+          .damped = body.solid->beta > 0,
+          .relaxing = !body.solid->relaxation.empty(),
+          .exact = exact};
+}
+
+}  // namespace
+
 template <class Real>
 Hexahedra<Real>::Hexahedra(const Body& body)
     : grid_(make_hex_grid(body)),
       acting_(grid_),
       elastic_(grid_.runs.size()),
-      ahead_(grid_.runs.size()),
       least_J_(grid_.runs.size(), 1.0),
       stiffest_(grid_.runs.size()),
       passed_(body.lattice.rows.size()),
-      kernel_(hex_kernel_here<Real>({.law = body.solid->law,
-                                     .physical = body.solid->hourglass == HourglassKind::physical,
-                                     .damped = body.solid->beta > 0,
-                                     .relaxing = !body.solid->relaxation.empty()})) {
+      kernel_(hex_kernel_here<Real>(kind_of(body, false))),
+      exact_kernel_(hex_kernel_here<Real>(kind_of(body, true))) {
   const SolidElements& solid = *body.solid;
   const auto n = static_cast<std::size_t>(body.capacity());
   constants_ = hex_constants_of<Real>(body);
@@ -38,8 +48,13 @@ Hexahedra<Real>::Hexahedra(const Body& body)
     colour += 2;
   }
   if (solid.beta == 0) return;
-  for (auto* three : {&seen_v_, &seen_f_})
+  for (auto* three : {&rate_low_, &rate_high_, &rate_seen_})
     for (auto& axis : *three) axis = ZeroedArray<Real>(n, colour++);
+  for (auto* one : {&power_, &damped_}) one->resize(grid_.runs.size());
+  // Within a tenth of what stiffest_mode() finds for a cube of cells.
+  const double omega2 =
+      at_rest_ * solid.largest_stiffness / solid.density * body.lattice.step.cwiseInverse().squaredNorm() / 2;
+  damper_weight_ = hex_damper_weight(at_rest_, solid.beta, std::sqrt(omega2));
 }
 
 template <class Real>
@@ -48,22 +63,8 @@ void Hexahedra<Real>::follow_rows(const Body& body, LatticeState<Real>& state) n
   row_changes_ = state.row_changes;
   acting_.follow(grid_, state.row_state);
   if (body.solid->beta == 0) return;
-  // What falls asleep has lost its velocity at once: the damper of a cell that stands is not ahead of it.
   for (std::size_t run = 0; run < grid_.runs.size(); ++run)
-    if (!acting_.acts(static_cast<Index>(run))) ahead_[run] = 0;
-  for (std::size_t r = 0; r < body.lattice.rows.size(); ++r) {
-    if (state.row_state[r] == RowState::awake) continue;
-    const RowSegment& row = body.lattice.rows[r];
-    double lost = 0;
-    for (Index i = row.first; i < row.first + row.count; ++i) {
-      lost -= vector_of(seen_f_, i).dot(vector_of(seen_v_, i));
-      for (auto& axis : seen_v_) axis[static_cast<std::size_t>(i)] = 0;
-    }
-    passed_[r] += body.solid->beta * lost;
-    state.ledger[r].viscous = passed_[r];
-    for (Index n = grid_.runs_of_row[r]; n < grid_.runs_of_row[r + 1]; ++n)
-      state.ledger[r].viscous += ahead_[static_cast<std::size_t>(n)];
-  }
+    if (!acting_.acts(static_cast<Index>(run))) power_[run] = damped_[run] = 0;
 }
 
 template <class Real>
@@ -83,8 +84,9 @@ StepOutcome Hexahedra<Real>::step(const Body& body, LatticeState<Real>& state,
     masses.f[a] = state.f[a].data();
     masses.g[a] = static_cast<Real>(step.gravity[static_cast<Eigen::Index>(a)]);
     m.high[a] = high_[a].data();
-    m.seen_v[a] = seen_v_[a].data();
-    m.seen_f[a] = seen_f_[a].data();
+    m.rate_low[a] = rate_low_[a].data();
+    m.rate_high[a] = rate_high_[a].data();
+    m.rate_seen[a] = rate_seen_[a].data();
   }
   masses.dt = static_cast<Real>(step.dt);
   masses.dt_before = static_cast<Real>(state.dt_before);
@@ -96,7 +98,8 @@ StepOutcome Hexahedra<Real>::step(const Body& body, LatticeState<Real>& state,
   m.stiffness = stiffness_.data();
   if (failure_) m.torn = failure_->torn(), m.damage = state.failed.damage.data();
   m.elastic = elastic_.data();
-  m.ahead = ahead_.data();
+  m.power = power_.data();
+  m.damped = damped_.data();
   m.least_J = least_J_.data();
   m.stiffest = stiffest_.data();
   m.passed = passed_.data();
@@ -109,10 +112,15 @@ StepOutcome Hexahedra<Real>::step(const Body& body, LatticeState<Real>& state,
   m.up_y = grid_.up_y;
   m.up_z = grid_.up_z;
   m.beta = static_cast<Real>(body.solid->beta);
+  m.damper_weight = static_cast<Real>(damper_weight_);
+  m.dt_before = state.dt_before;
   m.books = state.dt_before > 0;
+  m.rate_known = m.books && rate_known_;
+  rate_known_ = step.struck;
   m.k = constants_;
-  const auto forces = [&](const HexLayer& l) { kernel_.forces(m, l.first_run, l.last_run); };
-  const auto move = [&](const HexLayer& l) { kernel_.move(m, l.first_row, l.last_row); };
+  const HexKernel<Real>& kernel = step.struck ? exact_kernel_ : kernel_;
+  const auto forces = [&](const HexLayer& l) { kernel.forces(m, l.first_run, l.last_run); };
+  const auto move = [&](const HexLayer& l) { kernel.move(m, l.first_row, l.last_row); };
   const std::span layers = acting_.layers();
   const std::span slabs = acting_.slabs();
   const auto sweep = [&](std::size_t n) {
@@ -164,13 +172,13 @@ Losses Hexahedra<Real>::due(const Body& body, const LatticeState<Real>& state) c
   if ((body.solid->beta == 0 && body.solid->relaxation.empty()) || state.dt_before == 0) return due;
   const MeasuredHexahedra now = measure_hexahedra(body, grid_, state);
   due.viscous = now.lost_before + std::accumulate(lost_after_.begin(), lost_after_.end(), 0.0);
-  if (body.solid->beta == 0) return due;
-  double work = 0;
-  for (const Index i : body.nodes())
-    work += 0.5 * body.solid->beta *
-            (now.force[static_cast<std::size_t>(i)] + vector_of(seen_f_, i))
-                .dot(vector_of(state.v, i) - vector_of(seen_v_, i));
-  due.viscous += work + now.ahead - std::accumulate(ahead_.begin(), ahead_.end(), 0.0);
+  if (rate_known_)
+    for (const Index i : body.nodes())
+      due.viscous -= 0.5 * state.dt_before *
+                     (now.force_of_rate[static_cast<std::size_t>(i)] + vector_of(rate_seen_, i))
+                         .dot(vector_of(state.v, i));
+  for (std::size_t run = 0; run < power_.size() && !rate_known_; ++run)
+    due.viscous += damper_loss(state.dt_before, power_[run], now.power[run]);
   return due;
 }
 
@@ -184,7 +192,7 @@ BodyCounts Hexahedra<Real>::counts(const Body& body, const LatticeState<Real>& s
       counts.elements += body.solid->stiffness[static_cast<std::size_t>(i)] > 0 ? 1 : 0;
   if (failure_)
     for (const Index node : body.nodes()) counts.yielded_masses += is_weakened(body, state, node) ? 1 : 0;
-  for_each_cell(body, grid_, state, [&](double, const std::array<Index, 8>& corner) {
+  for_each_cell(body, grid_, state, [&](double, const std::array<Index, 8>& corner, std::size_t) {
     ++counts.live_elements;
     Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
     for (std::size_t a = 0; a < 8; ++a)

@@ -26,7 +26,7 @@ class Hexahedra final : public LatticeElements<Real> {
   BodyCounts counts(const Body& body, const LatticeState<Real>& state) const override;
 
  private:
-  /// After rows have fallen asleep or woken: who acts, and what dampers still owe the books of rows that stand.
+  /// After rows have fallen asleep or woken: who acts, and which dampers rest.
   void follow_rows(const Body& body, LatticeState<Real>& state) noexcept;
 
   HexGrid grid_;
@@ -35,16 +35,19 @@ class Hexahedra final : public LatticeElements<Real> {
   HexConstants<Real> constants_;
   ZeroedArray<Real> stiffness_;                   // (n_cells)
   Three<Real> high_;                              // (n_cells)
-  Three<Real> seen_v_, seen_f_;                   // only where it is damped  (n_cells)
-  std::vector<double> elastic_, ahead_;           // by run: see HexContext [J]
+  std::vector<double> elastic_;                   // by run: see HexContext [J]
+  std::vector<double> power_, damped_;            // by run: the same; only where it is damped [W, J]
   std::vector<double> least_J_;                   // by run: the same
   double least_corner_J_ = 1;                     // of all watched steps
   std::vector<double> stiffest_;                  // by run: the same [Pa]
   std::vector<double> lost_before_, lost_after_;  // by run: see HexContext; only where it relaxes [J]
   std::vector<double> passed_;                    // by row [J]
   std::unique_ptr<HexFailure<Real>> failure_;     // only where a material breaks
-  HexKernel<Real> kernel_;
-  double at_rest_ = 0;  // bound of the tangent of the law [Pa]
+  Three<Real> rate_low_, rate_high_, rate_seen_;  // by node: the same; only where it is damped [N]  (n_cells)
+  bool rate_known_ = false;                       // the last step was exact
+  HexKernel<Real> kernel_, exact_kernel_;
+  double at_rest_ = 0;        // bound of the tangent of the law [Pa]
+  double damper_weight_ = 0;  // see Damping [Pa]
 };
 
 }  // namespace palpate::physics

@@ -43,6 +43,24 @@ struct Pack {
     for (int n = 0; n < width; ++n) bits |= lanes[n];
     return bits != 0;
   }
+  static bool any_above_zero(V v) {
+#if defined(__AVX512F__)
+    if constexpr (sizeof(Real) == 4)
+      return _mm512_cmp_ps_mask(reinterpret_cast<__m512>(v), _mm512_setzero_ps(), _CMP_GT_OQ) != 0;
+    else
+      return _mm512_cmp_pd_mask(reinterpret_cast<__m512d>(v), _mm512_setzero_pd(), _CMP_GT_OQ) != 0;
+#elif defined(__AVX2__)
+    if constexpr (sizeof(Real) == 4)
+      return _mm256_movemask_ps(reinterpret_cast<__m256>(v > V{})) != 0;
+    else
+      return _mm256_movemask_pd(reinterpret_cast<__m256d>(v > V{})) != 0;
+#else
+    if constexpr (sizeof(Real) == 4)
+      return _mm_movemask_ps(reinterpret_cast<__m128>(v > V{})) != 0;
+    else
+      return _mm_movemask_pd(reinterpret_cast<__m128d>(v > V{})) != 0;
+#endif
+  }
   static Real sum(V v) {
     Real total = 0;
     for (int n = 0; n < width; ++n) total += v[n];

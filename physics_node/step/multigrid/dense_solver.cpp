@@ -51,6 +51,7 @@ void DenseSolver::add_cells(const LevelContext<Real>& m) noexcept {
         HexTangent<Real> t;
         for (std::size_t n = 0; n < 9; ++n) t.f[n / 3][n % 3] = numbers[n * size + lane];
         t.q = numbers[9 * size + lane];
+        t.every = numbers[11 * size + lane];
         Index corners[8];
         const CellBatch& batch = m.batches[b];
         for (std::size_t a = 0; a < 8; ++a)

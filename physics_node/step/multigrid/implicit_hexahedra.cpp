@@ -99,7 +99,7 @@ void ImplicitHexahedra<Real>::book(LatticeState<Real>& state, const Crew& crew, 
     return less;
   });
   const double held = work_of_elements(crew);
-  const double after = newton_.evaluate(crew, 1);
+  const double after = newton_.evaluate(crew, 0);
   const double viscous = task.beta > 0 ? work_of_elements(crew) - held : 0;
   state.ledger.front().viscous += viscous;
   state.ledger.front().numerical += inertia - held - (after - before) - viscous;
@@ -136,7 +136,7 @@ void ImplicitHexahedra<Real>::solve(const Body& body, const LatticeState<Real>& 
   if (!again) {
     report_ = {};
     take(state, crew);
-    before_ = newton_.evaluate(crew, 1);  // D = 0
+    before_ = newton_.evaluate(crew, 0);  // D = 0
     newton_.each_node(crew, [&](std::size_t i) {
       const auto node = static_cast<std::size_t>(newton_.storage()[i]);
       for (std::size_t a = 0; a < 3 && mass_[i] > 0; ++a)

@@ -8,10 +8,10 @@ namespace palpate::physics {
 
 /// Solves, with D the displacement during the step,
 ///
-///   M (D / dt - v_n) / dt = f(u_n + D + beta D / dt) + M g + F
+///   M (D / dt - v_n) / dt = f(u_n + D) + f_v(u_n, D) + M g + F
 ///
 /// from D = dt v_n, to a thousandth of the forces in play. First order in dt; damps what it does not resolve, and the ledger says how
-/// much. The damper acts as in explicit steps, and what it took is the work of its share of the force.
+/// much. The damper f_v is that of explicit steps over the whole step (see Lagging), and what it took is its work.
 /// Cost: about 500 ns a cell, bench/fem. Contract: allocates and throws nothing after construction; the same bits on any number
 /// of threads.
 template <class Real>

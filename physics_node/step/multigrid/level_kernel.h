@@ -7,8 +7,8 @@
 
 namespace palpate::physics {
 
-/// Numbers of a batch: F by row, q~, stiffness; sixteen of each.
-inline constexpr Index tangent_numbers = 11;
+/// Numbers of a batch: F by row, q~, stiffness, k_i; sixteen of each.
+inline constexpr Index tangent_numbers = 12;
 
 /// A vector of each node, by component.
 template <class Real>
@@ -34,6 +34,7 @@ struct LevelContext {
   std::array<Real*, 6> block_high;
   NodeVector<Real> x, r, d;  // solution, what is left of the right side, last step of the smoother
   Real scale;                // of the tangent: 1 + beta / dt
+  Real lag = 0;              // of the damper: beta / dt
   HexConstants<Real> k;      // of a cell of this level and of the body's own modulus
 };
 
@@ -41,7 +42,7 @@ struct LevelContext {
 template <class Real>
 struct LevelKernel {
   using Context = LevelContext<Real>;
-  /// F and q~ of all cells at u; their diagonal blocks into `inverse` and `block_high`.
+  /// F, q~ and k_i of all cells at u; their diagonal blocks into `inverse` and `block_high`.
   void (*linearise)(const Context&, Index layer) = nullptr;
   void (*invert_blocks)(const Context&, Index plane) = nullptr;
   /// low, high += K p, of the cells
@@ -54,7 +55,7 @@ struct LevelKernel {
   void (*residual)(const Context&, Index plane) = nullptr;
   /// q = A p, after product() of p. @return p . q
   double (*keep)(const Context&, const NodeVector<Real>& p, const NodeVector<Real>& q, Index plane) = nullptr;
-  /// low, high += forces of the cells at u + scale d [N]. @return their energy [J]
+  /// low, high += forces of the cells and their dampers at u + d, from u on [N]. @return their energy [J]
   double (*forces)(const Context&, Index layer) = nullptr;
   /// f = low + high of what is free, and clears them.
   void (*gather)(const Context&, const NodeVector<Real>& f, Index plane) = nullptr;

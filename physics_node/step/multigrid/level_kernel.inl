@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "physics_node/material/stable_neo_hookean.h"
+#include "physics_node/step/fem/hex_damper.h"
 #include "physics_node/step/fem/hex_tangent.h"
 #include "physics_node/step/lattice/pack.h"
 #include "physics_node/step/multigrid/level_kernel.h"
@@ -112,6 +113,7 @@ HexTangent<typename Pack<Real>::V> load_tangent(const Real* numbers) {
   HexTangent<typename Pack<Real>::V> at;
   for (std::size_t n = 0; n < 9; ++n) at.f[n / 3][n % 3] = Pack<Real>::load(numbers + n * n_lanes);
   at.q = Pack<Real>::load(numbers + 9 * n_lanes);
+  at.every = Pack<Real>::load(numbers + 11 * n_lanes);
   return at;
 }
 
@@ -135,6 +137,7 @@ void linearise(const LevelContext<Real>& m, Index layer) {
         const auto at = hex_tangent_at<P>(m.k, part.load(m.u));
         for (std::size_t n = 0; n < 9; ++n) P::store(numbers + n * n_lanes, at.f[n / 3][n % 3]);
         P::store(numbers + 9 * n_lanes, at.q);
+        P::store(numbers + 11 * n_lanes, at.every);
         const auto blocks = hex_tangent_blocks<P, physical>(m.k, at);
         const auto stiffness = P::load(numbers + 10 * n_lanes) * P::all(m.scale);
         for (std::size_t r = 0; r < 4; ++r)
@@ -181,13 +184,13 @@ void product(const LevelContext<Real>& m, const NodeVector<Real>& p, Index layer
   dense_product(m, p, layer);
 }
 
-/// u + s d of all corners, less that of the first: differences of neighbours lose no digits, however far a body has moved, and a step
+/// u + d of all corners, less that of the first: differences of neighbours lose no digits, however far a body has moved, and a step
 /// is finer than what it is added to.
 template <class Real, class P = Pack<Real>>
-Corners<P> moved(Corners<P> u, const Corners<P>& d, Real s) {
+Corners<P> moved(Corners<P> u, const Corners<P>& d) {
   for (std::size_t c = 0; c < 3; ++c) {
     const auto first = u[c][0];
-    for (std::size_t a = 0; a < 8; ++a) u[c][a] = P::fma_all(d[c][a] - d[c][0], s, u[c][a] - first);
+    for (std::size_t a = 0; a < 8; ++a) u[c][a] = (d[c][a] - d[c][0]) + (u[c][a] - first);
   }
   return u;
 }
@@ -198,8 +201,13 @@ double forces(const LevelContext<Real>& m, Index layer) {
   double energy = 0;
   for_parts<3>(m, layer, m.low.data(), m.high.data(), [&](const auto& part, const Real* numbers, auto& sum) {
     HexForces<P> out;
-    hex_forces<P, StableNeoHookean, physical, true>(m.k, moved<Real>(part.load(m.u), part.load(m.d), m.scale),
-                                                    out);
+    const Corners<P> u = part.load(m.u), at = moved<Real>(u, part.load(m.d));
+    if (m.lag > 0) {
+      Lagging<P, Real> damper{m.lag, hex_remembered<P>(m.k, u)};
+      hex_forces<P, StableNeoHookean, physical, true>(m.k, at, out, damper);
+    } else {
+      hex_forces<P, StableNeoHookean, physical, true>(m.k, at, out);
+    }
     const auto stiffness = P::load(numbers + 10 * n_lanes);
     add_forces(m, part, out.f, stiffness, sum);
     const auto held = stiffness * out.energy;

@@ -85,16 +85,15 @@ void Newton<Real>::begin(const Crew& crew, const NewtonTask& task) noexcept {
 }
 
 template <class Real>
-double Newton<Real>::evaluate(const Crew& crew, double scale) noexcept {
+double Newton<Real>::evaluate(const Crew& crew, double lag) noexcept {
   Level<Real>& level = hierarchy_.fine();
   const LevelContext<Real> m = level.context();
-  const auto s = static_cast<Real>(scale);
   each_node(crew, [&](std::size_t i) {
-    for (std::size_t a = 0; a < 3; ++a) m.u[a][i] = u[a][i] + s * D[a][i];
+    for (std::size_t a = 0; a < 3; ++a) m.u[a][i] = u[a][i] + D[a][i];
   });
   const NodeVector<Real> f = pointers(force);
   LevelContext<Real> now = m;
-  now.u = pointers(u), now.d = pointers(D), now.scale = s;
+  now.u = pointers(u), now.d = pointers(D), now.lag = static_cast<Real>(lag);
   level.sweep(
       crew, [&](Index l) { by_plane_[static_cast<std::size_t>(l)] = level.kernel().forces(now, l); },
       [&](Index p) { level.kernel().gather(m, f, p); });
@@ -105,8 +104,7 @@ double Newton<Real>::evaluate(const Crew& crew, double scale) noexcept {
 
 template <class Real>
 double Newton<Real>::look(const Crew& crew, const NewtonTask& task, NewtonReport& report) noexcept {
-  const double s = task.dt > 0 ? 1 + task.beta / task.dt : 1;
-  report.energy = evaluate(crew, s);
+  report.energy = evaluate(crew, task.dt > 0 ? task.beta / task.dt : 0);
   const LevelContext<Real> m = hierarchy_.fine().context();
   Three<Real>& b = gradients_.b;
   const double outside = sum(crew, [&](std::size_t i) {
@@ -121,7 +119,7 @@ double Newton<Real>::look(const Crew& crew, const NewtonTask& task, NewtonReport
     return phi;
   });
   report.residual = std::sqrt(gradients_.dot(hierarchy_, crew, b, b));
-  return outside + report.energy / s;
+  return outside + report.energy;
 }
 
 template <class Real>

@@ -7,9 +7,8 @@ namespace palpate::physics {
 
 /// What is to be solved, besides what Newton's vectors hold.
 struct NewtonTask {
-  double dt = 0;  // 0: statics, without inertia [s]
-  double beta =
-      0;  // of dampers: the elements act as if the body were beta ahead of its end; not for statics [s]
+  double dt = 0;    // 0: statics, without inertia [s]
+  double beta = 0;  // of dampers: see Lagging; not for statics [s]
   /// Of the residual, relative to the larger of the forces from outside and of the first residual; no finer than D has digits.
   double tolerance = 1e-3;
   int most_iterations = 12;
@@ -28,9 +27,9 @@ struct NewtonReport {
 
 /// Finds the D for which
 ///
-///   g(D) = M (D - coast) / dt^2 - f(u + s D) - push = 0,   s = 1 + beta / dt
+///   g(D) = M (D - coast) / dt^2 - f(u + D) - push = 0
 ///
-/// the slope of  Phi = M |D - coast|^2 / (2 dt^2) + W(u + s D) / s - push . D.  Each system is solved by conjugate gradients to a tenth
+/// the slope of  Phi = M |D - coast|^2 / (2 dt^2) + W(u + D) - push . D,  f and W with the dampers over the step.  Each system is solved by conjugate gradients to a tenth
 /// of its residual, with the positive tangent on all levels of the hierarchy, so that every step leads downhill; a step is halved
 /// until Phi falls (Armijo), or the residual does, or half of its part along the step is gone (Matthies & Strang 1979).
 /// No node passes a plane: D is projected out of them, and what lies on a plane and is pressed into it is solved for in the other
@@ -48,8 +47,8 @@ class Newton {
   Three<Real> reaction;  // of planes, where solve() ended; 0 without planes [N]
 
   NewtonReport solve(const Crew& crew, const NewtonTask& task) noexcept;
-  /// Elastic energy at u + scale D [J]; `force` there.
-  double evaluate(const Crew& crew, double scale) noexcept;
+  /// Energy at u + D of the elements and, with a lag beta / dt, of their dampers [J]; `force` there.
+  double evaluate(const Crew& crew, double lag) noexcept;
   /// Adds up of(node) over all nodes; by plane, and planes in order.
   template <class Of>
   double sum(const Crew& crew, const Of& of) noexcept {

@@ -177,6 +177,101 @@ TEST(LeastCornerChange, SeesAFoldedCornerThatTheCentreDoesNot) {
   }
 }
 
+Points this_rest(const Vec3& edge) {
+  Points x;
+  for (int a = 0; a < 8; ++a) x.col(a) = edge.cwiseProduct(Vec3(a & 1, a >> 1 & 1, a >> 2));
+  return x;
+}
+
+Corners<One> corners_of_points(const Points& u) {
+  Corners<One> w;
+  for (std::size_t e = 0; e < 24; ++e)
+    w[e % 3][e / 3] = u(static_cast<Eigen::Index>(e % 3), static_cast<Eigen::Index>(e / 3));
+  return w;
+}
+
+TEST(HexCorners, AreHeldExactlyWhereTheyHaveLessThanTheirShare) {
+  const Vec3 edge(0.0025, 0.002, 0.003);
+  const auto k = hex_constants<double>({.modulus = modulus, .poisson_ratio = poisson_ratio}, edge);
+  std::mt19937_64 dice(11);
+  int held = 0, spared = 0;
+  for (int n = 0; n < 20000; ++n) {
+    std::uniform_real_distribution<double> any(-1, 1);
+    const double strain = 0.3 * (n % 5), size = 0.05 * (n % 7) * edge.x();
+    Eigen::Matrix3d h;
+    for (double& entry : h.reshaped()) entry = strain * any(dice);
+    Points u;
+    for (Eigen::Index a = 0; a < 8; ++a) {
+      u.col(a) = h * (this_rest(edge).col(a));
+      for (Eigen::Index i = 0; i < 3; ++i) u(i, a) += size * any(dice);
+    }
+    const Corners<One> w = corners_of_points(u);
+    double least = 1e9, J = 0;
+    {
+      Tensor<double> f;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto m = modes_of(w[i]);
+        f[i] = {m.x * k.per_4h[0], m.y * k.per_4h[1], m.z * k.per_4h[2]};
+      }
+      J = 1 + StableNeoHookean<One>::volume_change(f, cofactor<One>(f));
+    }
+    for (std::size_t a = 0; a < 8; ++a) least = std::min(least, hex_corner<One>(k, w, a).J);
+    HexForces<One> whole, centre;
+    Lasting lasting;
+    hex_forces<One, StableNeoHookean, true, true>(k, w, whole);
+    hex_centre_forces<One, StableNeoHookean, true, true>(k, w, centre, lasting);
+    CornerForces<One> corner;
+    corner_forces<One>(k, w, corner);
+    if (least < corner_share * J - 1e-9) {
+      ++held;
+      EXPECT_GT(centre.fold, 0) << "a corner that folds is never passed over";
+      EXPECT_GT(corner.energy, 0);
+      EXPECT_EQ(whole.energy, centre.energy + corner.energy);
+      EXPECT_GT(whole.stiffness, centre.stiffness);
+    } else {
+      if (centre.fold <= 0) ++spared;
+      EXPECT_LT(corner.energy, 1e-20);
+    }
+  }
+  EXPECT_GT(held, 1000);
+  EXPECT_GT(spared, 1000);
+}
+
+/// By differences of the force: no direction is stiffer than what the step is told.
+TEST(HexCorners, AreNowhereStifferThanTheirBound) {
+  const double h = 0.0025;
+  const auto k = hex_constants<double>({.modulus = modulus, .poisson_ratio = poisson_ratio}, Vec3(h, h, h));
+  std::mt19937_64 dice(12);
+  std::uniform_real_distribution<double> any(-1, 1);
+  double nearest = 0;
+  for (int n = 0; n < 300; ++n) {
+    Points u;
+    for (double& entry : u.reshaped()) entry = 0.3 * h * any(dice);
+    Eigen::Matrix<double, 24, 24> stiffness;
+    CornerForces<One> at, out;
+    corner_forces<One>(k, corners_of_points(u), at);
+    constexpr double d = 1e-8;
+    for (Eigen::Index e = 0; e < 24; ++e)
+      for (const int sign : {1, -1}) {
+        Points moved = u;
+        moved.reshaped()[e] += sign * d;
+        corner_forces<One>(k, corners_of_points(moved), out);
+        for (std::size_t r = 0; r < 24; ++r) {
+          double& entry = stiffness(static_cast<Eigen::Index>(r), e);
+          entry = (sign == 1 ? 0 : entry) - sign * out.f[r % 3][r / 3] / (2 * d);
+        }
+      }
+    stiffness = (0.5 * (stiffness + stiffness.transpose())).eval();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 24, 24>> solved(stiffness);
+    // A law of the modulus C has at most V C / (2 h^2).
+    const double bound = at.stiffness * h / 2, most = solved.eigenvalues().cwiseAbs().maxCoeff();
+    if (at.stiffness == 0) continue;
+    EXPECT_LT(most, 1.1 * bound) << "1.1: what the volume of the centre adds";
+    nearest = std::max(nearest, most / bound);
+  }
+  EXPECT_GT(nearest, 0.3) << "a bound that is no use";
+}
+
 TEST(PhysicalHex, BendsAsABeamDoes) {
   // Pure bending of one cell about y: u_x = c x z, u_z = -c x^2 / 2 - nu c z^2 / 2, free along y. A beam of E holds E I c^2 L / 2; in plane
   // stress across y as across z the corners alone, which cannot follow the parabola, are stiffer by 1 / (1 - nu^2).
