@@ -3,6 +3,7 @@
 #include "physics_node/step/plane_contact.h"
 
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
 #include <vector>
 
