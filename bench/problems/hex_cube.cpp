@@ -31,6 +31,7 @@ HexCube make_hex_cube(const HexCubeKind& kind) {
   if (kind.damped) tissue.viscosity_bulk = 1;
   if (kind.relaxing) tissue.relaxation = {{.share = 0.5, .time = 0.1}};
   if (kind.breaking) tissue.break_ratio = 2;
+  if (kind.yielding || kind.yielded) tissue.k2_ratio = 0.2, tissue.yield_ratio = kind.yielded ? 1.00001 : 1.5;
   BodySpec spec;
   spec.name = "cube";
   spec.lattice = LatticeKind::voxel;

@@ -16,6 +16,8 @@ struct HexCubeKind {
   bool damped = true;
   bool relaxing = false;
   bool breaking = false;  // may, and does not
+  bool yielding = false;  // may, and does not
+  bool yielded = false;   // all cells have, and go on
   int cells = 40;         // along each side
   int threads = 1;
 };

@@ -94,7 +94,9 @@ void make_solid(std::uint64_t seed, Scene& scene) {
     m.poisson_ratio = nu;
     m.law = law;
     m.relaxation = relaxation;
-    m.yield_ratio.reset();
+    const bool flows =
+        law == TissueLaw::neo_hookean && hourglass == HourglassKind::physical && relaxation.empty();
+    if (!flows) m.yield_ratio.reset();
     if (law != TissueLaw::neo_hookean || !relaxation.empty()) m.break_ratio.reset();
     m.damper = Damper::axial;
     m.viscosity_bulk.reset();
@@ -116,7 +118,7 @@ Integrator integrator_of(const Scene& scene, Dice& dice) {
   const bool implicit =
       integrator == Integrator::backward_euler && m.relaxation.empty() && m.law == TissueLaw::neo_hookean &&
       std::ranges::none_of(scene.materials,
-                           [](const MaterialSpec& of) { return of.break_ratio.has_value(); });
+                           [](const MaterialSpec& of) { return of.yield_ratio || of.break_ratio; });
   return implicit ? integrator : Integrator::symplectic_euler;
 }
 
@@ -216,12 +218,14 @@ std::string describe(const StressScene& s) {
       *scene.materials[1].modulus, *m.density, *scene.materials[1].density, *scene.bodies[0].spacing,
       scene.bodies[0].regions.size(), scene.bodies.size(),
       scene.bodies[0].model == ElementModel::fem
-          ? fmt::format(" elements nu {:.3f}{} {}{}{}", m.poisson_ratio,
-                        m.break_ratio ? fmt::format(" break {:.4g} for {:.3g} J/m2", *m.break_ratio,
-                                                    m.fracture_energy.value_or(0))
-                                      : "",
-                        scene.bodies[0].hourglass == HourglassKind::physical ? "physical" : "isotropic",
-                        m.law == TissueLaw::green ? " green" : "", m.relaxation.empty() ? "" : " relaxing")
+          ? fmt::format(
+                " elements nu {:.3f}{}{} {}{}{}", m.poisson_ratio,
+                m.yield_ratio ? fmt::format(" yield {:.4g} slope {:.3g}", *m.yield_ratio, m.k2_ratio) : "",
+                m.break_ratio ? fmt::format(" break {:.4g} for {:.3g} J/m2", *m.break_ratio,
+                                            m.fracture_energy.value_or(0))
+                              : "",
+                scene.bodies[0].hourglass == HourglassKind::physical ? "physical" : "isotropic",
+                m.law == TissueLaw::green ? " green" : "", m.relaxation.empty() ? "" : " relaxing")
       : m.yield_ratio ? fmt::format(" yield {:.4g} break {:.4g}", *m.yield_ratio, *m.break_ratio)
                       : " elastic",
       scene.physics->sleep ? " sleep" : "", m.viscosity_bulk.value_or(0),

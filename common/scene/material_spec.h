@@ -49,7 +49,7 @@ struct MaterialSpec {
   Damper damper = Damper::axial;
   double drag = 0;                    // of every mass against the world, -b v [N s/m]
   std::optional<double> yield_ratio;  // y_p > 1 |  of springs both or neither: purely elastic
-  std::optional<double> break_ratio;  // b_p > y_p; of finite elements it may stand alone
+  std::optional<double> break_ratio;  // b_p > y_p; of finite elements each may stand alone
   std::optional<double>
       fracture_energy;  // of finite elements that break: what a crack takes, by area [J/m^2]
   Place place;

@@ -16,8 +16,14 @@ namespace {
 std::string hindrance(const MaterialSpec& material, const BodySpec& spec) {
   if (!material.modulus) return "has no modulus_kPa; give it in place of k1_N_per_m or lambda_N";
   if (!material.density) return "has no density_kg_per_m3; give it in place of mass_g";
-  if (material.yield_ratio)
-    return "yields, which only springs do so far; leave yield_ratio out, break_ratio may stand alone";
+  if (material.yield_ratio && material.k2_ratio >= 1)
+    return "yields with k2_ratio = 1, which changes nothing; give a k2_ratio below 1, 0 for flow under "
+           "constant "
+           "stress";
+  if (material.yield_ratio && material.law == TissueLaw::green)
+    return "yields beside law = \"green\"; only \"neo_hookean\" does";
+  if (material.yield_ratio && !material.relaxation.empty())
+    return "yields and relaxes; leave yield_ratio or relaxation out";
   if (material.break_ratio && material.law == TissueLaw::green)
     return "breaks beside law = \"green\"; only \"neo_hookean\" does";
   if (material.break_ratio && !material.relaxation.empty())
@@ -50,21 +56,24 @@ void refuse_materials(TableReader& reader, const ReadContext& context, const Bod
   }
 }
 
-/// The hourglass modes of the isotropic kind do not fade, and thin parts would stay stiff.
-void refuse_relaxation(TableReader& reader, const ReadContext& context, const BodySpec& spec) {
+/// The hourglass modes of the isotropic kind neither fade nor yield, and thin parts would stay stiff.
+void refuse_isotropic(TableReader& reader, const ReadContext& context, const BodySpec& spec) {
   if (spec.hourglass != HourglassKind::isotropic) return;
-  for (const MaterialSpec& material : context.scene.materials)
-    if (material.name == spec.material && !material.relaxation.empty())
+  for (const MaterialSpec& material : context.scene.materials) {
+    const bool relaxes = material.name == spec.material && !material.relaxation.empty();
+    if (relaxes || (material.yield_ratio && is_in(spec, material)))
       reader.complain("hourglass",
-                      fmt::format("hourglass = \"isotropic\" in {}, but [material.{}] relaxes; write "
+                      fmt::format("hourglass = \"isotropic\" in {}, but [material.{}] {}; write "
                                   "\"physical\"",
-                                  reader.title(), material.name));
+                                  reader.title(), material.name, relaxes ? "relaxes" : "yields"));
+  }
 }
 
 /// What of a material backward_euler cannot follow, and what else may be left out; empty: nothing.
 std::string beyond_backward_euler(const MaterialSpec& material) {
   if (!material.relaxation.empty()) return "relaxes";
   if (material.law == TissueLaw::green) return "has law = \"green\"";
+  if (material.yield_ratio) return "yields";
   if (material.break_ratio) return "breaks";
   return {};
 }
@@ -90,10 +99,15 @@ std::string beyond_springs(const MaterialSpec& material) {
   return {};
 }
 
-/// What is balanced creeps on.
+/// What is balanced creeps on, or flows.
 void refuse_balanced(TableReader& reader, const ReadContext& context, const BodySpec& spec) {
   if (spec.start != StartKind::balanced) return;
   for (const MaterialSpec& material : context.scene.materials) {
+    if (material.yield_ratio && is_in(spec, material))
+      reader.complain(
+          "start", fmt::format("start = \"balanced\" in {}, but [material.{}] yields; the balance is found "
+                               "of what does not; leave \"start\" or yield_ratio out",
+                               reader.title(), material.name));
     if (material.name != spec.material) continue;
     if (!material.relaxation.empty())
       reader.complain("start",
@@ -161,7 +175,7 @@ void read_elements(TableReader& reader, ReadContext& context, BodySpec& spec) {
                              "\"integrator\" in [physics] out, or write \"backward_euler\"",
                              reader.title()));
   refuse_materials(reader, context, spec);
-  refuse_relaxation(reader, context, spec);
+  refuse_isotropic(reader, context, spec);
   refuse_implicit(reader, context, spec);
   refuse_balanced(reader, context, spec);
   refuse_filled(reader, spec);

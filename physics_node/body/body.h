@@ -72,6 +72,10 @@ inline bool any_yields(const Body& body) {
 inline bool any_breaks(const Body& body) {
   return body.solid ? !body.solid->failures.empty() : any_yields(body);
 }
+/// Finite elements that yield.
+inline bool any_cells_yield(const Body& body) { return body.solid && !body.solid->yields.empty(); }
+/// May what it goes through leave a trace?
+inline bool may_change_for_good(const Body& body) { return any_breaks(body) || any_cells_yield(body); }
 inline bool any_damped(const Body& body) {
   return std::any_of(body.laws.begin(), body.laws.end(), [](const ElementLaw& law) { return law.damped; });
 }

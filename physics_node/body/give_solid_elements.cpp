@@ -64,6 +64,11 @@ Failure failure_of(const MaterialSpec& material) {
   return {.ratio = material.break_ratio.value_or(0.0), .energy = material.fracture_energy.value_or(0.0)};
 }
 
+Yielding yielding_of(const MaterialSpec& material) {
+  if (!material.yield_ratio) return {};
+  return {.ratio = *material.yield_ratio, .hardening = material.k2_ratio};
+}
+
 /// Masks that know of cells, since these break as a whole.
 void mark_cell(Lattice& lattice, const Vec3i& lowest) {
   for (unsigned corner = 0; corner < 8; ++corner) {
@@ -94,10 +99,15 @@ void give_solid_elements(Body& body, const BodySpec& spec, const std::vector<Mat
       of_region, [](const MaterialSpec* material) { return material->break_ratio.has_value(); });
   if (body.lattice.has_cells)
     for (const MaterialSpec* material : of_region) solid.failures.push_back(failure_of(*material));
+  const bool yields = std::ranges::any_of(
+      of_region, [](const MaterialSpec* material) { return material->yield_ratio.has_value(); });
+  if (yields)
+    for (const MaterialSpec* material : of_region) solid.yields.push_back(yielding_of(*material));
   const auto n = static_cast<std::size_t>(body.capacity());
   solid.stiffness.assign(n, 0.0F);
   solid.mass.assign(n, 0.0);
-  if (body.lattice.has_cells) solid.failure_of.assign(n, 0);
+  const bool by_material = body.lattice.has_cells || yields;
+  if (by_material) solid.failure_of.assign(n, 0);
   solid.largest_stiffness = 0;
   const Cells& cells = *body.cells;
   const Vec3i corner = lattice_corner(cells, body.lattice);
@@ -110,11 +120,10 @@ void give_solid_elements(Body& body, const BodySpec& spec, const std::vector<Mat
         const Vec3i at = Vec3i(i, j, k) - corner;
         const auto region = map.of_cell({i, j, k});
         const MaterialSpec& material = *of_region[region];
-        if (body.lattice.has_cells) {
-          mark_cell(body.lattice, at);
+        if (body.lattice.has_cells) mark_cell(body.lattice, at);
+        if (by_material)
           solid.failure_of[static_cast<std::size_t>(body.lattice.cell_of(at))] =
               static_cast<std::uint8_t>(region);
-        }
         const double intensity =
             cells.intensity.empty() ? 0.0 : static_cast<double>(cells.intensity[cells.index(i, j, k)]);
         const double stiffness = modulus_at(material, intensity) / solid.modulus;

@@ -20,6 +20,12 @@ struct Failure {
   double energy = 0;  // that a crack takes, by its area at rest; 0: what the cell holds [J/m^2]
 };
 
+/// When cells of a material yield, and what becomes of them.
+struct Yielding {
+  double ratio = 0;      // stretch of a bar that yields; 0: never
+  double hardening = 0;  // slope of its stress over strain after that, over the slope before; below 1
+};
+
 /// Stiffness of a cell and the mass of a node are per cell, as the cells around a node may be of several materials.
 struct SolidElements {
   double modulus = 0;                  // Young's, of the body's own material, where it varies its least [Pa]
@@ -34,8 +40,9 @@ struct SolidElements {
   std::vector<double> mass;       // of each node, an eighth of each cell around it [kg]  (n_cells)
   double largest_stiffness = 1;   // over density / least density: what bounds the step
   std::vector<Failure> failures;  // of the body's own material and each region's; EMPTY: nothing breaks
+  std::vector<Yielding> yields;   // likewise; EMPTY: nothing yields
   std::vector<std::uint8_t>
-      failure_of;  // of a cell, as stiffness: an index of failures; EMPTY with them (n_cells)
+      failure_of;  // of a cell, as stiffness: an index of failures and of yields; EMPTY with both (n_cells)
 };
 
 }  // namespace palpate::physics

@@ -34,6 +34,8 @@ constexpr double fem_bytes = 52, fem_double_bytes = 92;
 constexpr double solved_bytes = 430, solved_double_bytes = 780;
 // Where cells break: what they have lost, twice more to go back to, their limits and fragments.
 constexpr double failing_bytes = 72, failing_double_bytes = 116;
+// Where they yield: what they have come to, twice more to go back to, and their limits; of those that have.
+constexpr double yielding_bytes = 236, yielding_double_bytes = 472;
 constexpr double plastic_bytes = 680, plastic_double_bytes = 1030;
 // A point or a stick feels what breaks open: two sites of 9 bytes a mass, and room for a facet.
 constexpr double felt_bytes = 42;
@@ -117,6 +119,9 @@ MemoryNeed image_need(const BodySpec& body, const VolumeShape& shape) {
 bool breaks(const std::string& material, const Scene& scene) {
   return scene.material(material).break_ratio.has_value();
 }
+bool yields(const std::string& material, const Scene& scene) {
+  return scene.material(material).yield_ratio.has_value();
+}
 
 /// What a person may write instead, so that a body takes `share` of what it does.
 std::string what_fits(const BodySpec& body, double share) {
@@ -131,8 +136,11 @@ std::string what_fits(const BodySpec& body, double share) {
 
 double bytes_of_masses(double masses, const BodySpec& body, const Scene& scene) {
   bool any_breaks = breaks(body.material, scene);
-  for (const RegionSpec& region : body.regions)
+  bool any_yields = yields(body.material, scene);
+  for (const RegionSpec& region : body.regions) {
     any_breaks = any_breaks || (!region.material.empty() && breaks(region.material, scene));
+    any_yields = any_yields || (!region.material.empty() && yields(region.material, scene));
+  }
   const bool doubled = scene.physics->precision == Precision::double_;
   const bool felt = std::any_of(scene.tools.begin(), scene.tools.end(), meets_facets);
   const bool of_cells = body.model == ElementModel::fem;
@@ -141,10 +149,11 @@ double bytes_of_masses(double masses, const BodySpec& body, const Scene& scene) 
   const double failing = !any_breaks || !of_cells
                              ? 0
                              : (doubled ? failing_double_bytes : failing_bytes) + (felt ? felt_bytes : 0.0);
+  const double yielding = !any_yields || !of_cells ? 0 : doubled ? yielding_double_bytes : yielding_bytes;
   const bool solved =
       body.model == ElementModel::fem && scene.physics->integrator == Integrator::backward_euler;
   const double solver = !solved ? 0 : doubled ? solved_double_bytes : solved_bytes;
-  return masses * (fem + solver + failing +
+  return masses * (fem + solver + failing + yielding +
                    (plastic ? (doubled ? plastic_double_bytes : plastic_bytes) + (felt ? felt_bytes : 0.0)
                             : (doubled ? elastic_double_bytes : elastic_bytes)));
 }

@@ -72,7 +72,7 @@ void Recorder::make_files(const World& world, const SceneSource& source) {
     hdf5_->make_series<double>(base + "/time", {1});
     hdf5_->make_series<float>(base + "/position", {rest.size() / 3, 3});
     hdf5_->make_series<std::uint8_t>(base + "/flags", {rest.size() / 3});
-    if (!any_breaks(moving.body())) continue;
+    if (!may_change_for_good(moving.body())) continue;
     hdf5_->make_series<std::uint8_t>(base + "/yielded", {rest.size() / 3});
     hdf5_->make_series<std::uint32_t>(base + "/live", {rest.size() / 3});
   }

@@ -29,7 +29,7 @@ Recorder::Recorder(const World& world, const SceneSource& source, const std::str
         const auto n = static_cast<std::size_t>(world.body(b).body().n_nodes());
         snapshot->position.emplace_back(3 * n);
         snapshot->flags.emplace_back(n);
-        const std::size_t n_yielding = any_breaks(world.body(b).body()) ? n : 0;
+        const std::size_t n_yielding = may_change_for_good(world.body(b).body()) ? n : 0;
         snapshot->yielded.emplace_back(n_yielding);
         snapshot->live.emplace_back(n_yielding);
       }

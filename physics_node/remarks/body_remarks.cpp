@@ -10,7 +10,7 @@
 #include "physics_node/material/lame.h"
 #include "physics_node/remarks/enclosure.h"
 #include "physics_node/remarks/remarks.h"
-#include "physics_node/step/fem/hex_tension.h"
+#include "physics_node/step/fem/hex_plastic.h"
 
 namespace palpate::physics {
 namespace {
@@ -141,7 +141,9 @@ void add_cracks(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
     for (std::size_t m = 0; m < most.size(); ++m) {
       const Failure& failure = solid.failures[m];
       if (failure.energy == 0 || most[m] == 0) continue;
-      const double held = most[m] * energy_at_limit(failure.ratio, lame.mu, lame.lambda);
+      const Yielding yielding = solid.yields.empty() ? Yielding{} : solid.yields[m];
+      const double elastic = elastic_stretch(failure.ratio, yielding, lame.mu, lame.lambda);
+      const double held = most[m] * energy_at_limit(elastic, lame.mu, lame.lambda);
       const double edge = body.lattice.step.maxCoeff();
       if (held * edge <= failure.energy) continue;
       remarks.push_back(fmt::format(

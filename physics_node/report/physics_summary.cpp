@@ -32,7 +32,7 @@ nlohmann::json body_part(const BodyModel& moving, const Fragments* fragments) {
                          {"shape_rms_m", counts.shape_rms},
                          {"sleeping_fraction", moving.sleeping_fraction()}};
   if (counts.least_corner_J) part["min_corner_J"] = *counts.least_corner_J;
-  if (any_breaks(moving.body()))
+  if (may_change_for_good(moving.body()))
     part["yielded_fraction"] = static_cast<double>(counts.yielded_masses) / n_masses;
   const OutcomeMeasures measures = measure_outcome(moving, fragments);
   part["outcome"] = name_of(classify(measures));

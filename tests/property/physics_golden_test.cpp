@@ -121,6 +121,7 @@ std::vector<Golden> all_worlds() {
        {SolidKind{"elastic", "", "physical", 0}, SolidKind{"isotropic", "", "isotropic", 0},
         SolidKind{"damped", "", "physical", 0.2},
         SolidKind{"relaxing", "relaxation = [[0.3, 0.01], [0.2, 1]]", "physical", 0},
+        SolidKind{"yields", "yield_ratio = 1.1\nk2_ratio = 0.3", "physical", 0.2},
         SolidKind{"breaks", "break_ratio = 1.15\nfracture_energy_J_per_m2 = 2", "physical", 0.2, true}})
     for (const char* precision : {"single", "double"})
       all.push_back({std::string("hexahedra_") + precision + "_" + kind.name,

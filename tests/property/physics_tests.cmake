@@ -10,6 +10,7 @@ palpate_test(NAME physics_laws_test KIND property
 palpate_test(NAME physics_elements_test KIND property SOURCES physics_elements_test.cpp physics_damper_test.cpp physics_tissue_laws_test.cpp
   LIBS palpate_physics_worlds palpate_bench_problems)
 palpate_test(NAME physics_failure_test KIND property SOURCES physics_failure_test.cpp LIBS palpate_physics_worlds)
+palpate_test(NAME physics_yield_test KIND property SOURCES physics_yield_test.cpp LIBS palpate_physics_worlds)
 # Finite elements against what is known: closed forms, and CalculiX where it is installed.
 palpate_test(NAME physics_solids_test KIND property SOURCES physics_calculix_test.cpp physics_solids_test.cpp physics_large_strain_test.cpp physics_presses_test.cpp
   LIBS palpate_physics_worlds palpate_bench_problems palpate_bench_solids)

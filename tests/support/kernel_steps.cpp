@@ -24,6 +24,8 @@ int step_hexahedra(Precision precision, const std::string& work, int steps) {
   kind.damped = work == "damped";
   kind.relaxing = work == "relaxing";
   kind.breaking = work == "breaking";
+  kind.yielding = work == "plastic";
+  kind.yielded = work == "yielding";
   kind.cells = 19;
   bench::HexCube cube = bench::make_hex_cube(kind);
   cube.step(steps, nullptr, 1);

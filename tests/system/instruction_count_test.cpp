@@ -34,7 +34,7 @@ std::vector<Kernel> kernels() {
     }
     all.push_back({isa, "hexahedra", "single", "undamped"});
     if (std::string(isa) == "sse2") continue;  // minutes, and the loops are the same
-    for (const char* work : {"damped", "relaxing", "isotropic", "breaking"})
+    for (const char* work : {"damped", "relaxing", "isotropic", "breaking", "plastic", "yielding"})
       all.push_back({isa, "hexahedra", "single", work});
   }
   return all;

@@ -53,6 +53,18 @@ TEST_F(ShippedScenes, StripOfFiniteElementsTearsInTwo) {
   EXPECT_GT(summary["energy"]["broken"].get<double>(), 1e-3);
 }
 
+TEST_F(ShippedScenes, ClayKeepsItsDent) {
+  const auto summary = simulate("fem_yield", "");
+  const auto &block = summary["bodies"]["block"], &ball = summary["bodies"]["ball"];
+  EXPECT_EQ(ball["outcome"], "crush");
+  EXPECT_GT(ball["yielded_fraction"].get<double>(), 0.5);
+  EXPECT_GT(block["yielded_fraction"].get<double>(), 0.1);
+  EXPECT_LT(block["yielded_fraction"].get<double>(), 0.5) << "only where it was pressed";
+  EXPECT_GT(block["shape_rms_m"].get<double>(), 0.1e-3);
+  for (const auto& body : {block, ball}) EXPECT_GT(body["min_corner_J"].get<double>(), 0.1);
+  EXPECT_GT(summary["energy"]["plastic"].get<double>(), 1e-3);
+}
+
 TEST_F(ShippedScenes, VesselPushedAsideReturns) {
   const auto summary = simulate("vessel_push", "");
   // Let go at 2 s; its length is 1 m.

@@ -7,6 +7,7 @@
 #include "physics_node/material/stable_neo_hookean.h"
 #include "physics_node/step/fem/hex_tension.h"
 #include "physics_node/step/lattice/hex_meter.h"
+#include "physics_node/step/lattice/hex_yield.h"
 
 namespace palpate::physics {
 namespace {
@@ -25,25 +26,14 @@ Mask cells_along(const Vec3i& direction) {
   return cells;
 }
 
-/// The storage cell of each cell around a mass, by octant.
-template <class Visit>
-void each_cell_around(const Body& body, Index node, Mask which, const Visit& visit) noexcept {
-  const Lattice& lattice = body.lattice;
-  const Vec3i at = lattice.grid_of(node);
-  for (unsigned octant = 0; octant < 8; ++octant) {
-    if ((which & cell_bit(octant)) == 0) continue;
-    const unsigned corner = 7 - octant;
-    visit(octant, lattice.cell_of(at - Vec3i(corner & 1, corner >> 1 & 1, corner >> 2)));
-  }
-}
-
 }  // namespace
 
 template <class Real>
 struct HexFailure<Real>::Cell {
-  Tensor<double> h;   // gradient of the displacement at its centre
-  double energy = 0;  // as if it were whole [J]
-  double middle = 0;  // the same in the middle of the step that led here [J]
+  Tensor<double> h;         // gradient of the displacement at its centre
+  Plastic<double> plastic;  // all zero where nothing yields
+  double energy = 0;        // as if it were whole [J]
+  double middle = 0;        // the same in the middle of the step that led here [J]
 };
 
 template <class Real>
@@ -56,9 +46,10 @@ HexFailure<Real>::HexFailure(const Body& body, const HexGrid& grid, std::size_t 
       found_(grid.runs.size(), Strained::far),
       torn_(grid.runs.size(), 0),
       kernel_(hex_strain_kernel_here<Real>()) {
-  for (const Failure& failure : body.solid->failures)
-    limits_.push_back(failure.ratio > 0 ? tension_limit(failure.ratio, k_.mu, k_.lambda)
-                                        : TensionLimit<double>{});
+  const SolidElements& solid = *body.solid;
+  for (std::size_t m = 0; m < solid.failures.size(); ++m)
+    limits_.push_back(break_limit(solid.failures[m].ratio,
+                                  solid.yields.empty() ? Yielding{} : solid.yields[m], k_.mu, k_.lambda));
   std::vector<Vec3i> half = half_directions(body.lattice.kind);
   for (std::size_t d = 0; d < half.size(); ++d) {
     sharing_[d] = cells_along(half[d]);
@@ -87,7 +78,8 @@ void HexFailure<Real>::follow(const LatticeState<Real>& state, ZeroedArray<Real>
       if (body_.solid->stiffness[c] <= 0) continue;
       const bool begun = state.failed.begun[c] > 0;
       stretch_[c] = begun ? Real(0) : static_cast<Real>(limit_of(cell).stretch);
-      tension_[c] = static_cast<Real>(limit_of(cell).tension);
+      // Of what has yielded tension is less than strain tells there: whoever is pulled at all is looked at.
+      tension_[c] = static_cast<Real>(any_cells_yield(body_) ? 0.0 : limit_of(cell).tension);
       stiffness[c] = static_cast<Real>(body_.solid->stiffness[c]) * (1 - state.failed.damage[c]);
       if (!begun) continue;
       torn_[r] = 1;
@@ -139,6 +131,8 @@ typename HexFailure<Real>::Cell HexFailure<Real>::look_at(const LatticeState<Rea
   else
     hex_forces<One, StableNeoHookean, false, true>(k_, w, out);
   Cell now;
+  now.plastic = plastic_of(state, cell);
+  if (any_cells_yield(body_)) add_plastic(k_, w, now.plastic, out);
   for (std::size_t i = 0; i < 3; ++i) {
     const Modes<double> mode = modes_of(w[i]);
     now.h[i] = {mode.x * k_.per_4h[0], mode.y * k_.per_4h[1], mode.z * k_.per_4h[2]};
@@ -152,14 +146,21 @@ typename HexFailure<Real>::Cell HexFailure<Real>::look_at(const LatticeState<Rea
   return now;
 }
 
+/// Is it stretched and in tension beyond this? Of what has yielded the two may be along different lines.
+template <class Real>
+bool HexFailure<Real>::is_pulled(const Cell& now, const TensionLimit<double>& limit) const noexcept {
+  const double of_volume = (k_.lambda + k_.mu) / k_.mu;
+  if (now.plastic[n_plastic - 1] > 0) return is_pulled_plastic(now.h, now.plastic, limit, of_volume);
+  return least_minor<One>(breaking_stretch<One>(limit, of_volume, now.h), stretching<One>(now.h)) <= 0;
+}
+
 /// Does this cell begin? Then by how much of its own energy it is outlived.
 template <class Real>
 void HexFailure<Real>::begin(LatticeState<Real>& state, Index cell, std::size_t run) noexcept {
   const auto c = static_cast<std::size_t>(cell);
   const Cell now = look_at(state, cell);
+  if (!is_pulled(now, limit_of(cell)) || !(now.energy > 0)) return;
   const Tensor<double> strain = stretching<One>(now.h);
-  const double B = breaking_stretch<One>(limit_of(cell), (k_.lambda + k_.mu) / k_.mu, now.h);
-  if (least_minor<One>(B, strain) > 0 || !(now.energy > 0)) return;
   Eigen::Matrix3d c_i;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) c_i(i, j) = strain[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
@@ -186,8 +187,7 @@ bool HexFailure<Real>::go_on(LatticeState<Real>& state, Index cell, ZeroedArray<
     const double e = std::sqrt(now.energy / static_cast<double>(state.failed.begun[c]));
     // Only what is pulled opens.
     const TensionLimit<double> pulled{.stretch = 0, .tension = limit_of(cell).tension};
-    const double B = breaking_stretch<One>(pulled, (k_.lambda + k_.mu) / k_.mu, now.h);
-    if (least_minor<One>(B, stretching<One>(now.h)) > 0 || e <= 1) return false;
+    if (!is_pulled(now, pulled) || e <= 1) return false;
     target = std::max(0.0, (r - e) / (e * (r - 1)));
   }
   if (target >= s) return false;
@@ -242,30 +242,7 @@ std::int64_t HexFailure<Real>::begin_step(LatticeState<Real>& state, const HexAc
   return gone;
 }
 
-template <class Real>
-double weakened_share(const Body& body, const LatticeState<Real>& state, Index node) noexcept {
-  int live = 0, weakened = 0;
-  each_cell_around(body, node, state.mask[static_cast<std::size_t>(node)], [&](unsigned, Index cell) {
-    ++live;
-    weakened += state.failed.damage[static_cast<std::size_t>(cell)] > 0 ? 1 : 0;
-  });
-  return live > 0 ? static_cast<double>(weakened) / live : 1.0;
-}
-
-template <class Real>
-bool is_weakened(const Body& body, const LatticeState<Real>& state, Index node) noexcept {
-  bool any = false;
-  each_cell_around(body, node, body.lattice.mask[static_cast<std::size_t>(node)], [&](unsigned, Index cell) {
-    any = any || state.failed.damage[static_cast<std::size_t>(cell)] > 0;
-  });
-  return any;
-}
-
 template class HexFailure<float>;
 template class HexFailure<double>;
-template double weakened_share(const Body&, const LatticeState<float>&, Index) noexcept;
-template double weakened_share(const Body&, const LatticeState<double>&, Index) noexcept;
-template bool is_weakened(const Body&, const LatticeState<float>&, Index) noexcept;
-template bool is_weakened(const Body&, const LatticeState<double>&, Index) noexcept;
 
 }  // namespace palpate::physics

@@ -56,6 +56,7 @@ class HexFailure {
   void take_away(LatticeState<Real>& state, Index cell) noexcept;
   Cell look_at(const LatticeState<Real>& state, Index cell) const noexcept;
   TensionLimit<double> limit_of(Index cell) const noexcept;
+  bool is_pulled(const Cell& now, const TensionLimit<double>& limit) const noexcept;
 
   const Body& body_;
   const HexGrid& grid_;
@@ -70,12 +71,5 @@ class HexFailure {
   std::uint64_t replacements_ = 0;  // of the state, when last followed
   HexStrainKernel<Real> kernel_;
 };
-
-/// How many of the cells around a mass have lost stiffness, [0, 1]; of a mass without any, 1. Of a body whose cells break.
-template <class Real>
-double weakened_share(const Body& body, const LatticeState<Real>& state, Index node) noexcept;
-/// Has any of them, gone ones too?
-template <class Real>
-bool is_weakened(const Body& body, const LatticeState<Real>& state, Index node) noexcept;
 
 }  // namespace palpate::physics

@@ -2,6 +2,7 @@
 
 #include "physics_node/material/st_venant_kirchhoff.h"
 #include "physics_node/material/stable_neo_hookean.h"
+#include "physics_node/step/lattice/hex_yield.h"
 
 namespace palpate::physics {
 
@@ -53,6 +54,7 @@ class HexCellMeter {
     } else {
       lasting<StableNeoHookean>(w, damping, now);
     }
+    if (any_cells_yield(body_)) add_plastic(k_, w, plastic_of(state_, corner[0]), now.forces);
     return now;
   }
 

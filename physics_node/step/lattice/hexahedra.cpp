@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "physics_node/step/lattice/hex_marks.h"
 #include "physics_node/step/lattice/hex_meter.h"
 
 namespace palpate::physics {
@@ -47,6 +48,10 @@ Hexahedra<Real>::Hexahedra(const Body& body)
     failure_ = std::make_unique<HexFailure<Real>>(body, grid_, colour);
     colour += 2;
   }
+  if (any_cells_yield(body)) {
+    yield_ = std::make_unique<HexYield<Real>>(body, grid_, colour);
+    colour += HexYield<Real>::n_colours;
+  }
   if (solid.beta == 0) return;
   for (auto* three : {&rate_low_, &rate_high_, &rate_seen_})
     for (auto& axis : *three) axis = ZeroedArray<Real>(n, colour++);
@@ -72,6 +77,7 @@ StepOutcome Hexahedra<Real>::step(const Body& body, LatticeState<Real>& state,
                                   const ExplicitStep& step) noexcept {
   follow_rows(body, state);
   const std::int64_t broken = failure_ ? failure_->begin_step(state, acting_, step, stiffness_) : 0;
+  if (yield_) yield_->begin_step(state, acting_, step, stiffness_, high_);
   HexContext<Real> m = {};
   ElementContext<Real>& masses = m.masses;
   masses.rows = body.lattice.rows.data();
@@ -136,6 +142,8 @@ StepOutcome Hexahedra<Real>::step(const Body& body, LatticeState<Real>& state,
   } else {
     for (const HexLayer& layer : layers) forces(layer), move(layer);
   }
+  if (yield_) yield_->stiffen(acting_, stiffest_);
+  if (yield_ && step.watch) yield_->watch(state);
   state.dt_before = step.dt;
   double stiffest = 0;
   for (const HexLayer& layer : layers)
@@ -190,8 +198,8 @@ BodyCounts Hexahedra<Real>::counts(const Body& body, const LatticeState<Real>& s
   for (const HexRun& run : grid_.runs)
     for (Index i = run.first; i < run.first + run.count; ++i)
       counts.elements += body.solid->stiffness[static_cast<std::size_t>(i)] > 0 ? 1 : 0;
-  if (failure_)
-    for (const Index node : body.nodes()) counts.yielded_masses += is_weakened(body, state, node) ? 1 : 0;
+  if (may_change_for_good(body))
+    for (const Index node : body.nodes()) counts.yielded_masses += is_marked(body, state, node) ? 1 : 0;
   for_each_cell(body, grid_, state, [&](double, const std::array<Index, 8>& corner, std::size_t) {
     ++counts.live_elements;
     Eigen::Matrix3d f = Eigen::Matrix3d::Identity();

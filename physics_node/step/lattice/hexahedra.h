@@ -8,12 +8,13 @@
 #include "physics_node/step/lattice/hex_failure.h"
 #include "physics_node/step/lattice/hex_grid.h"
 #include "physics_node/step/lattice/hex_kernel.h"
+#include "physics_node/step/lattice/hex_yield.h"
 #include "physics_node/step/lattice/lattice_elements.h"
 
 namespace palpate::physics {
 
 /// A step is one sweep upwards, or as many as there are slabs: see HexSlab. Symplectic Euler, and its energy is that of
-/// the leapfrog: see element_step.h. Cells break: hex_failure.h.
+/// the leapfrog: see element_step.h. Cells break and yield: hex_failure.h, hex_yield.h.
 /// Cost: bench/fem.
 template <class Real>
 class Hexahedra final : public LatticeElements<Real> {
@@ -43,6 +44,7 @@ class Hexahedra final : public LatticeElements<Real> {
   std::vector<double> lost_before_, lost_after_;  // by run: see HexContext; only where it relaxes [J]
   std::vector<double> passed_;                    // by row [J]
   std::unique_ptr<HexFailure<Real>> failure_;     // only where a material breaks
+  std::unique_ptr<HexYield<Real>> yield_;         // only where one yields
   Three<Real> rate_low_, rate_high_, rate_seen_;  // by node: the same; only where it is damped [N]  (n_cells)
   bool rate_known_ = false;                       // the last step was exact
   HexKernel<Real> kernel_, exact_kernel_;

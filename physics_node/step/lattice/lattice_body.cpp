@@ -5,6 +5,7 @@
 
 #include "common/math/state_hash.h"
 #include "physics_node/step/lattice/bounce.h"
+#include "physics_node/step/lattice/hex_marks.h"
 #include "physics_node/step/lattice/hexahedra.h"
 #include "physics_node/step/lattice/implicit_step.h"
 #include "physics_node/step/lattice/measure.h"
@@ -204,16 +205,16 @@ class LatticeBody final : public BodyModel, private PendingStep {
   std::int64_t breaks() const noexcept override { return state_.breaks; }
   void conditions(std::span<const Index> cells, std::span<Condition> out) const noexcept override {
     const bool yields = any_yields(body_);
-    const bool cells_break = body_.solid && any_breaks(body_);
+    const bool cells_change = body_.solid && may_change_for_good(body_);
     for (std::size_t n = 0; n < cells.size(); ++n) {
       const Index cell = cells[n];
       out[n] = {};
       if (adjacency().has_lost(cell)) out[n].flags |= mass_broken;
       if (yields && has_yielded(body_, state_, cell)) out[n].flags |= mass_yielded;
       if (yields) out[n].yielded_share = yielded_share(body_, state_, cell);
-      if (!cells_break) continue;
-      if (is_weakened(body_, state_, cell)) out[n].flags |= mass_yielded;
-      out[n].yielded_share = weakened_share(body_, state_, cell);
+      if (!cells_change) continue;
+      if (is_marked(body_, state_, cell)) out[n].flags |= mass_yielded;
+      out[n].yielded_share = marked_share(body_, state_, cell);
     }
   }
 
@@ -249,6 +250,8 @@ class LatticeBody final : public BodyModel, private PendingStep {
         seed = hash_state(&array[first], count * sizeof(Real), seed);
       for (const auto* array : {&state_.failed.damage, &state_.failed.begun, &state_.failed.ductility})
         if (array->size() > 0) seed = hash_state(&(*array)[first], count * sizeof(Real), seed);
+      for (const auto& array : state_.plastic.memory)
+        seed = hash_state(&array[first], count * sizeof(Real), seed);
       if (!any_yields(body_)) continue;
       for (std::size_t d = 0; d < static_cast<std::size_t>(body_.lattice.n_half); ++d) {
         seed = hash_state(&state_.l_c[d][first], count * sizeof(Real), seed);

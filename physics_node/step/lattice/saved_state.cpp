@@ -28,6 +28,8 @@ SavedState<Real>::SavedState(const Body& body, const LatticeState<Real>& state) 
   for (auto& axis : u_) axis = ZeroedArray<Real>(n);
   remembered_.resize(state.remembered.size());
   for (auto& array : remembered_) array = ZeroedArray<Real>(n);
+  plastic_.memory.resize(state.plastic.memory.size());
+  for (auto& array : plastic_.memory) array = ZeroedArray<Real>(n);
   if (!any_breaks(body)) return;
   mask_ = ZeroedArray<Mask>(n);
   if (body.solid)
@@ -49,6 +51,11 @@ void SavedState<Real>::take(const Body& body, const LatticeState<Real>& state) n
     breaks_ = state.breaks;
     copy_rows(body, state.mask, mask_);
     each_array(state.failed, failed_, [&body](const auto& from, auto& to) { copy_rows(body, from, to); });
+  }
+  if (plastic_.changes != state.plastic.changes) {
+    plastic_.changes = state.plastic.changes;
+    for (std::size_t m = 0; m < plastic_.memory.size(); ++m)
+      copy_rows(body, state.plastic.memory[m], plastic_.memory[m]);
   }
   if (!any_yields(body)) return;
   std::int64_t yields = 0;
@@ -82,6 +89,9 @@ void SavedState<Real>::bring_back(const Body& body, LatticeState<Real>& state) c
   state.breaks = breaks_;
   ++state.replacements;
   state.fresh.replace_all();
+  for (std::size_t m = 0; m < plastic_.memory.size(); ++m)
+    copy_rows(body, plastic_.memory[m], state.plastic.memory[m]);
+  ++state.plastic.changes;
   if (!any_breaks(body)) return;
   copy_rows(body, mask_, state.mask);
   if (body.solid) {

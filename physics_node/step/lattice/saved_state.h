@@ -23,6 +23,7 @@ class SavedState {
   std::vector<ZeroedArray<Real>> remembered_;
   ZeroedArray<Mask> mask_;
   FailedCells<Real> failed_;
+  YieldedCells<Real> plastic_;
   std::vector<RowLedger> ledger_;
   std::int64_t yields_ = -1;  // how often elements had yielded when the memory was last copied
   std::int64_t breaks_ = 0;

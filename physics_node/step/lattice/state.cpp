@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "physics_node/step/fem/hex_plastic.h"
 #include "physics_node/step/fem/hex_relaxation.h"
 #include "physics_node/step/lattice/element_slots.h"
 
@@ -30,6 +31,8 @@ LatticeState<Real>::LatticeState(const Body& body) {
   if (!body.solid && !body.law_of.empty()) varied = make_varied_constants<Real>(body, colour);
   if (body.solid) remembered.resize(n_remembered * body.solid->relaxation.size());
   for (auto& array : remembered) array = ZeroedArray<Real>(n, colour++);
+  if (any_cells_yield(body)) plastic.memory.resize(n_plastic);
+  for (auto& array : plastic.memory) array = ZeroedArray<Real>(n, colour++);
   row_state.resize(body.lattice.rows.size());
   ledger.resize(body.lattice.rows.size());
   if (body.solid && any_breaks(body)) {
@@ -56,6 +59,8 @@ void LatticeState<Real>::reset(const Body& body) {
     for (auto& array : remembered) array[c] = 0;
     if (failed.begun.size() > 0 && failed.begun[c] != 0)
       failed.begun[c] = failed.damage[c] = failed.ductility[c] = 0;
+    if (!plastic.memory.empty() && plastic.memory.back()[c] != 0)
+      for (auto& array : plastic.memory) array[c] = 0;
     for (std::size_t h = 0; yields && h < static_cast<std::size_t>(body.lattice.n_half); ++h) {
       if (l_c[h][c] != 0) l_c[h][c] = 0;  // only what was written: untouched pages stay free
       if (hardening[h][c] != 0) hardening[h][c] = 0;
@@ -64,7 +69,7 @@ void LatticeState<Real>::reset(const Body& body) {
   forget_last_step();
   breaks = 0;
   ++replacements;
-  ++failed.changes;
+  ++failed.changes, ++plastic.changes;
   fresh.replace_all();
   std::fill(row_state.begin(), row_state.end(), RowState::awake);
   ++row_changes;

@@ -39,6 +39,13 @@ struct FailedCells {
   std::uint64_t changes = 0;    // how often any of them was another one
 };
 
+/// What cells have yielded, by their lowest corner: see step/fem/hex_plastic.h.
+template <class Real>
+struct YieldedCells {
+  std::vector<ZeroedArray<Real>> memory;  // by entry of Plastic; EMPTY: nothing yields     (n_cells)
+  std::uint64_t changes = 0;              // how often any of them was another one
+};
+
 template <class Real>
 struct LatticeState {
   Three<Real> u, v;           // displacement from rest [m], velocity [m/s]               (n_cells)
@@ -56,6 +63,7 @@ struct LatticeState {
   std::vector<ZeroedArray<Real>>
       remembered;            // of each cell, by term and entry of Remembered; only where it relaxes (n_cells)
   FailedCells<Real> failed;  // only where cells break
+  YieldedCells<Real> plastic;      // only where cells yield
   std::uint64_t replacements = 0;  // how often the state was set from outside
 
   std::array<SlotList<Real>, max_row_kinds> all, level, up;  // constant: see ElementContext

@@ -49,12 +49,13 @@ TEST(Stress, OfElementsComesInAllKindsToo) {
     kinds.insert(material.relaxation.empty() ? "lasting" : "relaxing");
     kinds.insert(material.viscosity_bulk ? "damped" : "undamped");
     kinds.insert(material.break_ratio ? "breaks" : "holds");
+    kinds.insert(material.yield_ratio ? "yields" : "elastic");
     kinds.insert(stress.scene.bodies[0].hourglass == HourglassKind::physical ? "physical" : "isotropic");
     const physics::World world(stress.scene);
     for (std::size_t b = 0; b < world.n_bodies(); ++b)
       EXPECT_TRUE(world.body(b).body().solid) << describe(stress);
   }
-  EXPECT_EQ(kinds.size(), 2u + 2u + 2u + 2u + 2u + 2u) << fmt::format("{}", kinds);
+  EXPECT_EQ(kinds.size(), 2u + 2u + 2u + 2u + 2u + 2u + 2u) << fmt::format("{}", kinds);
 }
 
 TEST(Stress, ResultsSurviveTheirFile) {

@@ -111,6 +111,9 @@ std::vector<SceneTable> all_tables() {
                  "density_kg_per_m3 = 1\nmodulus_kPa = 10\nbreak_ratio = 2\nfracture_energy_J_per_m2 = 1\n",
                  rest + "lattice = \"voxel\"\nmodel = \"fem\"\n"});
   all.push_back({heading, "", "[material.m]\n",
+                 "density_kg_per_m3 = 1\nmodulus_kPa = 10\nyield_ratio = 1.1\nk2_ratio = 0.5\n",
+                 rest + "lattice = \"voxel\"\nmodel = \"fem\"\n"});
+  all.push_back({heading, "", "[material.m]\n",
                  "mass_g = 1\nk1_N_per_m = 1\nyield_ratio = 1.1\nbreak_ratio = 3\n", rest});
   for (auto& one : all) {
     if (one.heading == "[[tool]]" && one.of == "body")

@@ -351,7 +351,23 @@ TEST(Elements, RefuseWhatTheyCannotFollow) {
   EXPECT_THAT(about(elements("density_kg_per_m3 = 1000\nk1_N_per_m = 10")),
               ElementsAre(HasSubstr("[material.m] has no modulus_kPa")));
   EXPECT_THAT(about(elements(tissue + "yield_ratio = 1.1\nbreak_ratio = 1.2")),
-              ElementsAre(HasSubstr("yields, which only springs do so far")));
+              ElementsAre(HasSubstr("yields with k2_ratio = 1, which changes nothing")));
+  const std::string plastic = tissue + "yield_ratio = 1.1\nk2_ratio = 0.1\n", clay = elements(plastic);
+  EXPECT_THAT(about(clay), ElementsAre());
+  EXPECT_THAT(about(elements(plastic + "break_ratio = 1.2")), ElementsAre());
+  EXPECT_THAT(about(elements(plastic + "break_ratio = 1.05")),
+              ElementsAre(HasSubstr("write a number above yield_ratio")));
+  EXPECT_THAT(about(elements(plastic + "law = \"green\"")),
+              ElementsAre(HasSubstr("yields beside law = \"green\"")));
+  EXPECT_THAT(about(elements(plastic + "relaxation = [[0.3, 1]]")),
+              ElementsAre(HasSubstr("yields and relaxes")));
+  EXPECT_THAT(about(clay + "hourglass = \"isotropic\"\n"),
+              ElementsAre(HasSubstr("[material.m] yields; write \"physical\"")));
+  EXPECT_THAT(about(clay + "start = \"balanced\"\nfixed = [\"-z\"]\n"),
+              ElementsAre(HasSubstr("[material.m] yields; the balance is found of what does not")));
+  EXPECT_THAT(about(clay + "border_cells = \"filled\"\n"), ElementsAre());
+  EXPECT_THAT(about(clay + "[physics]\nintegrator = \"backward_euler\"\n"),
+              ElementsAre(HasSubstr("yields, which \"backward_euler\" does not follow")));
   EXPECT_THAT(about(elements(tissue + "break_ratio = 1.2\nlaw = \"green\"")),
               ElementsAre(HasSubstr("breaks beside law = \"green\"")));
   EXPECT_THAT(about(elements(tissue + "break_ratio = 1.2\nrelaxation = [[0.3, 1]]")),
