@@ -11,7 +11,6 @@ namespace {
 constexpr int most_iterations = 40;
 constexpr int sweeps_together = 8;
 constexpr double precise = 1e-4;  // to which ends are where they should be [of L]
-constexpr double let_out = 0.1;   // of what begins too near, in a step
 constexpr double farther = 0.25;  // pairs are looked for [of L]
 
 /// Numbers of a body are less than 2^24, bodies fewer than 2^8.
@@ -42,7 +41,7 @@ void JointContact::add(Row row, double distance, double h, double reach) noexcep
     return;
   }
   row.gap = distance - h;
-  row.least = std::min(0.0, (1 - let_out) * row.gap);
+  row.least = std::min(0.0, row.gap + near_enough_);
   const auto same = std::lower_bound(last_.begin(), last_.end(), row.key,
                                      [](const Remembered& one, std::uint64_t key) { return one.key < key; });
   if (same != last_.end() && same->key == row.key) row.l = same->l;
