@@ -313,6 +313,36 @@ TEST(ImplicitContact, ABlockRestsOnABlock) {
   }
 }
 
+// What begins nearer to another body than they touch at is not thrown: it stays where it is.
+TEST(ImplicitContact, BodiesThatBeginNearEachOtherStay) {
+  for (const Kind& kind : {solid, voxel_springs}) {
+    Recipe recipe = stack(kind, implicitly(1000), "swept");
+    recipe.gravity = "[0, 0, 0]";
+    recipe.world.replace(recipe.world.find("[0, 0, 44]"), 10, "[0, 0, 42]");  // 2 mm apart, of 2.9 mm
+    World world(scene_of(recipe));
+    run_for(world, 0.1);
+    EXPECT_EQ(world.report().restored, 0) << kind.name;
+    EXPECT_FALSE(world.has_stopped()) << kind.name;
+    EXPECT_LT(world.ledger().kinetic, 1e-12) << kind.name;
+    EXPECT_NEAR(stacked(world).upper, 0, 1e-6) << kind.name;
+  }
+}
+
+// What has fallen onto the floor lies there, though it hovers by a rounding: every step finds the floor, and is solved.
+TEST(ImplicitContact, WhatHasFallenIsHeldInEveryStep) {
+  Recipe recipe = block(solid, implicitly(100));
+  recipe.precision = "single";
+  recipe.spacing_mm = 2.5;
+  recipe.shape = Recipe::box(20, 20, 20);
+  recipe.material = "density_kg_per_m3 = 1000\nmodulus_kPa = 10\npoisson_ratio = 0.45";
+  recipe.body = "model = \"fem\"\nat_mm = [0, 0, 12]";
+  recipe.world = floor_at(0);
+  World world(scene_of(recipe));
+  run_for(world, 2);
+  EXPECT_EQ(world.report().unsolved, 0);
+  EXPECT_NEAR(world.body(0).momentum_balance().missing.linear.z(), 0, 1e-3 * g * mass_of(world.body(0)) * 2);
+}
+
 // Two blocks that meet in flight: momentum is kept, and neither runs into the other.
 TEST(ImplicitContact, BlocksThatCollideKeepTheirMomentum) {
   for (const Kind& kind : {solid, voxel_springs}) {

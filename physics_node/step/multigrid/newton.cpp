@@ -13,6 +13,7 @@ constexpr double armijo = 1e-4;
 // Why: the last digit of a node is felt by its neighbours, too; a swinging bar of 1 MPa stayed at 3 to 4.
 constexpr double digits_felt = 6;
 constexpr double lies_on = 1e-6;  // a plane, if it is nearer [of a cell]
+constexpr double hovers = 1e-3;   // over a plane that it is driven into, if it is nearer [of a cell]
 constexpr double deep = 0.25;     // where D would begin within a plane [of a cell]; then it begins at rest
 
 }  // namespace
@@ -70,6 +71,31 @@ void Newton<Real>::find_reaction(std::size_t node, std::span<const Plane> planes
     reaction[a][node] = static_cast<Real>(-taken[static_cast<Eigen::Index>(a)]);
     if (by != 0) b[a][node] += reaction[a][node];
   }
+}
+
+template <class Real>
+bool Newton<Real>::land(const Crew& crew, std::span<const Plane> planes) noexcept {
+  if (planes.empty()) return false;
+  const LevelContext<Real> m = hierarchy_.fine().context();
+  const Three<Real>& b = gradients_.b;
+  fine().each_plane(crew, [&](Index p) {
+    const GridPlane& plane = fine().planes()[static_cast<std::size_t>(p)];
+    double landed = 0;
+    for (Index i = plane.first; i < plane.last; ++i) {
+      const auto n = static_cast<std::size_t>(i);
+      if (!(m.free[i] > 0) || beyond_[n] != 0) continue;
+      const Vec3 x = rest(n) + vector_of(u, i), pressed = vector_of(b, i);
+      for (const Plane& wall : planes) {
+        const double room = std::max(0.0, wall.n.dot(x) - wall.height) + wall.n.dot(vector_of(D, i));
+        if (room <= lies_on * edge_ || room > hovers * edge_ || wall.n.dot(pressed) >= 0) continue;
+        for (std::size_t a = 0; a < 3; ++a)
+          D[a][n] -= static_cast<Real>(room * wall.n[static_cast<Eigen::Index>(a)]);
+        landed = 1;
+      }
+    }
+    by_plane_[static_cast<std::size_t>(p)] = landed;
+  });
+  return *std::max_element(by_plane_.begin(), by_plane_.end()) > 0;
 }
 
 template <class Real>
@@ -175,6 +201,10 @@ NewtonReport Newton<Real>::solve(const Crew& crew, const NewtonTask& task) noexc
   begin(crew, task);
   NewtonReport report;
   double phi = look(crew, task, report);
+  if (land(crew, task.planes)) {
+    keep_out_of(crew, task.planes);
+    phi = look(crew, task, report);
+  }
   const LevelContext<Real> m = hierarchy_.fine().context();
   const double outside = std::sqrt(sum(crew, [&](std::size_t i) {
     double square = 0;

@@ -34,7 +34,7 @@ struct NewtonReport {
 /// until Phi falls (Armijo), or the residual does, or half of its part along the step is gone (Matthies & Strang 1979).
 /// No node passes a plane: D is projected out of them, and what lies on a plane and is pressed into it is solved for in the other
 /// directions only, while the plane takes the part of -g that presses (Bertsekas 1982: projected Newton). The planes that hold a node
-/// are found anew in every iteration, from the sign of what they would take.
+/// are found anew in every iteration, from the sign of what they would take; what begins within a thousandth of a cell counts as lying there.
 /// Cost: bench/fem. Contract: allocates and throws nothing after construction; the same bits on any number of threads.
 template <class Real>
 class Newton {
@@ -84,6 +84,9 @@ class Newton {
   double rounding(const Crew& crew) noexcept;
   /// Moves D out of the planes. @return how far at most [m]
   double keep_out_of(const Crew& crew, std::span<const Plane> planes) noexcept;
+  /// Sets on the planes what hovers over them and is driven into them. Why: unheld it would be solved for as if it were to fall, and the
+  /// line search, which soon meets the plane, gives up. @return whether any did
+  bool land(const Crew& crew, std::span<const Plane> planes) noexcept;
   /// Takes from the right side of a node what planes hold, and notes it.
   void find_reaction(std::size_t node, std::span<const Plane> planes) noexcept;
   void begin(const Crew& crew, const NewtonTask& task) noexcept;
