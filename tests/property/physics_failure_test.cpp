@@ -151,6 +151,26 @@ TEST(Failure, TakesTheFractureEnergyByAreaWhateverTheCell) {
   }
 }
 
+/// A layer that is peeled off by the weight of all behind it, at the step that the body takes by itself: a front of cells that tear
+/// within a few steps each.
+TEST(Failure, TakesItsShareWhereItRunsFast) {
+  Recipe recipe = solid_box(40, 10, 60, 2.5);
+  recipe.body += R"(
+fixed = ["-x"]
+regions = [{ material = "weak", box_min_mm = [0, -9, -40], box_max_mm = [2.49, 9, 40] }]
+[[body.cavity]]
+box_min_mm = [0, -9, -40]
+box_max_mm = [2.49, 9, -20])";
+  recipe.material = "density_kg_per_m3 = 2000\nmodulus_kPa = 10\npoisson_ratio = 0.45\nviscosity_Pa_s = 1";
+  recipe.world =
+      "[material.weak]\n" + recipe.material + "\nbreak_ratio = 1.3\nfracture_energy_J_per_m2 = 2\n";
+  recipe.gravity = "[30, 0, 0]";
+  World world(scene_of(recipe));
+  run(world, 0.3);
+  EXPECT_EQ(world.body(0).breaks(), 80);
+  EXPECT_NEAR(world.ledger().broken / 500e-6, 2.0, 0.1 * 2.0);
+}
+
 /// The limit: without a fracture energy, or with too little of it, a crack takes what its cells hold.
 TEST(Failure, TakesWhatItsCellsHoldWhereThatIsMore) {
   double by_area[2];

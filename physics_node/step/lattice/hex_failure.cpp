@@ -191,7 +191,7 @@ bool HexFailure<Real>::go_on(LatticeState<Real>& state, Index cell, ZeroedArray<
     target = std::max(0.0, (r - e) / (e * (r - 1)));
   }
   if (target >= s) return false;
-  const Real damage = static_cast<Real>(1 - std::max(target, s - 1 / break_ramp));
+  const Real damage = static_cast<Real>(1 - target);
   const double lost = static_cast<double>(damage) - (1 - s);
   state.failed.damage[c] = damage;
   ++state.failed.changes;

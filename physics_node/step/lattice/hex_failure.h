@@ -12,8 +12,8 @@
 // whatever the path: so a crack takes the fracture energy G_c by its area, and not by the size of cells. A = V / sum |N_i| h_i is the
 // share of a cell in a crack across N, the direction of the largest stretch at rest.
 // Limit: r <= 1, where a cell holds more at its limit than the crack may take, or no G_c is given: then it takes what the cell holds.
-// Large cells of brittle tissue do: edge > G_c / (energy of tissue at its limit by volume).
-// Nothing jumps: s falls by at most 1 / ramp in a step.
+// Large cells of brittle tissue do: edge > G_c / (energy of tissue at its limit by volume). s is then 0 at once.
+// Why no ramp over some steps: a cell that lags behind its law is pulled on at full strength, and took up to three times its share.
 //
 // Books. The step from one force to the next conserves K + sW but for what s falls, times W in the middle of the step:
 //   W_mid = W + 1/2 dt sum of f . v, f at its end: exact where forces go with displacements. See element_step.h.
@@ -27,9 +27,6 @@
 #include "physics_node/step/lattice/state.h"
 
 namespace palpate::physics {
-
-/// s may not jump: that would be a blow to all around. In steps. Why: FINITE_ELEMENTS E.5 asks for five at least.
-inline constexpr double break_ramp = 8;
 
 template <class Real>
 class HexFailure {
