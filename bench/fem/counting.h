@@ -23,6 +23,7 @@ struct CountingPack {
   using Number = double;
   static V all(double) noexcept { return {}; }
   static V fma(V, V, V) noexcept { return counted += 2, V{}; }
+  static V fnma(V, V, V) noexcept { return counted += 2, V{}; }
   static bool any_above_zero(V) noexcept { return false; }
 };
 

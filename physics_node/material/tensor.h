@@ -16,6 +16,7 @@ struct Scalar {
   using Number = Real;
   static V all(Real value) noexcept { return value; }
   static V fma(V a, V b, V c) noexcept { return a * b + c; }
+  static V fnma(V a, V b, V c) noexcept { return c - a * b; }
   static bool any_above_zero(V v) noexcept { return v > 0; }
 };
 

@@ -18,12 +18,13 @@
 namespace palpate::physics {
 
 /// The damper of a cell whose corners move, for hex_centre_forces.
-template <class P, class Real>
+/// @tparam Moves  Corners<P>, or what gives one component of them after the other as these do
+template <class P, class Real, class Moves = Corners<P>>
 struct Damping {
   using T = typename P::V;
   static constexpr bool any = true, fades = false;
-  Real beta = 0;          // [s]
-  const Corners<P>* v{};  // of the corners [m/s]
+  Real beta = 0;     // [s]
+  const Moves* v{};  // of the corners [m/s]
   /// Of the bound of the tangent, for each |F|^2 above that at rest, see hex_damper_weight() [Pa].
   Real weight = 0;
   T power{};  // Q [W]
@@ -111,12 +112,12 @@ inline double hex_damper_weight(double at_rest, double beta, double omega) {
 }
 
 /// A cell with a memory and a damper.
-template <class P, class Real>
+template <class P, class Real, class Moves = Corners<P>>
 struct RelaxingAndDamped {
   using T = typename P::V;
   static constexpr bool any = true, fades = true;
   Relaxing<P, Real> relaxing;
-  Damping<P, Real> damping;
+  Damping<P, Real, Moves> damping;
 
   Real law_share() const noexcept { return relaxing.law_share(); }
   T stiffness(T of_law, const HexConstants<Real>& k, const Tensor<T>& h) const noexcept {

@@ -34,12 +34,12 @@ struct Lasting {
 };
 
 /// All but what corners do that are about to fold.
-/// @param w  displacements of the corners [m]
+/// @param w  displacements of the corners, as Corners<P> or what gives one component after the other as these do [m]
 /// @param Law  of the material/ folder, with P
 /// @param memory  what else pulls; where it fades, of physical cells only
-template <class P, template <class> class Law, bool physical, bool with_energy, class Real, class Memory,
-          class T = typename P::V>
-inline __attribute__((always_inline)) void hex_centre_forces(const HexConstants<Real>& k, const Corners<P>& w,
+template <class P, template <class> class Law, bool physical, bool with_energy, class Real, class Moved,
+          class Memory, class T = typename P::V>
+inline __attribute__((always_inline)) void hex_centre_forces(const HexConstants<Real>& k, const Moved& w,
                                                              HexForces<P>& out, Memory& memory) noexcept {
   static_assert(physical || !Memory::fades);
   constexpr bool bends = physical || Memory::any;

@@ -108,13 +108,13 @@ inline __attribute__((always_inline)) void spread(const HexConstants<Real>& k, T
         sum = P::fma(
             mode.xy[i], g.xy[j],
             P::fma(mode.xz[i], g.xz[j], P::fma(mode.yz[i], g.yz[j], P::fma(mode.xyz[i], g.xyz[j], sum))));
-      of_strain[j] = -(sum * P::all(k.per_4h[j]));
+      of_strain[j] = sum * P::all(-k.per_4h[j]);
     }
     const auto back = [&](const std::array<T, 3>& g_m, T m_i) {
-      T sum = every * m_i;
+      T sum = -every * m_i;
       if constexpr (bends)
-        for (std::size_t j = 0; j < 3; ++j) sum = P::fma(f[i][j], g_m[j], sum);
-      return -sum;
+        for (std::size_t j = 0; j < 3; ++j) sum = P::fnma(f[i][j], g_m[j], sum);
+      return sum;
     };
     force.x = of_strain[0], force.y = of_strain[1], force.z = of_strain[2];
     force.xy = back(g.xy, mode.xy[i]), force.xz = back(g.xz, mode.xz[i]);

@@ -40,28 +40,48 @@ struct LostByTerms {
   V before{}, after{};
 };
 
-template <class Real>
-Damping<Pack<Real>, Real> damping_of(const HexContext<Real>& m, const Corners<Pack<Real>>& v) {
+/// What the corners of some cells have, loaded one component after the other: all three at once would not fit into the registers.
+template <class Real, bool torn, class P = Pack<Real>, class V = typename P::V>
+struct CornersAt {
+  const Real* const* of;  // by component
+  const Index* at;        // of the corners, from the cell on
+  Index i;
+  V stiffness;
+
+  inline __attribute__((always_inline)) std::array<V, 8> operator[](std::size_t c) const {
+    std::array<V, 8> w;
+    for (std::size_t a = 0; a < 8; ++a) {
+      w[a] = P::load(of[c] + i + at[a]);
+      // Corners of what is gone may be anywhere; no strain of theirs may become infinite.
+      if constexpr (torn) w[a] = P::where(stiffness > V{}, w[a]);
+    }
+    return w;
+  }
+  Corners<P> all() const { return {(*this)[0], (*this)[1], (*this)[2]}; }
+};
+
+template <class Real, class Moves>
+Damping<Pack<Real>, Real, Moves> damping_of(const HexContext<Real>& m, const Moves& v) {
   return {.beta = m.beta, .v = &v, .weight = m.damper_weight};
 }
 
-/// Forces and energy of some cells; with a memory that moves on. @param v  velocities of the corners; only damped
+/// Forces and energy of some cells; with a memory that moves on. @param w  displacements of the corners; @param v  velocities
 /// @param of_rate  the damper's part; only exact
 template <class Real, template <class> class Law, bool physical, bool damped, bool with_energy, bool exact,
-          class Here, class P = Pack<Real>, class V = typename P::V>
-inline __attribute__((always_inline)) void cell_forces(const HexContext<Real>& m, const Corners<P>& w,
-                                                       const Corners<P>& v, Here& here, HexForces<P>& out,
+          class Here, class Moved, class P = Pack<Real>, class V = typename P::V>
+inline __attribute__((always_inline)) void cell_forces(const HexContext<Real>& m, const Moved& w,
+                                                       const Moved& v, Here& here, HexForces<P>& out,
                                                        Corners<P>& of_rate, LostByTerms<V>& lost, V& power) {
   if constexpr (std::is_same_v<Here, NothingRemembered> && !damped) {
     Lasting lasting;
     hex_centre_forces<P, Law, physical, with_energy>(m.k, w, out, lasting);
   } else if constexpr (std::is_same_v<Here, NothingRemembered>) {
-    Damping<P, Real> damping = damping_of(m, v);
+    Damping<P, Real, Moved> damping = damping_of(m, v);
     hex_centre_forces<P, Law, physical, with_energy>(m.k, w, out, damping);
     power = damping.power;
     if constexpr (exact) damping.forces(m.k, of_rate);
   } else if constexpr (damped) {
-    RelaxingAndDamped<P, Real> both{{{m.terms, m.n_terms}, here.terms}, damping_of(m, v)};
+    RelaxingAndDamped<P, Real, Moved> both{{{m.terms, m.n_terms}, here.terms}, damping_of(m, v)};
     hex_centre_forces<P, Law, physical, with_energy>(m.k, w, out, both);
     lost = {both.relaxing.lost_before, both.relaxing.lost_after};
     power = both.damping.power;
@@ -88,9 +108,9 @@ __attribute__((noinline)) void hold_corners(const HexContext<Real>& m, const Cor
   out.energy = corner.energy;
 }
 
-/// Forces of the cells of a run.
+/// Forces of the cells of a run. @tparam torn  some have lost stiffness
 template <class Real, template <class> class Law, bool physical, bool damped, bool relaxing, bool exact,
-          bool watched>
+          bool watched, bool torn>
 void run_forces(const HexContext<Real>& m, std::size_t r) {
   using P = Pack<Real>;
   using V = typename P::V;
@@ -100,33 +120,18 @@ void run_forces(const HexContext<Real>& m, std::size_t r) {
   for (Index a = 0; a < 8; ++a) at[a] = (a & 1) * run.right + (a >> 1 & 1) * m.up_y + (a >> 2) * m.up_z;
   V elastic{}, power{}, stiffest{}, lost_before{}, lost_after{};
   V least = P::all(1);  // of J - 1
-  const bool torn = m.torn != nullptr && m.torn[r] != 0;
   // Whole packs only: cells beyond the run's end have no stiffness.
   for (Index i = run.first; i < run.first + run.count; i += P::width) {
-    Corners<P> w;
-    [[maybe_unused]] Corners<P> v;
-    for (std::size_t c = 0; c < 3; ++c)
-      for (std::size_t a = 0; a < 8; ++a) {
-        w[c][a] = P::load(m.masses.u[c] + i + at[a]);
-        if constexpr (damped) v[c][a] = P::load(m.masses.v[c] + i + at[a]);
-      }
     const V stiffness = P::load(m.stiffness + i);
-    V whole = P::all(1);
-    if (torn) {
-      whole = whole - P::load(m.damage + i);
-      // Corners of what is gone may be anywhere; no strain of theirs may become infinite.
-      for (std::size_t c = 0; c < 3; ++c)
-        for (std::size_t a = 0; a < 8; ++a) {
-          w[c][a] = P::where(stiffness > V{}, w[c][a]);
-          if constexpr (damped) v[c][a] = P::where(stiffness > V{}, v[c][a]);
-        }
-    }
+    [[maybe_unused]] V whole = P::all(1);
+    if constexpr (torn) whole = whole - P::load(m.damage + i);
+    const CornersAt<Real, torn> w{m.masses.u, at, i, stiffness}, v{m.masses.v, at, i, stiffness};
     Here here;
     if constexpr (relaxing) here.load(m, i);
     HexForces<P> out;
+    [[maybe_unused]] Corners<P> of_rate;
     LostByTerms<V> lost;
     V taken{};
-    [[maybe_unused]] Corners<P> of_rate;
     cell_forces<Real, Law, physical, damped, watched, exact>(m, w, v, here, out, of_rate, lost, taken);
     if constexpr (damped) power = P::fma(stiffness, taken, power);
     if constexpr (relaxing) {
@@ -147,24 +152,20 @@ void run_forces(const HexContext<Real>& m, std::size_t r) {
         }
     // Lanes without a cell see the corners of others: what strain that makes is nobody's.
     if (__builtin_expect(P::any_above_zero(stiffness > V{} ? out.fold : V{}), false)) {
-      for (std::size_t c = 0; c < 3; ++c)
-        for (std::size_t a = 0; a < 8; ++a) {
-          w[c][a] = P::load(m.masses.u[c] + i + at[a]);
-          if (torn) w[c][a] = P::where(stiffness > V{}, w[c][a]);
-        }
       HexForces<P> more;
       more.stiffness = out.stiffness;
-      hold_corners(m, w, i, at, stiffness, more);
+      hold_corners(m, w.all(), i, at, stiffness, more);
       out.stiffness = more.stiffness;
       if constexpr (watched) out.energy += more.energy;
     }
-    if (torn) out.stiffness = whole * out.stiffness;
+    if constexpr (torn) out.stiffness = whole * out.stiffness;
     stiffest = P::larger(stiffest, stiffness > V{} ? out.stiffness : V{});
     if constexpr (watched) elastic = P::fma(stiffness, out.energy, elastic);
     if constexpr (watched) {
-      const V change = least_corner_change<P>(m.k, w);
-      // What tears may fold: its corners part.
-      const V counted = torn ? (whole < P::all(1) ? V{} : stiffness) : stiffness;
+      const V change = least_corner_change<P>(m.k, w.all());
+      V counted = stiffness;
+      if constexpr (torn)
+        counted = whole < P::all(1) ? V{} : stiffness;  // what tears may fold: its corners part
       least = counted > V{} && change < least ? change : least;
     }
   }
@@ -189,8 +190,15 @@ template <class Real, template <class> class Law, bool physical, bool damped, bo
 void forces(const HexContext<Real>& m, Index first_run, Index last_run) {
   for (auto r = static_cast<std::size_t>(first_run); r < static_cast<std::size_t>(last_run); ++r) {
     if (m.acts != nullptr && m.acts[r] == 0) continue;
-    m.masses.watch ? run_forces<Real, Law, physical, damped, relaxing, exact, true>(m, r)
-                   : run_forces<Real, Law, physical, damped, relaxing, exact, false>(m, r);
+    // Only bodies of this law tear, and such that do not relax.
+    if constexpr (!relaxing && std::is_same_v<Law<Pack<Real>>, StableNeoHookean<Pack<Real>>>)
+      if (m.torn != nullptr && m.torn[r] != 0) {
+        m.masses.watch ? run_forces<Real, Law, physical, damped, relaxing, exact, true, true>(m, r)
+                       : run_forces<Real, Law, physical, damped, relaxing, exact, false, true>(m, r);
+        continue;
+      }
+    m.masses.watch ? run_forces<Real, Law, physical, damped, relaxing, exact, true, false>(m, r)
+                   : run_forces<Real, Law, physical, damped, relaxing, exact, false, false>(m, r);
   }
 }
 
