@@ -180,6 +180,7 @@ void Collisions::give_impulses(double dt) noexcept {
 void Collisions::restart() noexcept {
   for (auto& body : bodies_) body.restart();
   if (joint_contact_) joint_contact_->restart();
+  if (swept_contact_) swept_contact_->restart();
   std::fill(apart_.begin(), apart_.end(), 0.0);
   std::fill(stays_near_.begin(), stays_near_.end(), 0);
   for (std::size_t b = 0; b < bodies_.size(); ++b) impulses_.take(static_cast<std::uint32_t>(b));

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "physics_node/collision/facet_now.h"
+#include "physics_node/collision/shadowed.h"
 #include "physics_node/step/rebound.h"
 
 namespace palpate::physics {
@@ -96,8 +97,10 @@ void SweptContact::look_at(const std::vector<ContactBody>& bodies, NearPair& pai
 std::int64_t SweptContact::push_apart(const std::vector<ContactBody>& bodies, double e, double dt,
                                       ContactImpulses& impulses, double& lost) noexcept {
   std::int64_t collisions = 0;
-  for (const Active& a : active_) {
-    if (a.W == 0) continue;
+  for (std::size_t q = 0; q < active_.size(); ++q) {
+    const std::size_t n = backwards_ ? active_.size() - 1 - q : q;
+    Active& a = active_[n];
+    if (a.W == 0 || a.shadow == Shadow::in_it) continue;
     const auto closing = [&](auto&& velocity) {
       Vec3 v = velocity(a.end[0]);
       for (int i = 0; i < 3; ++i) v -= a.weight[i] * velocity(a.end[static_cast<std::size_t>(i) + 1]);
@@ -107,6 +110,10 @@ std::int64_t SweptContact::push_apart(const std::vector<ContactBody>& bodies, do
     if (v_n >= 0) continue;
     const double v_move_n = closing([&](PairEnd at) { return impulses.v_move(bodies, at); });
     if (a.distance + dt * v_move_n >= a.h) continue;
+    if (a.shadow == Shadow::unknown) {  // asked only of those that would push
+      a.shadow = is_shadowed(std::span<const Active>(active_), n) ? Shadow::in_it : Shadow::none;
+      if (a.shadow == Shadow::in_it) continue;
+    }
     const double J = rebound(e, v_n, v_move_n) / a.W;
     impulses.push(bodies, a.end[0], J * a.n);
     for (int i = 0; i < 3; ++i)
@@ -176,6 +183,7 @@ void SweptContact::move_zones_together(const std::vector<ContactBody>& bodies,
 SweptReport SweptContact::step(const std::vector<ContactBody>& bodies, std::span<Link> links, double e,
                                double dt, ContactImpulses& impulses) noexcept {
   SweptReport report;
+  backwards_ = !backwards_;
   overflows_ = 0;
   // Twice: what a heavy mass hits leaves at twice its speed.
   for (std::size_t b = 0; b < bodies.size(); ++b) speed_[b] = 2 * bodies[b].speed();

@@ -20,8 +20,9 @@ struct SweptReport {
 /// For each pair, with q the point of the facet nearest to mass p, weights w_k, d = |p - q|, n = (p - q) / d:
 ///   h = (edge + L) / (2 sqrt 3);  v_n = n . (v_p - sum w_k v_k);  W = 1/m_p + sum w_k^2 / m_k
 ///   d + dt v_n < h and v_n < 0:   J = rebound(e, v_n) / W on p, -w_k J on the corners
-/// over all pairs in order, until none approaches or eight times. The force acts along the line between the two points, so
-/// momentum and angular momentum are kept.
+/// over all pairs in order, until none approaches or eight times; in every other step in the opposite order, since the first of those that
+/// share a mass takes most. Where another facet of the same surface is nearer to p and holds q, J = 0 (collision/shadowed.h). The force
+/// acts along the line between the two points, so momentum and angular momentum are kept.
 ///
 /// Then every pair is followed along the step (comes_nearer). Where a mass would still come nearer than a tenth of what it was,
 /// the four masses are made to move together, with what they touch, at the velocity of their common momentum: they keep their
@@ -33,14 +34,17 @@ class SweptContact {
   explicit SweptContact(const std::vector<ContactBody>& bodies, std::size_t most_pairs);
   SweptReport step(const std::vector<ContactBody>& bodies, std::span<Link> links, double e, double dt,
                    ContactImpulses& impulses) noexcept;
+  void restart() noexcept { backwards_ = false; }
 
  private:
+  enum class Shadow : std::uint8_t { unknown, none, in_it };  // is_shadowed
   struct Active {
     std::array<PairEnd, 4> end{};  // the mass, then the corners
     Vec3 weight = Vec3::Zero();
     Vec3 n = Vec3::UnitZ();
     double distance = 0, h = 0;
     double W = 0;
+    Shadow shadow = Shadow::unknown;
     bool together = false;  // in a zone: keeps its distance from now on
   };
   void find_active(const std::vector<ContactBody>& bodies, std::span<Link> links, double dt) noexcept;
@@ -58,6 +62,7 @@ class SweptContact {
   std::vector<std::uint32_t> first_;
   std::vector<double> speed_;  // by body: pairs are looked for as if no mass were faster [m/s]
   std::vector<Active> active_;
+  bool backwards_ = false;  // goes over the pairs in the last step
   std::int64_t overflows_ = 0;
   std::vector<std::uint32_t> parent_;  // of each candidate, in zones; itself where it is in none
   std::vector<PairEnd> zoned_;         // candidates in zones

@@ -28,6 +28,7 @@ palpate_test(NAME physics_resting_test KIND property SOURCES physics_resting_tes
 # What becomes of two bodies that meet.
 palpate_test(NAME physics_collide_test KIND property SOURCES physics_collide_test.cpp LIBS palpate_physics_worlds)
 target_compile_definitions(physics_collide_test PRIVATE SCENES="${PROJECT_SOURCE_DIR}/scenes")
+palpate_test(NAME physics_symmetry_test KIND property SOURCES physics_symmetry_test.cpp LIBS palpate_physics_worlds)
 # Nothing tunnels.
 palpate_test(NAME physics_stick_faces_test KIND property SOURCES physics_stick_faces_test.cpp LIBS palpate_physics_worlds)
 palpate_test(NAME physics_tunnelling_test KIND property SOURCES physics_tunnelling_test.cpp
