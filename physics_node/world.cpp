@@ -149,15 +149,6 @@ void World::follow_breaks() noexcept {
   if (collisions_) collisions_->follow_breaks();
 }
 
-void World::gather() noexcept {
-  for (auto& forces : gathered_) forces.clear();
-  for (const PressingTool* tool : toolbox_.pressing)
-    if (!tool->forces().empty()) {
-      auto& to = gathered_[tool->touched_body()];
-      to.insert(to.end(), tool->forces().begin(), tool->forces().end());
-    }
-}
-
 void World::take(const StepOutcome& outcome) noexcept {
   report_.broken += outcome.broken;
   stiffening_ = std::max(stiffening_, outcome.stiffening);
@@ -221,26 +212,19 @@ void World::touch(double dt, double done) noexcept {
       report_.contact_lost += body->bounce_off(plane, scene_.contact->restitution, dt).lost;
 }
 
-/// Of the forces of tools that press, where no step has solved for them. [W]
-double World::tools_power() const noexcept {
-  double sum = 0;
-  if (is_implicit()) return sum;
-  for (const PressingTool* tool : toolbox_.pressing)
-    if (!tool->forces().empty()) sum += bodies_[tool->touched_body()]->power(tool->forces());
-  return sum;
-}
-
 void World::step(double dt, double done, bool watch) noexcept {
   if (may_be_struck())
     for (auto& body : bodies_) body->remember_velocities();
   if (!is_implicit())
     for (LedTool* tool : toolbox_.led) tool->begin_step();
-  const double power = tools_power();
+  for (PressingTool* tool : toolbox_.pressing) tool->begin_step();
+  double power = tools_power(false);
   move_bodies(dt, watch);
   follow_breaks();
   if (watch) watched_ = Booked(report_);
+  power += press(dt);
   touch(dt, done);
-  if (power + tools_power() != 0) book_work(0.5 * dt * (power + tools_power()));
+  if (power += tools_power(true); power != 0) book_work(0.5 * dt * power);
   ++report_.steps;
 }
 
@@ -300,11 +284,6 @@ void World::take_tools(std::span<const std::optional<ToolState>> tools) noexcept
     const bool fresh = n < tools.size() && tools[n].has_value();
     toolbox_.tools[n]->take(fresh ? &*tools[n] : nullptr, frame_dt_);
   }
-}
-
-bool World::is_pressed() const noexcept {
-  return std::any_of(toolbox_.pressing.begin(), toolbox_.pressing.end(),
-                     [](const PressingTool* tool) { return !tool->forces().empty(); });
 }
 
 void World::find_contacts() noexcept {

@@ -18,6 +18,7 @@ namespace palpate {
 namespace {
 
 const std::vector<std::string> tool_shapes = {"point", "stick", "knife", "needle"};
+const std::vector<std::string> point_contacts = {"nodes", "faces"};  // in the order of PointContact
 const std::vector<std::string> force_models = {word_of(ForceModel::norton), word_of(ForceModel::tangent),
                                                word_of(ForceModel::raw_planes), word_of(ForceModel::direct)};
 
@@ -147,6 +148,8 @@ ToolSpec read_tool(TableReader& reader, ReadContext& context) {
   } else {
     set_if(spec.radius, reader.read_length_mm("radius_mm"));
     set_if(spec.friction, reader.read_number("friction", {.lo = 0, .hi = 2}));
+    if (const auto contact = reader.read_word("contact", point_contacts))
+      spec.contact = static_cast<PointContact>(*contact);
   }
   read_force_model(reader, spec);
   set_if(spec.torque_limit, reader.read_number("torque_limit_N_m", positive));

@@ -15,6 +15,9 @@ namespace palpate {
 /// hand holds.
 enum class ToolShape { point, stick, body };
 
+/// How a point presses: by the masses under it, as in the papers, or as a rigid sphere on sampled faces.
+enum class PointContact { nodes, faces };
+
 struct ToolSpec {
   std::string name;
   ToolShape shape = ToolShape::point;
@@ -22,11 +25,12 @@ struct ToolSpec {
   std::string device;             // name of a [device.NAME]
   Vec3 set_point = Vec3::Zero();  // moments are about this point [m]
   double low_pass_Hz = 20;        // of the force and moment that a body reports
-  double radius = 0.003;          // of the tip: its force fades out over twice that [m]
-  double stiffness = 400;         // of the contact spring between hand and proxy [N/m]
-  double damping = 1.0;           // [N s/m]
-  double friction = 0;            // Coulomb's coefficient between tip and surface
-  double torque_limit = 0.1;      // [N m]
+  double radius = 0.003;  // of the tip; of PointContact::nodes, its force fades out over twice that [m]
+  std::optional<PointContact> contact;  // of a point; absent: faces on finite elements, else nodes
+  double stiffness = 400;               // of the contact spring between hand and proxy [N/m]
+  double damping = 1.0;                 // [N s/m]
+  double friction = 0;                  // Coulomb's coefficient between tip and surface
+  double torque_limit = 0.1;            // [N m]
   /// Of the hand between two answers of physics, as the scene has it; who goes by it asks force_model.h.
   std::optional<ForceModel> force_model;
   double length = 0.1;  // from tip to end [m]; only ToolShape::stick

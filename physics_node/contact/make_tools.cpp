@@ -12,8 +12,12 @@ namespace {
 
 void add_point(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
                const std::vector<TouchableBody>& touchable, Toolbox& box) {
-  const bool solved = scene.physics->integrator == Integrator::backward_euler;
-  auto point = std::make_unique<PointTool>(scene.tools[n], n, touchable, solved);
+  const ToolSpec& spec = scene.tools[n];
+  if (spec.contact == PointContact::faces && scene.physics->integrator == Integrator::backward_euler)
+    throw InputError(spec.place.text() +
+                     ": contact = \"faces\" presses step by step, which \"backward_euler\" does not; write "
+                     "contact = \"nodes\", or integrator = \"symplectic_euler\" or \"velocity_verlet\"");
+  auto point = std::make_unique<PointTool>(spec, n, touchable, scene.physics->integrator);
   box.pressing.push_back(point.get());
   box.tools.push_back(std::move(point));
   for (const auto& body : bodies) body->prepare_for(Disturbance::forces);

@@ -13,20 +13,32 @@ namespace {
 
 constexpr double force_cutoff_Hz = 5.0;    // of the hand's force on its way into the tissue
 constexpr double negligible_force = 1e-6;  // [N]; below this the tissue is let go
+constexpr double all_moves = 0.999;        // of a force, borne by masses: hardly any scenery under the tip
+
+/// Finite elements have a surface, whose faces bear; a spring's masses are all that there is of it, as the papers have them.
+bool presses_faces(const ToolSpec& tool, const Body& body, Integrator integrator) {
+  if (integrator == Integrator::backward_euler) return false;
+  return tool.contact.value_or(body.solid ? PointContact::faces : PointContact::nodes) == PointContact::faces;
+}
 
 }  // namespace
 
 PointTool::PointTool(const ToolSpec& tool, std::uint32_t index, const std::vector<TouchableBody>& bodies,
-                     bool solved)
+                     Integrator integrator)
     : PressingTool(index, tool.set_point),
       model_(force_model_of(tool)),
       stiffness_(tool.stiffness),
-      solved_(solved) {
+      integrator_(integrator) {
   contacts_.reserve(bodies.size());
   for (const auto& body : bodies) {
     contacts_.emplace_back(*body.surface, *body.moving, tool.radius);
     moving_.push_back(body.moving);
+    faces_.emplace_back();
+    if (presses_faces(tool, body.moving->body(), integrator))
+      faces_.back().emplace(*body.surface, *body.moving, RigidShape::sphere(tool.radius));
   }
+  candidates_.reserve(FacePress::most_facets);
+  pressed_shares_.reserve(most_forces);
   forces_.reserve(most_forces);
 }
 
@@ -36,6 +48,10 @@ void PointTool::reset() noexcept {
   raw_force_.setZero();
   acted_.setZero();
   forces_.clear();
+  for (auto& faces : faces_)
+    if (faces) faces->release();
+  pressed_shares_.clear();
+  depth_ = 0;
   K_o_ = {};
   compliance_ = 0;
 }
@@ -94,6 +110,7 @@ void PointTool::find_contact(double t) noexcept {
   if (!seen_) return;
   if (model_ == ForceModel::direct) compute_force(t);
   double least = std::numeric_limits<double>::infinity();
+  const std::size_t before = touched_;
   for (std::size_t b = 0; b < contacts_.size(); ++b) {
     contacts_[b].look(proxy_, t);
     const double distance = contacts_[b].nearest_distance(proxy_);
@@ -103,21 +120,68 @@ void PointTool::find_contact(double t) noexcept {
 
   ToolContact& contact = contacts_[touched_];
   contact.find_shares(proxy_);
-  for (const MassShare& share : contact.shares()) {
+  if (touched_ != before) {
+    if (faces_[before]) faces_[before]->release();
+    pressed_shares_.clear();
+  }
+  if (pressed_by_faces()) find_faces();
+  for (const MassShare& share : shares()) {
     moving_share_ += share.share;
     plane_velocity_ += share.share * moving_[touched_]->velocity(share.cell);
     indentation_ += share.share * moving_[touched_]->displacement(share.cell);
     if (!force_.isZero()) forces_.push_back({share.cell, -share.share * force_});
   }
+  if (pressed_by_faces() && !pressed_shares_.empty() && moving_share_ > all_moves &&
+      remembers_rest(moving_[touched_]->body()))
+    indentation_ = -depth_ * pose_.normal();
   follow_stiffness();
   find_compliance();
 }
 
+std::span<const MassShare> PointTool::shares() const noexcept {
+  if (!pressed_shares_.empty()) return pressed_shares_;
+  return contacts_[touched_].shares();
+}
+
+void PointTool::find_faces() noexcept {
+  ToolContact& contact = contacts_[touched_];
+  FacePress& faces = *faces_[touched_];
+  if (force_.isZero()) faces.release(), pressed_shares_.clear();
+  const LocalPlane plane = contact.plane_under(proxy_);
+  if (!plane.found) return;
+  const bool at_rest = remembers_rest(moving_[touched_]->body()) && !plane.rest_normal.isZero();
+  pose_ = pose_along(proxy_, at_rest ? plane.rest_normal : plane.normal);
+  depth_ = pressed_shares_.empty() ? 0 : faces.depth() + (plane.rest - proxy_).dot(pose_.normal());
+  if (force_.isZero()) return;
+  candidates_.clear();
+  contact.facets_within(proxy_, faces.reach(), candidates_);
+  faces.list(pose_, candidates_);
+}
+
+void PointTool::begin_step() noexcept {
+  if (pressed_by_faces() && !force_.isZero())
+    faces_[touched_]->note_velocities(integrator_ == Integrator::velocity_verlet);
+}
+
+double PointTool::press(double dt) noexcept {
+  FacePress& faces = *faces_[touched_];
+  const double pressing = force_.dot(pose_.normal());
+  forces_.clear();
+  pressed_shares_.clear();
+  if (force_.isZero() || !faces.press(pose_, pressing, dt)) return 0;
+  faces.spread(-force_);
+  for (const NodalForce& nodal : faces.forces()) {
+    forces_.push_back(nodal);
+    pressed_shares_.push_back({nodal.cell, -nodal.force.dot(force_) / force_.squaredNorm()});
+  }
+  return faces.power_before();
+}
+
 void PointTool::find_compliance() noexcept {
   compliance_ = 0;
-  if (!solved_ || moving_share_ <= 0) return;
+  if (integrator_ != Integrator::backward_euler || moving_share_ <= 0) return;
   double w = 0;  // [1/kg]
-  for (const MassShare& share : contacts_[touched_].shares())
+  for (const MassShare& share : shares())
     w += share.share * share.share *
          moving_[touched_]->body().inverse_mass[static_cast<std::size_t>(share.cell)];
   const double square = moving_share_ * moving_share_;

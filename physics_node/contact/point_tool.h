@@ -13,6 +13,7 @@
 // Source: HAPTICS recipe; Astley & Hayward 1998 (Norton equivalents), Mendoza & Laugier 2001 (facets for the hand).
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,7 @@
 #include "common/message/messages.h"
 #include "common/scene/kinds.h"
 #include "common/scene/scene_fwd.h"
+#include "physics_node/contact/face_press.h"
 #include "physics_node/contact/pressing_tool.h"
 #include "physics_node/contact/secant_stiffness.h"
 #include "physics_node/contact/tool_contact.h"
@@ -35,9 +37,8 @@ class PointTool final : public PressingTool {
  public:
   static constexpr std::size_t most_forces = 16384;
 
-  /// @param solved  the tissue's steps are as long as a frame, however soft it is: backward_euler
   PointTool(const ToolSpec& tool, std::uint32_t index, const std::vector<TouchableBody>& bodies,
-            bool solved = false);
+            Integrator integrator = Integrator::symplectic_euler);
 
   /// Takes the newest state of the hand, or none where nothing fresh has come: then the force dies away.
   /// @param dt  of the frame [s]
@@ -49,6 +50,12 @@ class PointTool final : public PressingTool {
 
   std::span<const NodalForce> forces() const noexcept override { return forces_; }
   std::size_t touched_body() const noexcept override { return touched_; }
+
+  bool follows_steps() const noexcept override { return pressed_by_faces(); }
+  void begin_step() noexcept override;
+  double press(double dt) noexcept override;
+  /// Of the sphere below the surface at rest, where it presses on faces; else 0 [m].
+  double depth() const noexcept { return depth_; }
 
   void write_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) noexcept override;
   /// For the record: the hand feels planes.
@@ -73,9 +80,19 @@ class PointTool final : public PressingTool {
   void compute_force(double t) noexcept;
   void find_compliance() noexcept;
 
+  bool pressed_by_faces() const noexcept { return touched_ < faces_.size() && faces_[touched_].has_value(); }
+  /// The sphere over the point where the hand's proxy is.
+  void find_faces() noexcept;
+  std::span<const MassShare> shares() const noexcept;
+
   ForceModel model_;
-  double stiffness_;                   // of the hand's spring, K [N/m]
-  std::vector<ToolContact> contacts_;  // with each body
+  double stiffness_;                             // of the hand's spring, K [N/m]
+  std::vector<ToolContact> contacts_;            // with each body
+  std::vector<std::optional<FacePress>> faces_;  // the same, where it presses on faces
+  std::vector<std::uint32_t> candidates_;        // facets near it
+  std::vector<MassShare> pressed_shares_;        // of the last step; EMPTY: pressed by no face
+  ShapePose pose_;
+  double depth_ = 0;
   std::vector<const NodeMotion*> moving_;
   bool seen_ = false;
   bool engaged_ = false;
@@ -89,7 +106,7 @@ class PointTool final : public PressingTool {
   Vec3 indentation_ = Vec3::Zero();  // mean displacement of the masses under the tip [m]
   SecantStiffness K_o_;              // of the tissue under the tip, if it moved throughout
   double frame_dt_ = 0;
-  bool solved_;            // see the constructor
+  Integrator integrator_;
   double compliance_ = 0;  // C of the masses under the tip; 0 where steps are short [m/N]
   Vec3 plane_velocity_ = Vec3::Zero();
   std::vector<NodalForce> forces_;

@@ -13,6 +13,15 @@ class PressingTool : public Tool {
   virtual std::span<const NodalForce> forces() const noexcept = 0;
   virtual std::size_t touched_body() const noexcept = 0;  // meaningful while forces() is not empty
 
+  /// Are forces() found in every step anew, from where its elements have moved the masses (explicit integrators), rather than known
+  /// before the frame?
+  virtual bool follows_steps() const noexcept = 0;
+  /// Of one that does: before a step.
+  virtual void begin_step() noexcept = 0;
+  /// Of one that does: finds forces(), which act in the step of dt whose elements have just moved the masses.
+  /// @return their power with the velocities of begin_step() [W]
+  virtual double press(double dt) noexcept = 0;
+
  protected:
   using Tool::Tool;
 };

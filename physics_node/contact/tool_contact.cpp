@@ -95,6 +95,13 @@ double ToolContact::nearest_distance(const Vec3& p) const noexcept {
   return facet == nullptr ? std::numeric_limits<double>::infinity() : (facet->centroid - p).norm();
 }
 
+void ToolContact::facets_within(const Vec3& p, double radius,
+                                std::vector<std::uint32_t>& out) const noexcept {
+  for (const Facet& facet : facets_)
+    if ((facet.centroid - p).squaredNorm() <= radius * radius && out.size() < out.capacity())
+      out.push_back(facet.id);
+}
+
 double ToolContact::weight(const Facet& facet, const Vec3& q, const Vec3& facing) const noexcept {
   const double r2 = (facet.centroid - q).squaredNorm() / (radius_ * radius_);
   if (r2 >= 1) return 0;

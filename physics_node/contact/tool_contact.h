@@ -47,6 +47,8 @@ class ToolContact {
   /// Distance from p to the nearest facet's centroid; infinite where none is near [m].
   double nearest_distance(const Vec3& p) const noexcept;
   double reach() const { return radius_; }  // R [m]
+  /// Appends the facets of the last look whose centroid lies within `radius` of p, up to the room that `out` has.
+  void facets_within(const Vec3& p, double radius, std::vector<std::uint32_t>& out) const noexcept;
 
   /// Writes the facets nearest to p, each with its own plane, nearest first.
   /// @param at_rest  the planes' points and normals at rest instead of now

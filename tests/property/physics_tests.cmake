@@ -14,6 +14,8 @@ palpate_test(NAME physics_yield_test KIND property SOURCES physics_yield_test.cp
 # Finite elements against what is known: closed forms, and CalculiX where it is installed.
 palpate_test(NAME physics_solids_test KIND property SOURCES physics_calculix_test.cpp physics_solids_test.cpp physics_large_strain_test.cpp physics_presses_test.cpp
   LIBS palpate_physics_worlds palpate_bench_problems palpate_bench_solids)
+# A rigid tip on the faces of a body: Hertz, and the laws.
+palpate_test(NAME physics_touch_test KIND property SOURCES physics_touch_test.cpp LIBS palpate_physics_worlds palpate_bench_solids)
 # The reference problems of palpate bench, held to the figures that the docs promise.
 palpate_test(NAME physics_closed_forms_test KIND property SOURCES physics_closed_forms_test.cpp
   LIBS palpate_bench_problems)

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "common/error/error.h"
 #include "common/message/vec3.h"
 #include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
@@ -106,6 +107,19 @@ TEST(PointTool, TellsForceAndMomentAboutTheSetPoint) {
   EXPECT_NEAR(wrench.moment[0], 0.02, 1e-6);   // y F_z
   EXPECT_NEAR(wrench.moment[1], -0.01, 1e-6);  // - x F_z
   EXPECT_GT(wrench.n_contacts, 0u);
+}
+
+TEST(PointTool, PressesNoFacesWithBackwardEuler) {
+  Recipe recipe = pressed_slab_recipe();
+  recipe.world.insert(recipe.world.find("device"), "contact = \"faces\"\n");
+  World presses(scene_of(recipe));
+  recipe.physics = "integrator = \"backward_euler\"";
+  try {
+    World world(scene_of(recipe));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("contact = \"nodes\""), std::string::npos) << error.what();
+  }
 }
 
 TEST(PointTool, IsFreeBeforeTheHandIsSeen) {

@@ -1,0 +1,181 @@
+#include "physics_node/contact/face_press.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace palpate::physics {
+namespace {
+
+constexpr double stiffness_in_cells =
+    100;  // k h / E. Why: p / k is then below 1 % of the depth; see docs/benchmarks.md
+constexpr double samples_in_size =
+    10;  // Why: with 24 forces differ by 1 % at most, and cost five times as much
+constexpr int fewest_a_side = 2, most_a_side = 8;
+constexpr double far = std::numeric_limits<double>::infinity();
+
+double stiffest(const Body& body) {
+  double modulus = body.law.modulus;
+  for (const ElementLaw& law : body.laws) modulus = std::max(modulus, law.modulus);
+  return modulus;
+}
+
+}  // namespace
+
+ShapePose pose_along(const Vec3& tip, const Vec3& normal) noexcept {
+  ShapePose pose;
+  pose.tip = tip;
+  const Vec3 other = std::abs(normal.x()) < 0.7 ? Vec3::UnitX() : Vec3::UnitY();
+  pose.axes.col(2) = normal;
+  pose.axes.col(0) = (other - other.dot(normal) * normal).normalized();
+  pose.axes.col(1) = normal.cross(pose.axes.col(0));
+  return pose;
+}
+
+FacePress::FacePress(const Boundary& surface, const NodeMotion& moving, const RigidShape& shape)
+    : surface_(surface),
+      moving_(moving),
+      shape_(shape),
+      k_(stiffness_in_cells * stiffest(moving.body()) / moving.body().spacing()),
+      margin_(0.1 * std::min(moving.body().spacing(), shape.size())) {
+  faces_.reserve(most_facets);
+  nodes_.reserve(4 * most_facets);
+  order_.reserve(4 * most_facets);
+  samples_.reserve(most_samples);
+  forces_.reserve(4 * most_facets);
+  bears_.reserve(4 * most_facets);
+}
+
+double FacePress::reach() const noexcept {
+  // Why twice the spacing: from the middle of a facet to its corners, stretched.
+  const Eigen::AlignedBox3d box = shape_.bounds();
+  return box.max().head<2>().norm() + std::max(0.0, z_) + around() + 2 * moving_.body().spacing();
+}
+
+/// What tissue under the tip may move by in a frame. [m]
+double FacePress::around() const noexcept { return std::max(0.002, 0.25 * shape_.size()); }
+
+double FacePress::sample_spacing(double face_area) const noexcept {
+  const double side = std::sqrt(face_area);
+  return side / std::clamp(std::ceil(samples_in_size * side / shape_.size()), 1.0 * fewest_a_side,
+                           1.0 * most_a_side);
+}
+
+FacePress::Weights FacePress::weights(const Face& face, std::uint32_t at) const noexcept {
+  const double p = (at % face.n + 0.5) / face.n, q = (at / face.n + 0.5) / face.n;
+  return {(1 - p) * (1 - q), p * (1 - q), p * q, (1 - p) * q};
+}
+
+Vec3 FacePress::at(const Face& face, const Weights& w) const noexcept {
+  return w[0] * nodes_[face.node[0]].moved + w[1] * nodes_[face.node[1]].moved +
+         w[2] * nodes_[face.node[2]].moved + w[3] * nodes_[face.node[3]].moved;
+}
+
+/// From outside, by the middles and corners of faces that look at the shape.
+void FacePress::find_depth(const ShapePose& pose) noexcept {
+  const auto local = [&](const Vec3& x) { return Vec3(pose.axes.transpose() * (x - pose.tip)); };
+  double highest = -far;
+  for (const std::uint32_t facet : candidates_)
+    highest = std::max(highest, local(surface_.centroid(facet, moving_)).z());
+  z_ = -highest - moving_.body().spacing();
+  // Why 64: from one shape's size away a sphere is reached within 1 % in some ten.
+  for (int n = 0; n < 64; ++n) {
+    double nearest = far;
+    for (const std::uint32_t facet : candidates_) {
+      const auto [middle, area] = surface_.centroid_and_area(facet, moving_);
+      const Vec3 p = local(middle) + z_ * Vec3::UnitZ();
+      const RigidShape::Distance d = shape_.distance(p);
+      if ((pose.axes.transpose() * area).dot(d.outward) >= 0 || d.outward.z() >= 0) continue;
+      nearest = std::min(nearest, d.distance);
+      for (std::size_t c = 0; c < 4; ++c)
+        nearest = std::min(
+            nearest,
+            shape_.distance(local(surface_.position(facet, c, moving_)) + z_ * Vec3::UnitZ()).distance);
+    }
+    if (!(nearest < far)) return;
+    z_ += nearest;
+    if (nearest < margin_) return;
+  }
+}
+
+void FacePress::list(const ShapePose& pose, std::span<const std::uint32_t> candidates) noexcept {
+  candidates_ = candidates;
+  faces_.clear();
+  nodes_.clear();
+  order_.clear();
+  if (!touching_) find_depth(pose);
+  for (const std::uint32_t facet : candidates) {
+    if (!surface_.exists(facet) || faces_.size() == most_facets) continue;
+    Face face;
+    const Vec3 middle = surface_.centroid(facet, moving_);
+    const Vec3 p = pose.axes.transpose() * (middle - pose.tip) + z_ * Vec3::UnitZ();
+    const double gap = shape_.distance(p).distance;
+    // Why twice the spacing: from the middle of a face to its corners, stretched.
+    if (gap > 2 * moving_.body().spacing() + around()) continue;
+    for (std::size_t c = 0; c < 4; ++c)
+      face.reach = std::max(face.reach, (surface_.position(facet, c, moving_) - middle).norm());
+    if (gap > face.reach + around()) continue;
+    face.area = surface_.rest_area(facet).norm();
+    if (!(face.area > 0)) continue;
+    face.triangle = surface_.is_triangle(facet);
+    face.n = static_cast<std::uint8_t>(std::lround(std::sqrt(face.area) / sample_spacing(face.area)));
+    for (std::size_t c = 0; c < 4; ++c) {
+      const Index cell = surface_.mass(facet, c);
+      const auto number = static_cast<std::uint32_t>(4 * faces_.size() + c);
+      face.node[c] = number;
+      if (cell >= 0) {
+        order_.emplace_back(cell, number);
+      } else {
+        nodes_.push_back({.place = surface_.position(facet, c, moving_)});
+        order_.emplace_back(-static_cast<Index>(nodes_.size()), number);
+      }
+    }
+    faces_.push_back(face);
+  }
+  // Equal nodes become one, in storage order; scenery stays before them.
+  std::sort(order_.begin(), order_.end());
+  std::size_t n = 0;
+  while (n < order_.size()) {
+    const Index cell = order_[n].first;
+    auto number = static_cast<std::uint32_t>(cell < 0 ? -cell - 1 : static_cast<Index>(nodes_.size()));
+    if (cell >= 0)
+      nodes_.push_back(
+          {.cell = cell, .inverse_mass = moving_.body().inverse_mass[static_cast<std::size_t>(cell)]});
+    for (; n < order_.size() && order_[n].first == cell; ++n)
+      faces_[order_[n].second / 4].node[order_[n].second % 4] = number;
+  }
+}
+
+void FacePress::note_velocities(bool verlet) noexcept {
+  for (Node& node : nodes_) {
+    if (node.cell < 0) continue;
+    if (!verlet) {
+      node.v = moving_.velocity(node.cell);
+      continue;
+    }
+    // With velocity_verlet what a body shows is half a step ahead.
+    for (int a = 0; a < 3; ++a) {
+      const NodalForce one{node.cell, Vec3::Unit(a)};
+      node.v[a] = moving_.power({&one, 1});
+    }
+  }
+}
+
+double FacePress::power_before() const noexcept {
+  double sum = 0;
+  for (std::size_t n = 0; n < forces_.size(); ++n) {
+    const Node& node = nodes_[bears_[n]];
+    if (node.inverse_mass > 0) sum += forces_[n].force.dot(node.v);
+  }
+  return sum;
+}
+
+void FacePress::release() noexcept {
+  touching_ = false;
+  z_ = 0;
+  area_ = overlap_ = 0;
+  forces_.clear();
+  bears_.clear();
+}
+
+}  // namespace palpate::physics

@@ -1,0 +1,144 @@
+#pragma once
+// A rigid shape without mass that a given force presses on the faces of a body: how deep it goes, and what each node bears.
+//
+// Every face near the shape is divided into samples of an area A_s (at rest), which move with the corners of the face by their bilinear
+// weights w; d_s is the signed distance of one from the shape, o_s its gradient. In a step of dt, when the elements have moved the nodes to
+// x, the forces p_s o_s on the samples and the depth z of the shape solve
+//
+//   p_s = k A_s c_s max(0, -d_s) at x + dt^2 f / m and z,   f_i = sum_s w_si p_s o_s,   - sum_s p_s o_s . n = F
+//
+// which is the end of a step of backward Euler for contact alone: however stiff k = 100 E / h is, the step stays that of the elements. It is
+// solved by sweeps, lumped: with K_i = sum_s k A_s c_s w_si,
+//
+//   p_s := max(0, p_s + (k A_s c_s (-d_s) - p_s) / (1 + dt^2 sum_i w_si K_i / m_i)),   z such that the sum is F in each
+//
+// The divisor is a bound of the row of the matrix that it stands for (Gershgorin), so no sweep goes too far; and what all sweeps together do
+// is symmetric, so it gives no energy. c_s, from 0 to 1, lets go of faces that turn away from the shape: 2 (-o_s . N), N the normal of the face. So a wall that a
+// cavity divides from the skin is not touched through it. The shape comes from outside, along -n, by the distance to the nearest sample:
+// nothing is jumped. Source: sampled contact of faces as in Puso & Laursen 2004; projected Jacobi, Mandel 1984; the depth by balance: ours.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "physics_node/boundary/boundary.h"
+#include "physics_node/contact/rigid_shape.h"
+
+namespace palpate::physics {
+
+/// Where a shape is: its tip, and its axes as columns. It goes into tissue along the third, downwards.
+struct ShapePose {
+  Vec3 tip = Vec3::Zero();
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  Vec3 normal() const { return axes.col(2); }
+};
+/// With this third axis; the others are any.
+ShapePose pose_along(const Vec3& tip, const Vec3& normal) noexcept;
+
+class FacePress {
+ public:
+  static constexpr std::size_t most_facets = 4096, most_samples = 65536;
+  /// Why: three leave 1 % of what the first leaves, see docs/benchmarks.md.
+  static constexpr int sweeps = 3;
+
+  /// @param surface, moving  outlive it
+  FacePress(const Boundary& surface, const NodeMotion& moving, const RigidShape& shape);
+
+  /// Lists the faces that the shape may meet in the coming frame. Once a frame; allocates nothing.
+  /// @param candidates  all faces near it; valid until the next call
+  void list(const ShapePose& pose, std::span<const std::uint32_t> candidates) noexcept;
+
+  /// The shape is pressed along -normal, without friction, in a step of dt whose elements have moved the nodes.
+  /// @param force  above 0 [N]. @return false: it meets nothing, and forces() is empty
+  bool press(const ShapePose& pose, double force, double dt) noexcept;
+  /// Adds to that what sums up to `force`, in the proportions of the pressure: friction, and what holds the shape where it is sideways.
+  void spread(const Vec3& force) noexcept;
+  /// Before a step: remembers how fast the nodes are that it lists.
+  void note_velocities(bool verlet) noexcept;
+  /// Of forces() with these velocities. [W]
+  double power_before() const noexcept;
+  /// It is out of contact: the next one begins from outside.
+  void release() noexcept;
+
+  /// On nodes; scenery bears the rest.
+  std::span<const NodalForce> forces() const noexcept { return forces_; }
+  double depth() const noexcept { return z_; }    // of the tip below the pose's, along -normal [m]
+  double area() const noexcept { return area_; }  // of the faces, at rest, that are in contact [m^2]
+  /// How deep samples are in the shape, weighted by their pressure [m].
+  double overlap() const noexcept { return overlap_; }
+  /// From the pose's tip to the centroids of all faces that it may meet in a frame, as deep as it is [m].
+  double reach() const noexcept;
+  /// At what distance samples lie on a face of this area [m].
+  double sample_spacing(double face_area) const noexcept;
+
+ private:
+  struct Node {
+    Index cell = -1;  // -1: rigid scenery
+    double inverse_mass = 0;
+    Vec3 place = Vec3::Zero();  // of scenery [m]
+    Vec3 x = Vec3::Zero(),
+         f = Vec3::Zero();      // before contact, and by contact, in the frame of the pose [m], [N]
+    Vec3 moved = Vec3::Zero();  // x + dt^2 f / m [m]
+    Vec3 v = Vec3::Zero();      // see note_velocities() [m/s]
+    double theta = 0;           // dt^2 K / m
+  };
+  struct Face {
+    std::array<std::uint32_t, 4> node{};
+    double area = 0;     // at rest [m^2]
+    double reach = 0;    // from its middle to its corners [m]
+    std::uint8_t n = 0;  // samples along a side
+    bool triangle = false;
+    Vec3 normal = Vec3::UnitZ();  // when samples were collected, in the frame of the pose
+  };
+  struct Sample {
+    std::uint32_t face = 0;
+    std::array<double, 4> w{};
+    double k = 0;            // of its area [N/m]
+    double part = 1;         // 1 / (1 + sum w theta)
+    double p = 0;            // of the last sweep [N]
+    Vec3 x = Vec3::Zero();   // as of the last sweep [m]
+    double next = 0, c = 0;  // of the last look: p, c
+    Vec3 o = Vec3::UnitZ();
+  };
+  struct Balance {
+    double force = 0, slope = 0;  // along -n [N], [N/m]
+  };
+  using Weights = std::array<double, 4>;
+  Weights weights(const Face& face, std::uint32_t at) const noexcept;
+  Vec3 at(const Face& face, const Weights& w) const noexcept;
+  double around() const noexcept;
+  void find_depth(const ShapePose& pose) noexcept;
+  void read_nodes(const ShapePose& pose) noexcept;
+  void collect() noexcept;
+  Balance look(double z) noexcept;
+  double nearest() const noexcept;
+  enum class Found {
+    here,
+    elsewhere,
+    nothing
+  };  // elsewhere: beyond the samples that were collected, towards z_
+  Found balance(double force) noexcept;
+  void lump(double dt, bool all) noexcept;
+  void place_samples() noexcept;
+  Found sweep(double force, double dt, bool first) noexcept;
+  void share_out(const ShapePose& pose) noexcept;
+
+  const Boundary& surface_;
+  const NodeMotion& moving_;
+  RigidShape shape_;
+  double k_;       // of an area [N/m^3]
+  double margin_;  // by which the depth may change before samples are collected anew [m]
+  std::span<const std::uint32_t> candidates_;
+  std::vector<Face> faces_;
+  std::vector<Node> nodes_;
+  std::vector<std::pair<Index, std::uint32_t>> order_;  // of corners, to find equal nodes
+  std::vector<Sample> samples_;
+  std::vector<NodalForce> forces_;
+  std::vector<std::uint32_t> bears_;                    // the node of each force
+  Vec3 borne_ = Vec3::Zero(), normal_ = Vec3::UnitZ();  // of the last press, scenery's part included
+  double z_ = 0, collected_z_ = 0, area_ = 0, overlap_ = 0;
+  bool touching_ = false;
+};
+
+}  // namespace palpate::physics

@@ -1,0 +1,213 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "physics_node/contact/face_press.h"
+
+namespace palpate::physics {
+namespace {
+
+constexpr double lets_go_by = 2;         // of -o . N: samples bear fully up to 60 degrees
+constexpr double balance_within = 1e-4;  // of the force; what is left is made up by a factor
+constexpr int most_starts = 20;  // of the sweeps, while the depth leaves the samples that were collected
+constexpr int most_looks = 60;   // Why: a first touch from far takes some twenty, later steps two or three
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+void FacePress::read_nodes(const ShapePose& pose) noexcept {
+  for (Node& node : nodes_) {
+    const Vec3 x = node.cell < 0 ? node.place : moving_.position(node.cell);
+    node.moved = node.x = pose.axes.transpose() * (x - pose.tip);
+    node.f.setZero();
+  }
+}
+
+/// Samples that the shape may meet while the depth changes by no more than the margin.
+void FacePress::collect() noexcept {
+  samples_.clear();
+  collected_z_ = z_;
+  for (std::uint32_t f = 0; f < faces_.size(); ++f) {
+    Face& face = faces_[f];
+    const Vec3 &a = nodes_[face.node[0]].x, &b = nodes_[face.node[1]].x, &c = nodes_[face.node[2]].x,
+               &d = nodes_[face.node[3]].x;
+    const Vec3 middle = 0.25 * (a + b + c + d) + z_ * Vec3::UnitZ();
+    // Why more than the reach: corners have moved since the frame began.
+    if (shape_.distance(middle).distance > 1.1 * face.reach + 2 * margin_) continue;
+    face.normal = (c - a).cross(d - b).normalized();
+    const int n = face.n * face.n;
+    for (int at_n = 0; at_n < n && samples_.size() < most_samples; ++at_n) {
+      const Weights w = weights(face, static_cast<std::uint32_t>(at_n));
+      Sample sample{.face = f, .w = w};
+      sample.x = w[0] * a + w[1] * b + w[2] * c + w[3] * d;
+      if (shape_.distance(sample.x + z_ * Vec3::UnitZ()).distance > 2 * margin_) continue;
+      // The map of a square on a triangle, whose last corners are one.
+      const double density = face.triangle ? 2 * (w[0] + w[1]) : 1;
+      sample.k = k_ * density * face.area / n;
+      samples_.push_back(sample);
+    }
+  }
+}
+
+/// At a depth: what samples press with, and how that changes with depth.
+FacePress::Balance FacePress::look(double z) noexcept {
+  Balance sum;
+  for (Sample& sample : samples_) {
+    const RigidShape::Distance d = shape_.distance(sample.x + z * Vec3::UnitZ());
+    sample.o = d.outward;
+    sample.c = std::clamp(-lets_go_by * d.outward.dot(faces_[sample.face].normal), 0.0, 1.0);
+    const double k = sample.part * sample.k * sample.c;
+    sample.next = std::max(0.0, (1 - sample.part) * sample.p - k * d.distance);
+    if (sample.next <= 0) continue;
+    sum.force -= sample.next * d.outward.z();
+    sum.slope += k * d.outward.z() * d.outward.z();
+  }
+  return sum;
+}
+
+/// From the shape to the nearest sample that looks at it, of all that are listed. [m]
+double FacePress::nearest() const noexcept {
+  double least = unbounded;
+  for (const Face& face : faces_) {
+    const Vec3 normal = (nodes_[face.node[2]].x - nodes_[face.node[0]].x)
+                            .cross(nodes_[face.node[3]].x - nodes_[face.node[1]].x);
+    for (int n = 0; n < face.n * face.n; ++n) {
+      const Vec3 x = at(face, weights(face, static_cast<std::uint32_t>(n)));
+      const RigidShape::Distance d = shape_.distance(x + z_ * Vec3::UnitZ());
+      if (d.outward.z() < 0 && d.outward.dot(normal) < 0) least = std::min(least, d.distance);
+    }
+  }
+  return least;
+}
+
+/// Finds the depth at which samples press with `force`, by Newton's method between bounds.
+FacePress::Found FacePress::balance(double force) noexcept {
+  double low = -unbounded, high = unbounded;
+  for (int n = 0; n < most_looks; ++n) {
+    const Balance now = look(z_);
+    if (std::abs(now.force - force) <= balance_within * force) return Found::here;
+    (now.force < force ? low : high) = z_;
+    double to = z_ + (force - now.force) / now.slope;
+    if (!(now.slope > 0)) {  // beside or above everything
+      const double gap = nearest();
+      if (!(gap < unbounded)) return Found::nothing;
+      to = z_ + std::max(gap, 0.0) + 1e-3 * margin_;
+    }
+    if (to <= low || to >= high) to = 0.5 * (low + high);
+    if (!std::isfinite(to)) return Found::nothing;
+    if (std::abs(to - collected_z_) > margin_) {
+      z_ = now.slope > 0 ? std::clamp(to, collected_z_ - margin_, collected_z_ + margin_) : to;
+      return Found::elsewhere;
+    }
+    z_ = to;
+  }
+  return look(z_).force > 0 ? Found::here : Found::nothing;
+}
+
+/// dt^2 K_i / m_i, and the parts by it. @param all  of all samples, rather than of what presses now
+void FacePress::lump(double dt, bool all) noexcept {
+  for (Node& node : nodes_) node.theta = 0;
+  for (const Sample& sample : samples_) {
+    if (!all && sample.next <= 0) continue;
+    const Face& face = faces_[sample.face];
+    const Weights& w = sample.w;
+    for (std::size_t k = 0; k < 4; ++k) {
+      Node& node = nodes_[face.node[k]];
+      node.theta += dt * dt * node.inverse_mass * w[k] * sample.k * sample.c;
+    }
+  }
+  for (Sample& sample : samples_) {
+    const Face& face = faces_[sample.face];
+    const Weights& w = sample.w;
+    double theta = 0;
+    for (std::size_t k = 0; k < 4; ++k) theta += w[k] * nodes_[face.node[k]].theta;
+    sample.part = 1 / (1 + theta);
+  }
+}
+
+void FacePress::place_samples() noexcept {
+  for (Sample& sample : samples_) {
+    const Face& face = faces_[sample.face];
+    sample.x = at(face, sample.w);
+  }
+}
+
+FacePress::Found FacePress::sweep(double force, double dt, bool first) noexcept {
+  place_samples();
+  look(z_);
+  const bool anew = first && !touching_;
+  lump(dt, anew);  // Why of all: before a first touch nothing presses yet
+  if (const Found found = balance(force); found != Found::here) return found;
+  if (anew) {
+    lump(dt, false);
+    if (const Found found = balance(force); found != Found::here) return found;
+  }
+  double pressed = 0;
+  for (const Sample& sample : samples_) pressed -= sample.next * sample.o.z();
+  if (!(pressed > 0)) return Found::nothing;
+  for (Node& node : nodes_) node.f.setZero();
+  for (Sample& sample : samples_) {
+    sample.p = force / pressed * sample.next;
+    if (sample.p <= 0) continue;
+    const Face& face = faces_[sample.face];
+    const Weights& w = sample.w;
+    for (std::size_t k = 0; k < 4; ++k) nodes_[face.node[k]].f += w[k] * sample.p * sample.o;
+  }
+  for (Node& node : nodes_) node.moved = node.x + dt * dt * node.inverse_mass * node.f;
+  return Found::here;
+}
+
+void FacePress::share_out(const ShapePose& pose) noexcept {
+  borne_.setZero();
+  normal_ = pose.normal();
+  for (std::uint32_t n = 0; n < nodes_.size(); ++n) {
+    const Node& node = nodes_[n];
+    if (node.f.isZero()) continue;
+    const Vec3 f = pose.axes * node.f;
+    borne_ += f;
+    if (node.cell < 0) continue;
+    forces_.push_back({node.cell, f});
+    bears_.push_back(n);
+  }
+  double sum = 0;
+  for (const Sample& sample : samples_) {
+    if (sample.p <= 0) continue;
+    area_ += sample.k / k_;
+    sum += sample.p;
+    overlap_ += sample.p * sample.p / (sample.k * sample.c);
+  }
+  overlap_ /= sum;
+}
+
+void FacePress::spread(const Vec3& force) noexcept {
+  const Vec3 missing = force - borne_;
+  const double pressed = borne_.dot(normal_);
+  if (!(pressed < 0)) return;
+  for (NodalForce& nodal : forces_) nodal.force += nodal.force.dot(normal_) / pressed * missing;
+}
+
+bool FacePress::press(const ShapePose& pose, double force, double dt) noexcept {
+  if (faces_.empty() || !(force > 0)) {
+    release();
+    return false;
+  }
+  forces_.clear();
+  bears_.clear();
+  area_ = overlap_ = 0;
+  auto found = Found::elsewhere;
+  for (int start = 0; start < most_starts && found == Found::elsewhere; ++start) {
+    read_nodes(pose);
+    collect();
+    for (int n = 0; n < sweeps; ++n)
+      if (found = sweep(force, dt, n == 0); found != Found::here) break;
+  }
+  if (found == Found::nothing || samples_.empty()) {
+    release();
+    return false;
+  }
+  touching_ = true;
+  share_out(pose);
+  return true;
+}
+
+}  // namespace palpate::physics

@@ -1,0 +1,209 @@
+// A rigid sphere that the hand presses into tissue, by the faces of its surface: Hertz, and the laws.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "bench/solids/shape_press.h"
+#include "common/message/vec3.h"
+#include "common/scene/physics_spec.h"
+#include "common/scene/scene.h"
+#include "physics_node/contact/point_tool.h"
+#include "physics_node/world.h"
+#include "tests/support/physics/small_worlds.h"
+
+namespace palpate::physics::test {
+namespace {
+
+constexpr double top = 0.010;  // [m]
+
+Recipe block(double radius_mm, const std::string& viscosity = "\nviscosity_Pa_s = 2") {
+  Recipe recipe;
+  recipe.lattice = "voxel";
+  recipe.shape = Recipe::box(40, 40, 20);
+  recipe.spacing_mm = 2.5;
+  recipe.material = "density_kg_per_m3 = 1000\nmodulus_kPa = 10\npoisson_ratio = 0.45" + viscosity;
+  recipe.body = "model = \"fem\"\nfixed = [\"-z\"]";
+  recipe.precision = "single";
+  recipe.world = point_tool(radius_mm);
+  return recipe;
+}
+
+Recipe springs(double radius_mm, const std::string& viscosity = "\nviscosity_Pa_s = 2") {
+  Recipe recipe = block(radius_mm);
+  recipe.body = "fixed = [\"-z\"]";
+  recipe.material = "density_kg_per_m3 = 1000\nmodulus_kPa = 10" + viscosity;
+  recipe.world.insert(recipe.world.find("device"), "contact = \"faces\"\n");
+  return recipe;
+}
+
+/// A hand whose proxy is over `beside` on the upper face, and that feels a force.
+class Hand {
+ public:
+  void frame(World& world, double force, const Vec3& beside = Vec3::Zero()) {
+    ToolState state;
+    state.tick = ++tick_;
+    state.p_WT = state.proxy = array(Vec3(Vec3(0, 0, top) + beside));
+    state.force_on_hand = state.force_now = {0, 0, force};
+    state.engaged = 1;
+    const std::optional<ToolState> hand = state;
+    world.frame(std::span(&hand, 1));
+  }
+
+ private:
+  std::uint64_t tick_ = 0;
+};
+
+double depth_of(const World& world) { return dynamic_cast<const PointTool&>(world.tool(0)).depth(); }
+
+/// Pressed until it rests. @return depth of the sphere [m]
+double rest_depth(const Recipe& recipe, double force, const Vec3& beside, int frames = 1200) {
+  World world(scene_of(recipe));
+  Hand hand;
+  for (int n = 0; n < frames; ++n) hand.frame(world, force, beside);
+  EXPECT_EQ(world.report().restored, 0);
+  return depth_of(world);
+}
+
+TEST(Touch, OfTwoRadiiIsNotTheSame) {
+  const Vec3 beside(0.0004, 0.0007, 0);
+  for (const bool fem : {true, false}) {
+    const auto of = [&](double radius_mm) {
+      Recipe recipe = fem ? block(radius_mm) : springs(radius_mm);
+      recipe.spacing_mm = 5;
+      return rest_depth(recipe, 0.1, beside);
+    };
+    const double small = of(3), large = of(5);
+    std::printf("R = 3 and 5 mm in cells of 5 mm, 0.1 N: %.3f and %.3f mm deep\n", 1e3 * small, 1e3 * large);
+    EXPECT_GT(small, 1.05 * large);
+  }
+}
+
+/// On cells of a quarter of the radius.
+TEST(Touch, HalfACellBesideIsHardlyAnother) {
+  Recipe recipe = block(5);
+  recipe.spacing_mm = 1.25;
+  recipe.shape = Recipe::box(30, 30, 20);
+  const double on_node = rest_depth(recipe, 0.02, Vec3::Zero(), 600);
+  for (const Vec3& beside : {Vec3(0.000625, 0, 0), Vec3(0.000625, 0.000625, 0)}) {
+    const double force = std::pow(on_node / rest_depth(recipe, 0.02, beside, 600), 1.5);  // F goes as d^1.5
+    std::printf("%.3f mm deep, %.2f of a cell beside a node: force x %.4f\n", 1e3 * on_node,
+                beside.norm() / 0.00125, force);
+    EXPECT_NEAR(force, 1, 0.05);
+  }
+}
+
+/// On cells of an eighth of the radius, from a twentieth to three twentieths of it deep: F = 4/3 E / (1 - nu^2) R^0.5 d^1.5.
+TEST(Touch, OfASphereIsHertz) {
+  constexpr double R = 0.005, nu = 0.45, modulus = bench::ShapePress::modulus / (1 - nu * nu);
+  const auto hertz = [&](double d) { return 4.0 / 3 * modulus * std::sqrt(R * d) * d; };
+  bench::ShapePress how{.shape = RigidShape::sphere(R), .edge = R / 8, .poisson_ratio = nu};
+  for (const double d : {0.05, 0.1, 0.15}) how.forces.push_back(hertz(d * R));
+  const bench::ShapePressed pressed = bench::press(how);
+  EXPECT_TRUE(pressed.at_rest);
+  const std::vector<double> depth = bench::depth_on_half_space(how, pressed);
+  for (std::size_t n = 0; n < depth.size(); ++n) {
+    const double radius = std::sqrt(pressed.area[n] / std::numbers::pi);
+    std::printf(
+        "d = %.3f R: force %.4f of Hertz's, radius of contact %.3f mm, %.3f by Hertz, samples %.2g d deep\n",
+        depth[n] / R, how.forces[n] / hertz(depth[n]), 1e3 * radius, 1e3 * std::sqrt(R * depth[n]),
+        pressed.overlap[n] / depth[n]);
+    EXPECT_NEAR(how.forces[n] / hertz(depth[n]), 1, 0.05);
+    EXPECT_NEAR(radius, std::sqrt(R * depth[n]), how.edge);
+    EXPECT_LT(pressed.overlap[n], 0.02 * depth[n]);
+  }
+  const double exponent =
+      std::log(how.forces.back() / how.forces.front()) / std::log(depth.back() / depth.front());
+  std::printf("exponent %.3f\n", exponent);
+  EXPECT_NEAR(exponent, 1.5, 0.1);
+}
+
+/// Slid by three cells under the same force, slowly: how the depth changes on the way.
+TEST(Touch, SlidesOverFacesWithoutAHop) {
+  World world(scene_of(block(5)));
+  Hand hand;
+  for (int n = 0; n < 1000; ++n) hand.frame(world, 0.15);
+  double least = 1e9, most = 0, hop = 0, before = depth_of(world);
+  for (int n = 0; n < 1500; ++n) {
+    hand.frame(world, 0.15, {5e-6 * n, 1.3e-6 * n, 0});
+    const double depth = depth_of(world);
+    least = std::min(least, depth), most = std::max(most, depth);
+    hop = std::max(hop, std::abs(depth - before));
+    before = depth;
+  }
+  std::printf("depth %.4f to %.4f mm, %.2f um in a frame at the most\n", 1e3 * least, 1e3 * most, 1e6 * hop);
+  EXPECT_LT(most / least, 1.06);
+  EXPECT_LT(hop, 5e-6);  // as the sphere goes on by 5 um a frame
+}
+
+/// Undamped, pressed and let go within a second: what the hand gave comes back.
+TEST(Touch, GivesBackWhatItTook) {
+  struct Case {
+    const char* name;
+    Recipe recipe;
+    const char* integrator;
+    double force;  // [N]; springs under more are crushed, and swing for ever
+  };
+  for (const Case& c : {Case{"elements", block(5, ""), "symplectic_euler", 0.2},
+                        Case{"springs", springs(5, ""), "symplectic_euler", 0.02},
+                        Case{"springs", springs(5, ""), "velocity_verlet", 0.02}}) {
+    Recipe recipe = c.recipe;
+    recipe.precision = "double";
+    recipe.physics = std::string("integrator = \"") + c.integrator + "\"";
+    World world(scene_of(recipe));
+    Hand hand;
+    double most = 0, error = 0;
+    for (int n = 0; n < 2000; ++n) {
+      const double t = 1e-3 * n;
+      hand.frame(world, t < 1 ? 0.5 * c.force * (1 - std::cos(2 * std::numbers::pi * t)) : 0);
+      most = std::max(most, world.report().tool_work);
+      if (n % 20 == 0) error = std::max(error, std::abs(world.ledger().missing()));
+    }
+    const EnergyLedger ledger = world.ledger();
+    std::printf("%s, %s: %.4g J given, %.4g J kept, books within %.2g\n", c.name, c.integrator, most,
+                ledger.kinetic + ledger.elastic, error / most);
+    EXPECT_GT(most, 1e-6);
+    EXPECT_LT(ledger.kinetic + ledger.elastic, 0.02 * most);
+    EXPECT_NEAR(world.report().tool_work, 0, 0.02 * most);
+    EXPECT_LT(error, 0.01 * most);
+  }
+}
+
+TEST(Touch, HasTheSameBitsOnAnyNumberOfThreads) {
+  std::uint64_t first = 0;
+  for (const int threads : {1, 2, 3, 8}) {
+    Recipe recipe = block(5);
+    recipe.physics = "threads = " + std::to_string(threads);
+    World world(scene_of(recipe));
+    Hand hand;
+    for (int n = 0; n < 150; ++n) hand.frame(world, 0.2, {1e-5 * n, 0, 0});
+    EXPECT_GT(depth_of(world), 0.0001);
+    if (first == 0) first = world.state_hash();
+    EXPECT_EQ(world.state_hash(), first) << threads;
+  }
+}
+
+/// A body that flies: what the sphere gives is what it gets.
+TEST(Touch, GivesABodyItsMomentum) {
+  Recipe recipe = block(5);
+  recipe.body = "model = \"fem\"";
+  recipe.precision = "double";
+  World world(scene_of(recipe));
+  Hand hand;
+  Vec3 given = Vec3::Zero();
+  for (int n = 0; n < 60; ++n) {
+    hand.frame(world, 0.05, {0.004, -0.002, 0});
+    given -= world.frame_seconds() * world.tool(0).force();
+  }
+  const Momenta now = world.body(0).momenta();
+  EXPECT_GT(given.norm(), 1e-4);
+  EXPECT_LT((now.linear - given).norm(), 1e-9 * given.norm());
+  const MomentumBalance balance = world.body(0).momentum_balance();
+  EXPECT_LT(balance.missing.linear.norm(), 1e-9 * balance.linear);
+  EXPECT_LT(balance.missing.angular.norm(), 1e-9 * balance.angular);
+}
+
+}  // namespace
+}  // namespace palpate::physics::test
