@@ -26,7 +26,7 @@ target_compile_definitions(physics_falls_test PRIVATE SCENES="${PROJECT_SOURCE_D
 palpate_test(NAME physics_balance_test KIND property SOURCES physics_balance_test.cpp physics_border_cells_test.cpp LIBS palpate_physics_worlds)
 target_compile_definitions(physics_balance_test PRIVATE SCENES="${PROJECT_SOURCE_DIR}/scenes")
 # What lies on something under backward_euler.
-palpate_test(NAME physics_resting_test KIND property SOURCES physics_resting_test.cpp LIBS palpate_physics_worlds)
+palpate_test(NAME physics_resting_test KIND property SOURCES physics_resting_test.cpp physics_held_tip_test.cpp LIBS palpate_physics_worlds)
 # What becomes of two bodies that meet.
 palpate_test(NAME physics_collide_test KIND property SOURCES physics_collide_test.cpp LIBS palpate_physics_worlds)
 target_compile_definitions(physics_collide_test PRIVATE SCENES="${PROJECT_SOURCE_DIR}/scenes")
