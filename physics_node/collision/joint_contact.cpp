@@ -41,10 +41,13 @@ void JointContact::add(Row row, double distance, double h, double reach) noexcep
     return;
   }
   row.gap = distance - h;
-  row.least = std::min(0.0, row.gap + near_enough_);
+  row.least = std::min(0.0, row.gap);
   const auto same = std::lower_bound(last_.begin(), last_.end(), row.key,
                                      [](const Remembered& one, std::uint64_t key) { return one.key < key; });
-  if (same != last_.end() && same->key == row.key) row.l = same->l;
+  if (same != last_.end() && same->key == row.key) {
+    row.l = same->l;
+    row.least = std::max(row.least, same->least);  // Why: what errors of solving take may not add up
+  }
   rows_.push_back(row);
 }
 
@@ -84,7 +87,7 @@ void JointContact::find(const std::vector<ContactBody>& bodies, const Link& link
 void JointContact::begin(const std::vector<ContactBody>& bodies, std::span<Link> links, double dt) noexcept {
   last_.clear();
   for (const Row& row : rows_)
-    if (row.l > 0) last_.push_back({row.key, row.l});
+    if (row.l > 0) last_.push_back({row.key, row.l, row.least});
   std::sort(last_.begin(), last_.end(),
             [](const Remembered& a, const Remembered& b) { return a.key < b.key; });
   rows_.clear();

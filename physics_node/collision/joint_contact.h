@@ -20,7 +20,7 @@ struct JointReport {
 ///   d + dt n . (v_p - sum w_k v_k) >= h,   l = 0 where it is more
 ///
 /// v the velocities with which all bodies, solved with l, move their masses: so each gives way as a whole, not by the masses that touch.
-/// What begins nearer than h comes no nearer; it is let out by no more than the distances are solved to, since to let out is to throw. An iteration sweeps over the pairs as if masses were free,
+/// What begins nearer than h comes no nearer than it has been since it touched; it is not let out, since to let out is to throw. An iteration sweeps over the pairs as if masses were free,
 ///   l_i := max(0, l_i + (what is missing) / (dt^2 W_i)),   W = 1/m_p + sum w_k^2 / m_k
 /// which never does too much, since what holds masses together makes them heavier; then follows the sweeps' common direction
 /// (Fletcher & Reeves, from the start where that grows), and solves the bodies again. Forces begin with those of the last step, so that what
@@ -53,7 +53,7 @@ class JointContact {
   };
   struct Remembered {
     std::uint64_t key = 0;
-    double l = 0;
+    double l = 0, least = 0;  // force [N]; how near it may come [m]
   };
   void find(const std::vector<ContactBody>& bodies, const Link& link, double dt) noexcept;
   void add(Row row, double distance, double h, double reach) noexcept;
