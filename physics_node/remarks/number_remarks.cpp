@@ -24,6 +24,10 @@ constexpr double slowest_frame_Hz =
 constexpr int busy_steps_a_frame =
     300;  // Why: even a thousand masses then take longer than the frame on one core
 
+/// Why: explicit steps of an element with lag beta and highest frequency w end at 2 (sqrt(1 + z^2) - z) / w, z = beta w / 2; at z = 1
+/// viscosity has taken more than half of the step, and beta is 2.4 steps.
+constexpr double viscous_lag_of_a_step = 2.4;
+
 /// A scene need not have the table.
 std::string place_of_physics(const Scene& scene) {
   const std::string place = scene.physics->place.text();
@@ -65,6 +69,21 @@ void add_sizes(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
   }
 }
 
+/// What would make steps fewer: viscosity, where its own bound is the narrower, and what the scene's materials allow.
+std::string what_takes_fewer(const Scene& scene, const Bodies& bodies, int steps_a_frame) {
+  const double step = 1 / (scene.physics->frame_Hz * steps_a_frame);
+  bool damped = false, relaxes = false;
+  for (const auto& body : bodies) {
+    if (!body->body().solid) continue;
+    damped = damped || body->body().solid->beta > viscous_lag_of_a_step * step;
+    relaxes = relaxes || !body->body().solid->relaxation.empty();
+  }
+  std::string means = "larger cells, softer or heavier material";
+  if (damped) means = "less viscosity, " + means;
+  if (!relaxes) means += ", or integrator = \"backward_euler\"";
+  return means + (relaxes ? " takes fewer" : " take fewer");
+}
+
 }  // namespace
 
 Remarks number_remarks(const Scene& scene, const Bodies& bodies, int steps_a_frame) {
@@ -80,10 +99,9 @@ Remarks number_remarks(const Scene& scene, const Bodies& bodies, int steps_a_fra
         "{}: at {:.4g} frames a second the hand is often without an answer; frame_Hz = 1000 is usual",
         place_of_physics(scene), scene.physics->frame_Hz));
   if (steps_a_frame > busy_steps_a_frame)
-    remarks.push_back(fmt::format(
-        "{}: {} steps a frame are too many for real time; larger cells, softer or heavier material, or "
-        "integrator = \"backward_euler\" take fewer",
-        place_of_physics(scene), steps_a_frame));
+    remarks.push_back(fmt::format("{}: {} steps a frame are too many for real time; {}",
+                                  place_of_physics(scene), steps_a_frame,
+                                  what_takes_fewer(scene, bodies, steps_a_frame)));
   add_materials(scene, remarks);
   add_sizes(scene, bodies, remarks);
   return remarks;
