@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <thread>
 
 #include "common/error/error.h"
 #include "common/math/hash.h"
@@ -15,92 +14,13 @@
 #include "common/scene/scene.h"
 #include "common/scene/surroundings_spec.h"
 #include "common/scene/tool_spec.h"
-#include "physics_node/forecast/memory_need.h"
-#include "physics_node/forecast/speed_forecast.h"
-#include "physics_node/step/lattice/stable_step.h"
-#include "physics_node/step/multigrid/start_of_body.h"
 
 namespace palpate::physics {
 namespace {
 
-constexpr Index masses_worth_a_team = 15000;  // below, a second thread brings little (palpate bench team)
-constexpr int most_substeps = 256;            // of a frame in which something fast is near
-
-/// backward_euler solves springs on one thread, finite elements on as many as there are.
-bool solves_springs(const Scene& scene) {
-  return scene.physics->integrator == Integrator::backward_euler &&
-         std::ranges::none_of(scene.bodies,
-                              [](const BodySpec& body) { return body.model == ElementModel::fem; });
-}
-
-/// @param n_pieces  of the body that has most: more threads than that would have nothing to do
-TeamChoice choose_threads(const Scene& scene, int spare_cores, Index n_masses, std::size_t n_pieces) {
-  if (scene.physics->threads > 0) return TeamChoice::always(scene.physics->threads);
-  if (n_masses < masses_worth_a_team || solves_springs(scene)) return TeamChoice::always(1);
-  const int cores = static_cast<int>(std::thread::hardware_concurrency()) - spare_cores;
-  return TeamChoice::up_to(std::clamp(cores, 1, std::max(1, static_cast<int>(n_pieces))));
-}
+constexpr int most_substeps = 256;  // of a frame in which something fast is near
 
 }  // namespace
-
-World::World(const Scene& scene, int spare_cores) : scene_(scene) {
-  const Integrator integrator = scene.physics->integrator;
-  const double memory = usable_memory();
-  std::vector<MemoryNeed> needs;
-  for (const BodySpec& spec : scene.bodies) needs.push_back(memory_need(spec, scene));
-  refuse_too_large(scene, needs, memory);
-  Index n_masses = 0;
-  std::size_t n_pieces = 0;
-  stable_dt_ = std::numeric_limits<double>::infinity();
-  if (scene.floor) planes_.push_back({Vec3::UnitZ(), scene.floor->height});
-  for (const WallSpec& wall : scene.walls) planes_.push_back({wall.normal, wall.normal.dot(wall.point)});
-  const bool feels = std::any_of(scene.tools.begin(), scene.tools.end(), meets_facets);
-  for (const BodySpec& spec : scene.bodies) {
-    Body body = build_body(spec, scene.materials);
-    stable_dt_ = std::min(stable_dt_, stable_step(stiffest_mode(body), integrator));
-    n_masses += body.n_nodes();
-    n_pieces = std::max(n_pieces, body.n_pieces());
-    MemoryNeed& need = needs[bodies_.size()];
-    if (need.masses == 0) {  // of an image: now it is known
-      need.masses = static_cast<double>(body.n_nodes());
-      need.bytes += bytes_of_masses(need.masses, spec, scene);
-      refuse_too_large(scene, needs, memory);
-    }
-    any_breaks_ = any_breaks_ || any_breaks(body);
-    const double bucket = 4 * body.spacing();
-    std::vector<Vec3> start = start_of_body(spec, body, scene.gravity, planes_, remarks_);
-    bodies_.push_back(
-        make_body_model(std::move(body), scene.physics->precision, integrator, std::move(start)));
-    fragments_.push_back(any_breaks(bodies_.back()->body()) ? std::make_unique<Fragments>(*bodies_.back())
-                                                            : nullptr);
-    touchable_.push_back({bodies_.back().get(), std::make_unique<Boundary>(*bodies_.back(), bucket, feels)});
-  }
-  toolbox_ = make_tools(scene_, bodies_, touchable_);
-  if (scene.contact->enabled && (bodies_.size() > 1 || any_breaks_))
-    collisions_ = std::make_unique<Collisions>(bodies_, fragments_, *scene.contact);
-  if (collisions_)
-    for (const std::size_t b : toolbox_.felt) collisions_->feel(b);
-  if (bodies_.size() > 1 || any_breaks_) inside_ = std::make_unique<InsideOthers>(bodies_);
-  if (!planes_.empty())
-    for (auto& body : bodies_) body->prepare_for(Disturbance::impulses);
-  choice_ = choose_threads(scene, spare_cores, n_masses, n_pieces);
-  if (choice_.most() > 1) team_ = std::make_unique<Team>(choice_.most());
-  gathered_.resize(bodies_.size());
-  for (auto& forces : gathered_) forces.reserve(toolbox_.pressing.size() * PointTool::most_forces);
-
-  frame_dt_ = 1.0 / scene.physics->frame_Hz;
-  n_substeps_ = static_cast<int>(steps_a_frame(scene, stable_dt_));
-  unrounded_ = std::min(1.0, frame_dt_ / (scene.physics->safety * stable_dt_) / n_substeps_);
-  dt_ = frame_dt_ / n_substeps_;
-  if (dt_ > stable_dt_) {
-    remarks_.push_back(fmt::format(
-        "{}: a step of {:.4g} ms is above the stable {:.4g} ms; expect the guard to act",
-        scene.physics->place.line == 0 && scene.physics->place.file.empty() ? scene.path + ": [physics]"
-                                                                            : scene.physics->place.text(),
-        1e3 * dt_, 1e3 * stable_dt_));
-  }
-  restart_ledger();
-}
 
 bool World::is_implicit() const noexcept { return scene_.physics->integrator == Integrator::backward_euler; }
 

@@ -20,6 +20,8 @@ const char* name_of(Integrator integrator) {
       return "velocity_verlet";
     case Integrator::backward_euler:
       return "backward_euler";
+    case Integrator::automatic:
+      return "auto";
   }
   return "unknown";
 }

@@ -4,7 +4,8 @@
 
 namespace palpate {
 
-enum class Integrator { symplectic_euler, velocity_verlet, backward_euler };
+/// automatic: physics takes one of the others when it has loaded the bodies (physics_node/forecast/integrator_choice.h).
+enum class Integrator { symplectic_euler, velocity_verlet, backward_euler, automatic };
 enum class Precision { single_, double_ };
 
 enum class LatticeKind { fcc, voxel };

@@ -55,4 +55,7 @@ struct MaterialSpec {
   Place place;
 };
 
+/// What of a material of finite elements backward_euler cannot follow, as a verb with its object; empty: nothing.
+std::string beyond_backward_euler(const MaterialSpec& material);
+
 }  // namespace palpate

@@ -69,15 +69,6 @@ void refuse_isotropic(TableReader& reader, const ReadContext& context, const Bod
   }
 }
 
-/// What of a material backward_euler cannot follow, and what else may be left out; empty: nothing.
-std::string beyond_backward_euler(const MaterialSpec& material) {
-  if (!material.relaxation.empty()) return "relaxes";
-  if (material.law == TissueLaw::green) return "has law = \"green\"";
-  if (material.yield_ratio) return "yields";
-  if (material.break_ratio) return "breaks";
-  return {};
-}
-
 void refuse_implicit(TableReader& reader, const ReadContext& context, const BodySpec& spec) {
   if (context.scene.physics->integrator != Integrator::backward_euler) return;
   for (const MaterialSpec& material : context.scene.materials) {

@@ -38,7 +38,7 @@ void read_physics(TableReader& root, ReadContext& context) {
   auto& physics = *context.scene.physics;
   physics.place = reader.place();
   if (const auto word =
-          reader.read_word("integrator", {"symplectic_euler", "velocity_verlet", "backward_euler"}))
+          reader.read_word("integrator", {"symplectic_euler", "velocity_verlet", "backward_euler", "auto"}))
     physics.integrator = static_cast<Integrator>(*word);
   read_step(reader, physics);
   set_if(physics.safety, reader.read_number("safety", {.lo = 0, .hi = 1, .without_lo = true}));

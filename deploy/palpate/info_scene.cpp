@@ -104,7 +104,7 @@ std::string forecast_text(const Scene& scene, const physics::World& world) {
                       1e-9 * usable_memory());
   const double stable_dt = world.stable_step_seconds();
   if (!std::isfinite(stable_dt)) return text;
-  const SpeedForecast speed = forecast_speed(scene, masses, stable_dt);
+  const SpeedForecast speed = forecast_speed(world.scene(), masses, stable_dt);
   text += fmt::format("step         {:.0f} a frame of {:.3g} ms\n", speed.steps_a_frame,
                       1e3 / scene.physics->frame_Hz);
   if (speed.real_time_factor > 0)

@@ -151,7 +151,8 @@ double bytes_of_masses(double masses, const BodySpec& body, const Scene& scene) 
                              : (doubled ? failing_double_bytes : failing_bytes) + (felt ? felt_bytes : 0.0);
   const double yielding = !any_yields || !of_cells ? 0 : doubled ? yielding_double_bytes : yielding_bytes;
   const bool solved =
-      body.model == ElementModel::fem && scene.physics->integrator == Integrator::backward_euler;
+      body.model == ElementModel::fem && (scene.physics->integrator == Integrator::backward_euler ||
+                                          scene.physics->integrator == Integrator::automatic);
   const double solver = !solved ? 0 : doubled ? solved_double_bytes : solved_bytes;
   return masses * (fem + solver + failing + yielding +
                    (plastic ? (doubled ? plastic_double_bytes : plastic_bytes) + (felt ? felt_bytes : 0.0)

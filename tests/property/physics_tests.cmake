@@ -7,7 +7,7 @@ palpate_test(NAME physics_laws_test KIND property
           physics_stability_test.cpp physics_breaks_test.cpp physics_fragments_test.cpp
           physics_energy_test.cpp physics_books_test.cpp physics_sleep_test.cpp physics_construction_test.cpp
   LIBS palpate_physics_worlds)
-palpate_test(NAME physics_elements_test KIND property SOURCES physics_elements_test.cpp physics_damper_test.cpp physics_tissue_laws_test.cpp
+palpate_test(NAME physics_elements_test KIND property SOURCES physics_elements_test.cpp physics_damper_test.cpp physics_shadow_energy_test.cpp physics_tissue_laws_test.cpp
   LIBS palpate_physics_worlds palpate_bench_problems)
 palpate_test(NAME physics_failure_test KIND property SOURCES physics_failure_test.cpp LIBS palpate_physics_worlds)
 palpate_test(NAME physics_yield_test KIND property SOURCES physics_yield_test.cpp LIBS palpate_physics_worlds)

@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(Physics, SceneMistakes,
                          testing::ValuesIn(std::vector<Mistake>{
                              {"\"velocity_verlet\"", "\"verlet\"", "6:14",
-                              "write \"symplectic_euler\", \"velocity_verlet\" or \"backward_euler\""},
+                              "write \"symplectic_euler\", \"velocity_verlet\", \"backward_euler\" or \"auto\""},
                              {"step_ms = 0.25", "step_ms = 0", "7:11", "is 0; write a number above 0"},
                              {"step_ms = 0.25", "step = 0.25", "7:8", "write \"auto\", or step_ms = "},
                              {"step_ms = 0.25", "step = \"auto\"\nstep_ms = 1", "8:11",

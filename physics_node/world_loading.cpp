@@ -1,0 +1,129 @@
+// Loading: from a scene to bodies, tools, contact and the number of steps in a frame.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <thread>
+
+#include "common/scene/body_spec.h"
+#include "common/scene/material_spec.h"
+#include "common/scene/physics_spec.h"
+#include "common/scene/scene.h"
+#include "common/scene/surroundings_spec.h"
+#include "common/scene/tool_spec.h"
+#include "physics_node/forecast/integrator_choice.h"
+#include "physics_node/forecast/memory_need.h"
+#include "physics_node/forecast/speed_forecast.h"
+#include "physics_node/step/lattice/stable_step.h"
+#include "physics_node/step/multigrid/start_of_body.h"
+#include "physics_node/world.h"
+
+namespace palpate::physics {
+namespace {
+
+constexpr Index masses_worth_a_team = 15000;  // below, a second thread brings little (palpate bench team)
+
+/// backward_euler solves springs on one thread, finite elements on as many as there are.
+bool solves_springs(const Scene& scene) {
+  return scene.physics->integrator == Integrator::backward_euler &&
+         std::ranges::none_of(scene.bodies,
+                              [](const BodySpec& body) { return body.model == ElementModel::fem; });
+}
+
+/// @param n_pieces  of the body that has most: more threads than that would have nothing to do
+TeamChoice choose_threads(const Scene& scene, int spare_cores, Index n_masses, std::size_t n_pieces) {
+  if (scene.physics->threads > 0) return TeamChoice::always(scene.physics->threads);
+  if (n_masses < masses_worth_a_team || solves_springs(scene)) return TeamChoice::always(1);
+  const int cores = static_cast<int>(std::thread::hardware_concurrency()) - spare_cores;
+  return TeamChoice::up_to(std::clamp(cores, 1, std::max(1, static_cast<int>(n_pieces))));
+}
+
+/// Refuses what would take more memory than there is before it takes it. @throws InputError
+std::vector<Body> build_bodies(const Scene& scene) {
+  const double memory = usable_memory();
+  std::vector<MemoryNeed> needs;
+  for (const BodySpec& spec : scene.bodies) needs.push_back(memory_need(spec, scene));
+  refuse_too_large(scene, needs, memory);
+  std::vector<Body> built;
+  for (const BodySpec& spec : scene.bodies) {
+    built.push_back(build_body(spec, scene.materials));
+    MemoryNeed& need = needs[built.size() - 1];
+    if (need.masses != 0) continue;
+    need.masses = static_cast<double>(built.back().n_nodes());  // of an image: now it is known
+    need.bytes += bytes_of_masses(need.masses, spec, scene);
+    refuse_too_large(scene, needs, memory);
+  }
+  return built;
+}
+
+}  // namespace
+
+World::World(const Scene& scene, int spare_cores) : scene_(scene) {
+  std::vector<Body> built = build_bodies(scene);
+  const Integrator integrator = settle_integrator(built);
+  Index n_masses = 0;
+  std::size_t n_pieces = 0;
+  if (scene.floor) planes_.push_back({Vec3::UnitZ(), scene.floor->height});
+  for (const WallSpec& wall : scene.walls) planes_.push_back({wall.normal, wall.normal.dot(wall.point)});
+  const bool feels = std::any_of(scene.tools.begin(), scene.tools.end(), meets_facets);
+  for (Body& body : built) {
+    const BodySpec& spec = scene.bodies[bodies_.size()];
+    n_masses += body.n_nodes();
+    n_pieces = std::max(n_pieces, body.n_pieces());
+    any_breaks_ = any_breaks_ || any_breaks(body);
+    const double bucket = 4 * body.spacing();
+    std::vector<Vec3> start = start_of_body(spec, body, scene.gravity, planes_, remarks_);
+    bodies_.push_back(
+        make_body_model(std::move(body), scene.physics->precision, integrator, std::move(start)));
+    fragments_.push_back(any_breaks(bodies_.back()->body()) ? std::make_unique<Fragments>(*bodies_.back())
+                                                            : nullptr);
+    touchable_.push_back({bodies_.back().get(), std::make_unique<Boundary>(*bodies_.back(), bucket, feels)});
+  }
+  toolbox_ = make_tools(scene_, bodies_, touchable_);
+  if (scene.contact->enabled && (bodies_.size() > 1 || any_breaks_))
+    collisions_ = std::make_unique<Collisions>(bodies_, fragments_, *scene.contact);
+  if (collisions_)
+    for (const std::size_t b : toolbox_.felt) collisions_->feel(b);
+  if (bodies_.size() > 1 || any_breaks_) inside_ = std::make_unique<InsideOthers>(bodies_);
+  if (!planes_.empty())
+    for (auto& body : bodies_) body->prepare_for(Disturbance::impulses);
+  choice_ = choose_threads(scene_, spare_cores, n_masses, n_pieces);
+  if (choice_.most() > 1) team_ = std::make_unique<Team>(choice_.most());
+  gathered_.resize(bodies_.size());
+  for (auto& forces : gathered_) forces.reserve(toolbox_.pressing.size() * PointTool::most_forces);
+
+  frame_dt_ = 1.0 / scene.physics->frame_Hz;
+  n_substeps_ = static_cast<int>(steps_a_frame(scene_, stable_dt_));
+  unrounded_ = std::min(1.0, frame_dt_ / (scene.physics->safety * stable_dt_) / n_substeps_);
+  dt_ = frame_dt_ / n_substeps_;
+  if (dt_ > stable_dt_) {
+    remarks_.push_back(fmt::format(
+        "{}: a step of {:.4g} ms is above the stable {:.4g} ms; expect the guard to act",
+        scene.physics->place.line == 0 && scene.physics->place.file.empty() ? scene.path + ": [physics]"
+                                                                            : scene.physics->place.text(),
+        1e3 * dt_, 1e3 * stable_dt_));
+  }
+  restart_ledger();
+}
+
+Integrator World::settle_integrator(const std::vector<Body>& built) {
+  Integrator& integrator = scene_.physics->integrator;
+  std::vector<StiffestMode> modes;
+  for (const Body& body : built) modes.push_back(stiffest_mode(body));
+  const auto shortest = [&](Integrator of) {
+    double dt = std::numeric_limits<double>::infinity();
+    for (const StiffestMode& mode : modes) dt = std::min(dt, stable_step(mode, of));
+    return dt;
+  };
+  if (integrator == Integrator::automatic) {
+    IntegratorChoice choice = choose_integrator(scene_, shortest(Integrator::symplectic_euler));
+    integrator = choice.integrator;
+    if (!choice.remark.empty()) remarks_.push_back(std::move(choice.remark));
+  }
+  stable_dt_ = shortest(integrator);
+  return integrator;
+}
+
+}  // namespace palpate::physics
