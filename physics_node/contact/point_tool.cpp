@@ -16,8 +16,10 @@ constexpr double negligible_force = 1e-6;  // [N]; below this the tissue is let 
 constexpr double all_moves = 0.999;        // of a force, borne by masses: hardly any scenery under the tip
 
 /// Finite elements have a surface, whose faces bear; a spring's masses are all that there is of it, as the papers have them.
+/// Of cells too large for the tip the masses bear, too: a remark says so.
 bool presses_faces(const ToolSpec& tool, const Body& body, Integrator integrator) {
-  if (integrator == Integrator::backward_euler) return false;
+  if (integrator == Integrator::backward_euler || !FacePress::is_resolved(tool.radius, body.spacing()))
+    return false;
   return tool.contact.value_or(body.solid ? PointContact::faces : PointContact::nodes) == PointContact::faces;
 }
 

@@ -8,8 +8,10 @@
 
 #include "common/scene/body_spec.h"
 #include "common/scene/device_spec.h"
+#include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
+#include "physics_node/contact/face_press.h"
 #include "physics_node/remarks/enclosure.h"
 #include "physics_node/remarks/remarks.h"
 
@@ -163,10 +165,26 @@ class ToolLook {
   Eigen::AlignedBox3d box_;
 };
 
+/// A tip that would slip between the samples of the faces of cells so large: it presses their corners.
+void add_tiny(const Scene& scene, const Bodies& bodies, const ToolSpec& tool, Remarks& found) {
+  if (tool.shape != ToolShape::point || scene.physics->integrator == Integrator::backward_euler) return;
+  for (const auto& body : bodies) {
+    const double spacing = body->body().spacing();
+    const bool faces = tool.contact ? *tool.contact == PointContact::faces : body->body().solid.has_value();
+    if (!faces || FacePress::is_resolved(tool.radius, spacing)) continue;
+    found.push_back(fmt::format(
+        "{}: tool \"{}\", a tip of {:.3g} mm, presses cells of {:.3g} mm of body \"{}\" at their corners, "
+        "as if it were two of them wide; cells of at most {:.3g} mm bear it by their faces",
+        tool.place.text(), tool.name, 1e3 * tool.radius, 1e3 * spacing, body->body().name,
+        2e3 * tool.radius));
+  }
+}
+
 }  // namespace
 
 Remarks tool_remarks(const Scene& scene, const Bodies& bodies) {
   Remarks all;
+  for (const ToolSpec& tool : scene.tools) add_tiny(scene, bodies, tool, all);
   for (const ToolSpec& tool : scene.tools)
     for (auto& remark : ToolLook(scene, bodies, tool).remarks()) all.push_back(std::move(remark));
   return all;

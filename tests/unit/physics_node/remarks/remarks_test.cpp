@@ -125,6 +125,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"FasterThanAHand", {path + "[[0,0,0,25],[0.001,0,0,12],[1,0,0,25]]"}, "is led at 13 m/s"},
         Mistake{
             "SceneEndsBeforeThePath", {"scene.seconds=1.5"}, "its path takes 2 s, the scene ends after 1.5"},
+        Mistake{"TipSmallerThanItsCells",
+                {"body.block.model=fem", "tool.tip.radius_mm=2"},
+                "presses cells of 5 mm of body \"block\" at their corners"},
         Mistake{"StickThatBeginsInside",
                 {"tool.tip.shape=stick", "tool.tip.length_mm=60", "tool.tip.radius_mm=4",
                  path + "[[0,0,0,30],[1,0,0,12]]"},
