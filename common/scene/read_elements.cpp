@@ -87,6 +87,7 @@ std::string beyond_springs(const MaterialSpec& material) {
   if (!material.modulus_by_intensity.empty()) return "modulus_by_intensity";
   if (material.law != TissueLaw::neo_hookean) return "a law";
   if (material.fracture_energy) return "fracture_energy_J_per_m2";
+  if (material.states_poisson_ratio) return "poisson_ratio";
   return {};
 }
 

@@ -16,7 +16,7 @@ void add_point(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
   if (spec.contact == PointContact::faces && scene.physics->integrator == Integrator::backward_euler)
     throw InputError(spec.place.text() +
                      ": contact = \"faces\" presses step by step, which \"backward_euler\" does not; write "
-                     "contact = \"nodes\", or integrator = \"symplectic_euler\" or \"velocity_verlet\"");
+                     "contact = \"nodes\", or integrator = \"symplectic_euler\"");
   auto point = std::make_unique<PointTool>(spec, n, touchable, scene.physics->integrator);
   box.pressing.push_back(point.get());
   box.tools.push_back(std::move(point));
@@ -29,7 +29,7 @@ void add_stick(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
   if (scene.physics->integrator == Integrator::backward_euler)
     throw InputError(spec.place.text() +
                      ": a stick moves masses step by step, which \"backward_euler\" does not; write "
-                     "integrator = \"symplectic_euler\" or \"velocity_verlet\"");
+                     "integrator = \"symplectic_euler\"");
   auto stick = std::make_unique<StickTool>(spec, n, bodies, touchable);
   box.led.push_back(stick.get());
   box.tools.push_back(std::move(stick));

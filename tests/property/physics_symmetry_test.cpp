@@ -31,8 +31,9 @@ Scene scene_of(const Drop& drop) {
     return fmt::format(
         "[[body]]\nname = \"{0}\"\nlattice = \"voxel\"\nmodel = \"{1}\"\nshape = \"box\"\nsize_mm = {2}\n"
         "spacing_mm = 2.5\nat_mm = {3}\nmaterial = \"{0}\"\n\n[material.{0}]\ndensity_kg_per_m3 = {4}\n"
-        "modulus_kPa = {5}\npoisson_ratio = {6}\nviscosity_Pa_s = 20\n\n",
-        name, drop.model, size, at, density, modulus, drop.model == std::string("fem") ? "0.45" : "0.25");
+        "modulus_kPa = {5}\nviscosity_Pa_s = 20\n{6}\n",
+        name, drop.model, size, at, density, modulus,
+        drop.model == std::string("fem") ? "poisson_ratio = 0.45\n" : "");
   };
   const std::string slab = body("slab", fmt::format("[{0}, {0}, 15]", drop.slab_mm), "[0, 0, 7.5]", 1000, 20);
   const std::string cube =

@@ -313,6 +313,13 @@ TEST(Elements, ReadTheirLaw) {
               ElementsAre(HasSubstr("has a law, which only finite elements follow")));
 }
 
+TEST(Elements, AloneHaveThePoissonRatioThatIsStated) {
+  std::string springs = elements("density_kg_per_m3 = 1000\nmodulus_kPa = 10\npoisson_ratio = 0.45");
+  springs.replace(springs.find("fem"), 3, "springs");
+  EXPECT_THAT(complaints_about(springs),
+              ElementsAre(HasSubstr("has poisson_ratio, which only finite elements follow")));
+}
+
 TEST(Elements, ReadAModulusByIntensity) {
   const auto scanned = [](const std::string& table, const std::string& model = "fem") {
     return "[material.m]\ndensity_kg_per_m3 = 1000\nmodulus_by_intensity = " + table +
