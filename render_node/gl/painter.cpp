@@ -20,15 +20,16 @@ const Eigen::Vector3f steel(0.74F, 0.77F, 0.82F);
 constexpr float bead_radius = 0.16F;  // of the length of an element
 const Eigen::Vector3f arrow_colour(1.0F, 0.45F, 0.10F);
 
-// The stick comes from where a scripted hand starts, leaning a little so that it does not hide the arrow.
+// The stick points back along the first way that a scripted hand goes, which is towards tissue, leaning a little so that it does not
+// hide the arrow.
 Eigen::Vector3d stick_axis(const DeviceSpec& device) {
+  constexpr double least_way = 1e-3;  // Why: shorter ones settle a hand and lead nowhere [m]
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
-  double farthest = 0;
   for (const auto& waypoint : device.waypoints) {
     const Eigen::Vector3d way = device.waypoints.front().p - waypoint.p;
-    if (way.norm() <= farthest) continue;
-    farthest = way.norm();
+    if (way.norm() < least_way) continue;
     axis = way.normalized();
+    break;
   }
   const Eigen::Vector3d side = axis.unitOrthogonal();
   return (axis + 0.45 * (std::abs(axis.z()) > 0.9 ? side : Eigen::Vector3d::UnitZ())).normalized();
