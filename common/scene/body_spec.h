@@ -33,9 +33,13 @@ struct BallRegion {
 struct IntensityRegion {
   double lo = 0, hi = 0;  // inclusive
 };
+/// Of a mesh only: the physical group that its file gives tetrahedra.
+struct GroupRegion {
+  int group = 0;
+};
 struct RegionSpec {
   std::string material;
-  std::variant<BoxRegion, BallRegion, IntensityRegion> where;
+  std::variant<BoxRegion, BallRegion, IntensityRegion, GroupRegion> where;
   Place place;
 };
 
@@ -49,10 +53,11 @@ struct BodySpec {
   std::string name;
   LatticeKind lattice = LatticeKind::fcc;
   ElementModel model = ElementModel::springs;
-  HourglassKind hourglass = HourglassKind::physical;  // of fem
-  StartKind start = StartKind::rest;                  // likewise
-  BorderCells border_cells = BorderCells::whole;      // likewise
-  std::optional<double> spacing;  // [m]; absent only for a volume of voxels, which brings its own
+  HourglassKind hourglass = HourglassKind::physical;       // of fem
+  TetElements tet_elements = TetElements::nodal_pressure;  // of a mesh
+  StartKind start = StartKind::rest;                       // of fem
+  BorderCells border_cells = BorderCells::whole;           // likewise
+  std::optional<double> spacing;  // [m]; absent only for a volume of voxels and a mesh, which bring their own
   std::string material;
   std::vector<RegionSpec> regions;  // of other materials; later ones win
   std::vector<CavitySpec> cavities;

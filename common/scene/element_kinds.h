@@ -3,7 +3,7 @@
 
 namespace palpate {
 
-/// springs: the papers' lattice of springs. fem: finite elements, hexahedra on a voxel lattice.
+/// springs: the papers' lattice of springs. fem: finite elements, hexahedra on a voxel lattice or the tetrahedra of a mesh.
 enum class ElementModel { springs, fem };
 
 /// What a finite element's stress follows: stable neo-Hookean, or St Venant-Kirchhoff, which is linear in Green's strain.
@@ -11,6 +11,9 @@ enum class TissueLaw { neo_hookean, green };
 
 /// What keeps a cell of one point from bending for nothing.
 enum class HourglassKind { physical, isotropic };
+
+/// What tetrahedra of a mesh are: linear ones, the same with the average pressure of their nodes, or of second order with ten nodes.
+enum class TetElements { plain, nodal_pressure, second_order };
 
 /// whole: a cell is in the shape or not, by its centre. filled: those at its border are as stiff as the share of them that is in.
 enum class BorderCells { whole, filled };

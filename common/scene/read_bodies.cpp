@@ -12,6 +12,7 @@ namespace {
 
 /// The lattice and its spacing. An image is built on its own voxels unless fcc is asked for.
 void read_lattice(TableReader& reader, bool is_known, BodySpec& spec) {
+  if (std::holds_alternative<MeshShape>(spec.shape)) return refuse_beside_mesh(reader);
   const auto* image = std::get_if<VolumeShape>(&spec.shape);
   const bool is_tool =
       std::holds_alternative<KnifeShape>(spec.shape) || std::holds_alternative<NeedleShape>(spec.shape);
@@ -61,7 +62,7 @@ BodySpec read_body(TableReader& reader, ReadContext& context) {
   set_if(spec.at, reader.read_vector_mm("at_mm"));
   set_if(spec.velocity, reader.read_vector("velocity_m_per_s", {.lo = -1e4, .hi = 1e4}));
   read_fixed(reader, context, spec);
-  read_handle(reader, spec);
+  if (!std::holds_alternative<MeshShape>(spec.shape)) read_handle(reader, spec);
   return spec;
 }
 

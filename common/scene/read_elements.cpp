@@ -1,4 +1,4 @@
-// `model`, `hourglass`, `border_cells` and `start` of a body: springs or finite elements.
+// `model`, `hourglass`, `elements`, `border_cells` and `start` of a body: springs or finite elements.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -40,6 +40,15 @@ std::string hindrance(const MaterialSpec& material, const BodySpec& spec) {
   return {};
 }
 
+/// What of a material tetrahedra cannot follow though cells do; empty: nothing.
+std::string beyond_tetrahedra(const MaterialSpec& material) {
+  if (material.yield_ratio) return "yields";
+  if (material.break_ratio) return "breaks";
+  if (!material.relaxation.empty()) return "relaxes";
+  if (material.law == TissueLaw::green) return "has law = \"green\"";
+  return {};
+}
+
 /// Is the body, or a region of it, of this material?
 bool is_in(const BodySpec& spec, const MaterialSpec& material) {
   return spec.material == material.name ||
@@ -53,6 +62,31 @@ void refuse_materials(TableReader& reader, const ReadContext& context, const Bod
     if (const std::string what = hindrance(material, spec); !what.empty())
       reader.complain("model", fmt::format("model = \"fem\" in {}, but [material.{}] {}", reader.title(),
                                            material.name, what));
+  }
+}
+
+/// What a mesh has of its own, and what of a scene it cannot follow.
+void read_tetrahedra(TableReader& reader, const ReadContext& context, BodySpec& spec) {
+  if (reader.has("model") && spec.model == ElementModel::springs)
+    reader.complain("model", "a mesh is of finite elements; write model = \"fem\", or leave \"model\" out");
+  spec.model = ElementModel::fem;
+  if (const auto word = reader.read_word("elements", {"plain", "nodal_pressure", "second_order"}))
+    spec.tet_elements = static_cast<TetElements>(*word);
+  if (context.scene.physics->integrator != Integrator::symplectic_euler)
+    reader.complain("shape",
+                    "a mesh is stepped by \"symplectic_euler\" only; leave \"integrator\" in [physics] "
+                    "out");
+  for (const MaterialSpec& material : context.scene.materials) {
+    if (!is_in(spec, material)) continue;
+    const std::string beyond = beyond_tetrahedra(material);
+    const std::string what = beyond.empty()
+                                 ? hindrance(material, spec)
+                                 : beyond +
+                                       ", which tetrahedra do not follow; leave that out, or take a shape on "
+                                       "lattice = \"voxel\"";
+    if (!what.empty())
+      reader.complain("material",
+                      fmt::format("{} is a mesh, but [material.{}] {}", reader.title(), material.name, what));
   }
 }
 
@@ -147,6 +181,11 @@ void read_elements(TableReader& reader, ReadContext& context, BodySpec& spec) {
     spec.start = static_cast<StartKind>(*word);
   if (const auto word = reader.read_word("border_cells", {"whole", "filled"}))
     spec.border_cells = static_cast<BorderCells>(*word);
+  if (std::holds_alternative<MeshShape>(spec.shape)) return read_tetrahedra(reader, context, spec);
+  if (reader.has("elements")) {
+    reader.allow({"elements"});
+    reader.complain("elements", "\"elements\" is of a mesh; leave it out");
+  }
   const bool fem = spec.model == ElementModel::fem;
   if (!fem && reader.has("hourglass"))
     reader.complain("hourglass",

@@ -56,20 +56,11 @@ DeformableRegion read_deformable(TableReader& body, ReadContext& context) {
   return region;
 }
 
-/// A file is found from the folder of the scene, or from here where it is given by --set.
-std::filesystem::path resolved(TableReader& body, std::string_view key, const std::string& scene_path,
-                               const std::string& file) {
-  namespace fs = std::filesystem;
-  const bool is_set = place_of(body.find(key)->source()).file.starts_with(setting_prefix);
-  const auto folder = is_set ? fs::path() : fs::path(scene_path).parent_path();
-  return (folder / file).lexically_normal();
-}
-
 void read_volume_file(TableReader& body, const std::string& scene_path, VolumeShape& volume) {
   body.require("file", "name a volume made by \"palpate import\"");
   const auto file = body.read_text("file");
   if (!file) return;
-  volume.file = resolved(body, "file", scene_path, *file).string();
+  volume.file = path_of(body, "file", scene_path, *file);
   std::error_code error;
   if (!std::filesystem::is_regular_file(volume.file, error))
     body.complain("file", fmt::format("there is no file {}; make it with \"palpate import IMAGE --out {}\"",
@@ -90,7 +81,7 @@ std::vector<std::string> read_files(TableReader& body, const std::string& scene_
     return {};
   }
   for (const auto& pattern : patterns) {
-    const auto path = resolved(body, "files", scene_path, pattern);
+    const std::filesystem::path path = path_of(body, "files", scene_path, pattern);
     const auto found = files_of_pattern(path);
     if (found.empty())
       body.complain("files", fmt::format("there is no file {}; give {}", path.string(), form));
@@ -133,6 +124,14 @@ void read_tissue(TableReader& body, ReadContext& context, VolumeShape& volume) {
 }
 
 }  // namespace
+
+std::string path_of(TableReader& body, std::string_view key, const std::string& scene_path,
+                    const std::string& file) {
+  namespace fs = std::filesystem;
+  const bool is_set = place_of(body.find(key)->source()).file.starts_with(setting_prefix);
+  const auto folder = is_set ? fs::path() : fs::path(scene_path).parent_path();
+  return (folder / file).lexically_normal().string();
+}
 
 VolumeShape read_volume_shape(TableReader& body, ReadContext& context) {
   VolumeShape volume;

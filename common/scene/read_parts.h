@@ -34,13 +34,19 @@ bool read_shape(TableReader& body, ReadContext& context, BodySpec& spec);
 void refuse_small_tool(TableReader& body, const BodySpec& spec);
 VolumeShape read_volume_shape(TableReader& body, ReadContext& context);
 VolumeShape read_slices_shape(TableReader& body, ReadContext& context);
+MeshShape read_mesh_shape(TableReader& body, ReadContext& context);
+/// Keys of a body that a mesh has no use for.
+void refuse_beside_mesh(TableReader& body);
+/// The path that a key names: from the folder of the scene, or from here where it is given by --set.
+std::string path_of(TableReader& body, std::string_view key, const std::string& scene_path,
+                    const std::string& file);
 /// `fixed` of a body: faces and boxes.
 void read_fixed(TableReader& body, ReadContext& context, BodySpec& spec);
 /// `handle` of a body: faces instead of those that its shape is held at.
 void read_handle(TableReader& body, BodySpec& spec);
 /// `regions` of a body, whose shape and material are known by now.
 void read_regions(TableReader& body, ReadContext& context, BodySpec& spec);
-/// `model` and `hourglass` of a body, whose lattice and materials are known by now.
+/// `model`, `hourglass`, `elements`, `border_cells` and `start` of a body, whose lattice and materials are known by now.
 void read_elements(TableReader& body, ReadContext& context, BodySpec& spec);
 /// [[body.cavity]]
 void read_cavities(TableReader& body, ReadContext& context, BodySpec& spec);

@@ -13,8 +13,9 @@ namespace palpate {
 namespace {
 
 constexpr std::size_t most_regions = 64;
+constexpr std::int64_t most_group = 2147483647;  // Why: what the mesh reader takes
 constexpr std::string_view region_form =
-    "{ material = \"NAME\" } with box_min_mm and box_max_mm, center_mm and radius_mm, or intensity";
+    "{ material = \"NAME\" } with box_min_mm and box_max_mm, center_mm and radius_mm, intensity or group";
 
 void read_intensity(TableReader& reader, bool is_volume, RegionSpec& region) {
   IntensityRegion window;
@@ -32,21 +33,37 @@ void read_intensity(TableReader& reader, bool is_volume, RegionSpec& region) {
   region.where = window;
 }
 
+void read_group(TableReader& reader, bool is_mesh, RegionSpec& region) {
+  GroupRegion of_group;
+  if (!is_mesh)
+    reader.complain(
+        "group",
+        "\"group\" is of a mesh, and this body's shape is not \"mesh\"; give a box or a ball instead");
+  if (const auto group = reader.read_integer("group", -most_group, most_group))
+    of_group.group = static_cast<int>(*group);
+  region.where = of_group;
+}
+
 /// Exactly one way to say where.
-void read_where(TableReader& reader, bool is_volume, RegionSpec& region) {
+void read_where(TableReader& reader, const Shape& shape, RegionSpec& region) {
   const bool box = reader.has("box_min_mm") || reader.has("box_max_mm");
   const bool ball = reader.has("center_mm") || reader.has("radius_mm");
   const bool intensity = reader.has("intensity");
-  const int ways = static_cast<int>(box) + static_cast<int>(ball) + static_cast<int>(intensity);
+  const bool group = reader.has("group");
+  const int ways =
+      static_cast<int>(box) + static_cast<int>(ball) + static_cast<int>(intensity) + static_cast<int>(group);
   constexpr std::string_view advice =
-      "give box_min_mm and box_max_mm, or center_mm and radius_mm, or intensity = [lowest, highest]";
+      "give box_min_mm and box_max_mm, or center_mm and radius_mm, or intensity = [lowest, highest], or "
+      "group = "
+      "a number of the mesh file";
   if (ways == 0) reader.complain_lack("a place", advice);
   if (ways > 1)
     reader.complain_at(reader.place(), fmt::format("{} has {} places; {}", reader.title(), ways, advice));
   if (box) region.where = read_box_place(reader);
   if (ball) region.where = read_ball_place(reader);
-  if (intensity) read_intensity(reader, is_volume, region);
-  reader.allow({"box_min_mm", "box_max_mm", "center_mm", "radius_mm", "intensity"});
+  if (intensity) read_intensity(reader, std::holds_alternative<VolumeShape>(shape), region);
+  if (group) read_group(reader, std::holds_alternative<MeshShape>(shape), region);
+  reader.allow({"box_min_mm", "box_max_mm", "center_mm", "radius_mm", "intensity", "group"});
 }
 
 bool has_damper(const MaterialSpec& material) {
@@ -82,7 +99,7 @@ void read_region(const toml::table& table, TableReader& body, ReadContext& conte
   RegionSpec region;
   region.place = reader.place();
   reader.require("material", "name a [material.NAME] of this scene");
-  read_where(reader, std::holds_alternative<VolumeShape>(spec.shape), region);
+  read_where(reader, spec.shape, region);
   if (const auto material = reader.read_text("material")) {
     region.material = *material;
     refuse_unknown_reference(reader, "material", *material, names_of(context.scene.materials));

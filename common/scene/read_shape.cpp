@@ -13,12 +13,13 @@
 namespace palpate {
 namespace {
 
-const std::vector<std::string> shapes = {"sphere", "box", "tube", "knife", "needle", "volume", "slices"};
+const std::vector<std::string> shapes = {"sphere", "box",    "tube",   "knife",
+                                         "needle", "volume", "slices", "mesh"};
 const std::vector<std::string> keys_of_shapes = {
-    "radius_mm", "size_mm",    "outer_radius_mm",  "inner_radius_mm", "wall_layers",
-    "length_mm", "axis",       "height_mm",        "diameter_mm",     "theta_deg",
-    "file",      "files",      "pixel_mm",         "plane_mm",        "keep",
-    "partition", "deformable", "largest_component"};
+    "radius_mm", "size_mm",   "outer_radius_mm", "inner_radius_mm",  "wall_layers",
+    "length_mm", "axis",      "height_mm",       "diameter_mm",      "theta_deg",
+    "file",      "unit",      "files",           "pixel_mm",         "plane_mm",
+    "keep",      "partition", "deformable",      "largest_component"};
 constexpr int most_layers = 1000;
 constexpr double bluntest_deg = 90, sharpest_deg = 5;  // angle of a bevel
 
@@ -117,6 +118,8 @@ bool read_shape(TableReader& body, ReadContext& context, BodySpec& spec) {
     spec.shape = read_volume_shape(body, context);
   } else if (word == "slices") {
     spec.shape = read_slices_shape(body, context);
+  } else if (word == "mesh") {
+    spec.shape = read_mesh_shape(body, context);
   } else {
     body.allow(keys_of_shapes);  // whose they are cannot be told
     if (value == nullptr)

@@ -14,6 +14,7 @@ namespace palpate {
 std::vector<std::string> files_of(const Scene& scene) {
   std::vector<std::string> files = {scene.path};
   for (const BodySpec& body : scene.bodies) {
+    if (const auto* mesh = std::get_if<MeshShape>(&body.shape)) files.push_back(mesh->file);
     const auto* volume = std::get_if<VolumeShape>(&body.shape);
     if (volume == nullptr) continue;
     if (volume->slices) files.insert(files.end(), volume->slices->files.begin(), volume->slices->files.end());
@@ -27,6 +28,8 @@ SceneSource source_of(const Scene& scene, const std::vector<std::string>& settin
   if (scene_checksum(source.text, settings) != scene.checksum)
     throw InputError(scene.path + ": has changed while it was being loaded; start again");
   for (const BodySpec& body : scene.bodies) {
+    if (const auto* mesh = std::get_if<MeshShape>(&body.shape))
+      source.files.push_back({body.name, mesh->file, false});
     const auto* volume = std::get_if<VolumeShape>(&body.shape);
     if (volume == nullptr) continue;
     if (!volume->slices) source.files.push_back({body.name, volume->file, false});

@@ -54,6 +54,11 @@ struct VolumeShape {
   DeformableRegion deformable;
   bool largest_component = false;  // keep only the largest 6-connected component
 };
-using Shape = std::variant<SphereShape, BoxShape, TubeShape, KnifeShape, NeedleShape, VolumeShape>;
+/// Tetrahedra from a file in Gmsh's format MSH 2.2. The middle of the box round them comes to `at`.
+struct MeshShape {
+  std::string file;   // found from the folder of the scene file
+  double metres = 0;  // that one unit of the file has
+};
+using Shape = std::variant<SphereShape, BoxShape, TubeShape, KnifeShape, NeedleShape, VolumeShape, MeshShape>;
 
 }  // namespace palpate

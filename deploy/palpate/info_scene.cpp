@@ -51,12 +51,22 @@ struct ShapeText {
                          shape.slices->files.front(), shape.keep_min, shape.keep_max);
     return fmt::format("volume {}, intensity {:.6g} to {:.6g}", shape.file, shape.keep_min, shape.keep_max);
   }
+  std::string operator()(const MeshShape& shape) const {
+    return fmt::format("mesh {} in units of {:.6g} mm", shape.file, mm_from_m(shape.metres));
+  }
 };
 
-std::string body_text(const BodySpec& body) {
-  std::string text =
-      fmt::format("body         {}: {}, {} lattice", body.name, std::visit(ShapeText{}, body.shape),
-                  body.lattice == LatticeKind::fcc ? "fcc" : "voxel");
+/// What its masses stand on.
+std::string structure_text(const BodySpec& body, const physics::Body& built) {
+  if (!built.mesh) return body.lattice == LatticeKind::fcc ? "fcc lattice" : "voxel lattice";
+  constexpr const char* kinds[] = {"plain", "nodal pressure", "second order"};
+  return fmt::format("{} tetrahedra ({}) with {} nodes, faces of {:.3g} mm", built.n_elements(),
+                     kinds[static_cast<int>(body.tet_elements)], built.n_nodes(), mm_from_m(built.spacing()));
+}
+
+std::string body_text(const BodySpec& body, const physics::Body& built) {
+  std::string text = fmt::format("body         {}: {}, {}", body.name, std::visit(ShapeText{}, body.shape),
+                                 structure_text(body, built));
   if (body.spacing) text += fmt::format(" of {:.6g} mm", mm_from_m(*body.spacing));
   text += fmt::format(", material {}", body.material);
   for (const auto& region : body.regions) text += fmt::format(", {} in a region", region.material);
@@ -95,7 +105,7 @@ std::string forecast_text(const Scene& scene, const physics::World& world) {
   for (std::size_t b = 0; b < world.n_bodies(); ++b) {
     const BodySpec& spec = scene.bodies[b];
     const MemoryNeed need = memory_need(spec, scene);
-    const auto built = static_cast<double>(world.body(b).body().lattice.n_masses());
+    const auto built = static_cast<double>(world.body(b).body().n_nodes());
     masses.push_back(built);
     bytes += need.bytes - bytes_of_masses(need.masses, spec, scene) + bytes_of_masses(built, spec, scene);
   }
@@ -122,7 +132,7 @@ std::string info_scene(const std::string& path) {
   text += fmt::format("checksum     {}\n", hex_of(scene.checksum));
   text += fmt::format("lasts        {:.6g} s\n", scene.natural_seconds());
   text += forecast_text(scene, world);
-  for (const auto& body : scene.bodies) text += body_text(body);
+  for (std::size_t b = 0; b < world.n_bodies(); ++b) text += body_text(scene.bodies[b], world.body(b).body());
   for (const auto& material : scene.materials) text += material_text(material);
   for (const auto& tool : scene.tools) text += tool_text(tool, scene);
   for (const auto& line : world.remarks()) text += fmt::format("remark       {}\n", line);

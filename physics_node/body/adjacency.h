@@ -1,50 +1,67 @@
 #pragma once
 // Which nodes of a body hang together: who is joined to whom by an element that lives.
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <span>
 
 #include "physics_node/lattice/lattice.h"
+#include "physics_node/mesh/mesh_parts.h"
 
 namespace palpate::physics {
 
 /// A view of what a body steps: it follows every break, and costs nothing to copy.
 class Adjacency {
  public:
+  /// Of nothing.
+  Adjacency() = default;
   /// Of the body as it was loaded. @param lattice  outlives this
   explicit Adjacency(const Lattice& lattice) : Adjacency(lattice, lattice.mask) {}
   /// @param live  elements of every storage cell; outlives this  (n_cells)
   Adjacency(const Lattice& lattice, std::span<const Mask> live) : lattice_(&lattice), live_(live) {}
+  /// Of a mesh, in which nothing breaks. @param lists  outlives this
+  explicit Adjacency(const NodeLists& lists) : lists_(&lists) {}
 
   /// Calls visit(neighbour) for each node that a live element joins to this one, in an order that depends on the body alone.
   template <class Visit>
   void each_neighbour(Index node, const Visit& visit) const noexcept {
+    if (lists_ != nullptr) {
+      for (const Index other : lists_->of(node)) visit(other);
+      return;
+    }
     const auto& offset = lattice_->offset[static_cast<std::size_t>(lattice_->row_kind(node))];
     for (Mask left = live_elements(node) & element_bits; left != 0; left &= left - 1)
       visit(node + offset[static_cast<std::size_t>(std::countr_zero(left))]);
   }
   bool are_joined(Index a, Index b) const noexcept {
+    if (lists_ != nullptr) return std::ranges::binary_search(lists_->of(a), b);
     const auto& offset = lattice_->offset[static_cast<std::size_t>(lattice_->row_kind(a))];
     for (Mask left = live_elements(a) & element_bits; left != 0; left &= left - 1)
       if (a + offset[static_cast<std::size_t>(std::countr_zero(left))] == b) return true;
     return false;
   }
   /// How many it is joined to.
-  int degree(Index node) const noexcept { return std::popcount(live_elements(node) & element_bits); }
+  int degree(Index node) const noexcept {
+    if (lists_ != nullptr) return static_cast<int>(lists_->of(node).size());
+    return std::popcount(live_elements(node) & element_bits);
+  }
   /// Is an element gone that joined it to another when the body was loaded, or a cell that it was a corner of?
   bool has_lost(Index node) const noexcept {
-    return live_elements(node) != lattice_->mask[static_cast<std::size_t>(node)];
+    return lists_ == nullptr && live_elements(node) != lattice_->mask[static_cast<std::size_t>(node)];
   }
   /// The live elements of a node as a record keeps them: a bit for each, which means the same in every body built from the
-  /// same [[body]].
-  Mask live_elements(Index node) const noexcept { return live_[static_cast<std::size_t>(node)]; }
+  /// same [[body]]. 0 of a mesh: nothing of it breaks.
+  Mask live_elements(Index node) const noexcept {
+    return lists_ != nullptr ? Mask{0} : live_[static_cast<std::size_t>(node)];
+  }
   /// The same of every storage cell: for makers of what only a lattice has  (n_cells)
   std::span<const Mask> of_all() const noexcept { return live_; }
 
  private:
-  const Lattice* lattice_;
+  const Lattice* lattice_ = nullptr;
   std::span<const Mask> live_;
+  const NodeLists* lists_ = nullptr;  // of a mesh; else null
 };
 
 }  // namespace palpate::physics

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "common/error/error.h"
 #include "common/scene/body_spec.h"
 #include "common/scene/material_spec.h"
 #include "physics_node/body/build_lattice.h"
+#include "physics_node/body/build_mesh_body.h"
 #include "physics_node/body/materials.h"
 
 namespace palpate::physics {
@@ -17,9 +19,9 @@ namespace {
 /// The masses of a body in its own frame, and the box round them.
 class OwnFrame {
  public:
-  OwnFrame(const BodySpec& spec, const Lattice& lattice) : spec_(spec), lattice_(lattice) {
-    lo_ = hi_ = place(lattice.masses.front());
-    for (const Index cell : lattice.masses) {
+  OwnFrame(const BodySpec& spec, const Body& body) : spec_(spec), body_(body) {
+    lo_ = hi_ = place(body.nodes().front());
+    for (const Index cell : body.nodes()) {
       lo_ = lo_.cwiseMin(place(cell));
       hi_ = hi_.cwiseMax(place(cell));
     }
@@ -38,26 +40,34 @@ class OwnFrame {
 
   /// Are the masses in the outermost layer of a face a single row: longer than an element, and less than one wide?
   bool is_row(std::size_t face, double layer) const {
-    Eigen::AlignedBox3d box;
-    for (const Index cell : lattice_.masses)
-      if (below(face, place(cell)) <= layer) box.extend(place(cell));
-    Vec3 size = box.sizes();
-    const auto axis = static_cast<Eigen::Index>(face / 2);
-    const double a = size[(axis + 1) % 3], b = size[(axis + 2) % 3];
-    const double element = 0.99 * lattice_.spacing();
-    return std::max(a, b) > element && std::min(a, b) < element;
+    const auto [narrow, wide] = extent(face, layer);
+    const double element = 0.99 * body_.spacing();
+    return wide > element && narrow < element;
+  }
+  /// Are they a row or fewer?
+  bool is_narrow(std::size_t face, double layer) const {
+    return extent(face, layer).first < 0.99 * body_.spacing();
   }
 
  private:
+  /// Of the outermost layer of a face, along its own axes [m].
+  std::pair<double, double> extent(std::size_t face, double layer) const {
+    Eigen::AlignedBox3d box;
+    for (const Index cell : body_.nodes())
+      if (below(face, place(cell)) <= layer) box.extend(place(cell));
+    const Vec3 size = box.sizes();
+    const auto axis = static_cast<Eigen::Index>(face / 2);
+    return std::minmax({size[(axis + 1) % 3], size[(axis + 2) % 3]});
+  }
   double below(std::size_t face, const Vec3& p) const {
     const auto axis = static_cast<Eigen::Index>(face / 2);
     return face % 2 == 0 ? p[axis] - lo_[axis] : hi_[axis] - p[axis];
   }
   Vec3 place(Index cell) const {
-    return spec_.orientation.transpose() * (lattice_.rest_position(cell) - spec_.at);
+    return spec_.orientation.transpose() * (body_.rest_position(cell) - spec_.at);
   }
   const BodySpec& spec_;
-  const Lattice& lattice_;
+  const Body& body_;
   Vec3 lo_ = Vec3::Zero(), hi_ = Vec3::Zero();
 };
 
@@ -73,32 +83,47 @@ double two_layers(const Lattice& lattice, std::size_t face) {
   return 0.75 * (fcc ? lattice.rest_length[0] : lattice.step[static_cast<Eigen::Index>(face / 2)]);
 }
 
+/// What counts as the outermost layer of masses of a face [m].
+double outermost(const Body& body, std::size_t face) {
+  return 0.25 * (body.mesh ? body.spacing() : body.lattice.step[static_cast<Eigen::Index>(face / 2)]);
+}
+
+/// A face of a mesh that is round has few nodes in its outermost layer, and they would be a hinge.
+[[noreturn]] void refuse_hinge(const BodySpec& spec, std::size_t face) {
+  constexpr std::array<const char*, 6> names = {"-x", "+x", "-y", "+y", "-z", "+z"};
+  throw InputError(
+      fmt::format("{}: fixed = [\"{}\"] of body \"{}\" would hold a point or a line of its mesh, and it "
+                  "could swing about that; "
+                  "give a box {{ min_mm = [x, y, z], max_mm = [x, y, z] }} of what is held",
+                  spec.place.text(), names[face], spec.name));
+}
+
 void hold_masses(const BodySpec& spec, Body& body) {
-  const Lattice& lattice = body.lattice;
-  const OwnFrame frame(spec, lattice);
+  const OwnFrame frame(spec, body);
   OwnFrame::Depths depth;
   for (std::size_t f = 0; f < 6; ++f) {
     if (!spec.fixed_faces[f]) continue;
-    const double layer = 0.25 * lattice.step[static_cast<Eigen::Index>(f / 2)];
+    const double layer = outermost(body, f);
+    if (body.mesh && frame.is_narrow(f, layer)) refuse_hinge(spec, f);
     // A row of masses is a hinge: there two layers are held, as for a handle.
-    depth[f] = frame.is_row(f, layer) ? two_layers(lattice, f) : layer;
+    depth[f] = !body.mesh && frame.is_row(f, layer) ? two_layers(body.lattice, f) : layer;
   }
-  for (const Index cell : lattice.masses) {
-    const bool touches_scenery = body.cells && touches_rigid_cell(*body.cells, lattice, cell);
-    if (!touches_scenery && !frame.is_on(depth, cell) && !is_in_box(spec, lattice.rest_position(cell)))
-      continue;
+  for (const Index cell : body.nodes()) {
+    const bool touches_scenery = body.cells && touches_rigid_cell(*body.cells, body.lattice, cell);
+    if (!touches_scenery && !frame.is_on(depth, cell) && !is_in_box(spec, body.rest_position(cell))) continue;
     body.inverse_mass[static_cast<std::size_t>(cell)] = 0;
     ++body.n_held;
   }
+  if (!body.mesh || body.n_held == 0) return;
+  for (const double w : body.inverse_mass) body.mesh->model.held.push_back(w == 0);
 }
 
 void give_handle(const BodySpec& spec, Body& body) {
-  const Lattice& lattice = body.lattice;
-  const OwnFrame frame(spec, lattice);
+  const OwnFrame frame(spec, body);
   OwnFrame::Depths depth;
   for (std::size_t f = 0; f < 6; ++f)
-    if (spec.handle_faces[f]) depth[f] = two_layers(lattice, f);
-  for (const Index cell : lattice.masses)
+    if (spec.handle_faces[f]) depth[f] = two_layers(body.lattice, f);
+  for (const Index cell : body.nodes())
     if (frame.is_on(depth, cell)) body.handle.push_back(cell);
   body.tip = spec.at;
 }
@@ -121,6 +146,12 @@ Body build_body(const BodySpec& spec, const std::vector<MaterialSpec>& materials
   Body body;
   body.name = spec.name;
   body.velocity = spec.velocity;
+  if (std::holds_alternative<MeshShape>(spec.shape)) {
+    build_mesh_body(body, spec, materials);
+    hold_masses(spec, body);
+    body.tip = spec.at;
+    return body;
+  }
   if (spec.lattice == LatticeKind::voxel) {
     body.cells = make_cells(spec);
     body.lattice = voxel_lattice(*body.cells);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,6 +14,7 @@
 #include "physics_node/body/adjacency.h"
 #include "physics_node/body/cells.h"
 #include "physics_node/body/element_law.h"
+#include "physics_node/body/mesh_body.h"
 #include "physics_node/body/solid_elements.h"
 #include "physics_node/lattice/lattice.h"
 
@@ -22,9 +24,10 @@ namespace palpate::physics {
 /// bodies computes.
 struct Body {
   std::string name;
-  Lattice lattice;
-  ElementLaw law;                // of its own material
-  std::vector<ElementLaw> laws;  // of each material in it; laws[0] is `law`
+  Lattice lattice;                 // empty where the body is a mesh
+  std::shared_ptr<MeshBody> mesh;  // of a body of tetrahedra; else null
+  ElementLaw law;                  // of its own material
+  std::vector<ElementLaw> laws;    // of each material in it; laws[0] is `law`
   std::vector<std::uint8_t>
       law_of;  // of each storage cell, an index of laws (n_cells); EMPTY: all masses have `law`
   std::optional<SolidElements>
@@ -39,20 +42,32 @@ struct Body {
   Vec3 tip = Vec3::Zero();  // where the hand's tip is while the body is at rest: at_mm of the scene [m]
 
   /// All nodes, in a fixed order.
-  std::span<const Index> nodes() const noexcept { return lattice.masses; }
-  Index n_nodes() const noexcept { return lattice.n_masses(); }
+  std::span<const Index> nodes() const noexcept { return mesh ? mesh->nodes : lattice.masses; }
+  Index n_nodes() const noexcept { return static_cast<Index>(nodes().size()); }
   /// The number of every node is below this.
-  Index capacity() const noexcept { return lattice.n_cells(); }
-  Vec3 rest_position(Index node) const noexcept { return lattice.rest_position(node); }  // [m]
-  /// How far neighbours lie apart at most [m].
-  double spacing() const noexcept { return lattice.spacing(); }
-  std::int64_t n_elements() const { return lattice.n_elements(); }
-  Adjacency adjacency() const noexcept { return Adjacency(lattice); }  // as loaded
-  /// Pieces of a step that threads may share.
-  std::size_t n_pieces() const noexcept { return lattice.chunks.size(); }
-  double longest_element() const noexcept {  // at rest [m]
-    return *std::max_element(lattice.rest_length.begin(), lattice.rest_length.end());
+  Index capacity() const noexcept { return mesh ? n_nodes() : lattice.n_cells(); }
+  Vec3 rest_position(Index node) const noexcept {  // [m]
+    return mesh ? mesh->model.mesh.nodes[static_cast<std::size_t>(node)] : lattice.rest_position(node);
   }
+  /// How far neighbours lie apart, by which distances of contact go: of a mesh those on its faces, in the mean [m].
+  double spacing() const noexcept { return mesh ? mesh->spacing : lattice.spacing(); }
+  std::int64_t n_elements() const { return mesh ? mesh->n_tets() : lattice.n_elements(); }
+  Adjacency adjacency() const noexcept {  // as loaded
+    return mesh ? Adjacency(mesh->neighbours) : Adjacency(lattice);
+  }
+  /// Pieces of a step that threads may share.
+  std::size_t n_pieces() const noexcept {
+    return mesh ? 1 + mesh->model.mesh.tets.size() / tets_a_piece : lattice.chunks.size();
+  }
+  double longest_element() const noexcept {  // at rest [m]
+    return mesh ? mesh->longest_edge
+                : *std::max_element(lattice.rest_length.begin(), lattice.rest_length.end());
+  }
+  /// Is a node part of no cell that is seen? It moves with the others and nobody touches it.
+  bool is_beyond(Index node) const noexcept { return !mesh && lattice.is_beyond(node); }
+
+ private:
+  static constexpr std::size_t tets_a_piece = 1024;  // Why: no block of a step has more
 };
 
 /// The law of the mass in a storage cell.
@@ -61,7 +76,15 @@ inline const ElementLaw& law_at(const Body& body, Index cell) {
 }
 /// [kg]
 inline double node_mass(const Body& body, Index node) {
-  return body.solid ? body.solid->mass[static_cast<std::size_t>(node)] : law_at(body, node).mass;
+  const auto n = static_cast<std::size_t>(node);
+  if (body.mesh) return body.mesh->mass[n];
+  return body.solid ? body.solid->mass[n] : law_at(body, node).mass;
+}
+/// Finite elements, in cells or in tetrahedra; else springs.
+inline bool is_of_finite_elements(const Body& body) { return body.solid || body.mesh; }
+/// viscosity / modulus of finite elements [s]
+inline double damper_time(const Body& body) {
+  return body.mesh ? body.mesh->model.beta : body.solid ? body.solid->beta : 0;
 }
 /// Springs that yield and break.
 inline bool any_yields(const Body& body) {
@@ -80,12 +103,12 @@ inline bool any_damped(const Body& body) {
   return std::any_of(body.laws.begin(), body.laws.end(), [](const ElementLaw& law) { return law.damped; });
 }
 
-/// Builds a body's lattice, laws, held masses and handle. Held are the masses within a quarter of a grid step of a face; where
+/// Builds a body's lattice or mesh, its laws, held masses and handle. Held are the masses within a quarter of a grid step of a face; where
 /// those are a single row, which would be a hinge, and for a handle, the masses within three quarters of the spacing: on fcc the two
 /// outermost layers.
-/// Faces are those of the masses in the body's own frame.
+/// Faces are those of the masses in the body's own frame. Of a mesh, held are the nodes within a quarter of the spacing of a face.
 /// @param materials  of the scene; the body and its regions name them, and they must be there
-/// @throws InputError
+/// @throws InputError; also where a face of a mesh holds less than an area
 Body build_body(const BodySpec& spec, const std::vector<MaterialSpec>& materials);
 /// A body of one material, whatever it is called.
 Body build_body(const BodySpec& spec, const MaterialSpec& material);

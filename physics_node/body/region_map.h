@@ -16,8 +16,9 @@ namespace palpate::physics {
 inline bool holds_mass(const RegionSpec& region, const Vec3& p, double intensity) {
   if (const auto* box = std::get_if<BoxRegion>(&region.where)) return holds(*box, p);
   if (const auto* ball = std::get_if<BallRegion>(&region.where)) return holds(*ball, p);
-  const auto& window = std::get<IntensityRegion>(region.where);
-  return intensity >= window.lo && intensity <= window.hi;
+  const auto* window = std::get_if<IntensityRegion>(&region.where);
+  if (window == nullptr) return false;  // groups are of a mesh
+  return intensity >= window->lo && intensity <= window->hi;
 }
 
 /// 0: the body's own material; r + 1: that of region r. Remembers which regions hold anything.

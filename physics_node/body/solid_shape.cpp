@@ -48,6 +48,7 @@ struct BoundsOf {
             Vec3(s.diameter, 0.5 * s.diameter, s.length + bevel_height(s) + 2 * spacing)};
   }
   Bounds operator()(const VolumeShape&) const { PALPATE_CHECK(false, "an image is no solid"); }
+  Bounds operator()(const MeshShape&) const { PALPATE_CHECK(false, "a mesh is no solid"); }
 };
 
 struct Holds {
@@ -68,6 +69,7 @@ struct Holds {
            p.x() * std::cos(s.sharpening) - p.z() * std::sin(s.sharpening) <= slack;
   }
   bool operator()(const VolumeShape&) const { PALPATE_CHECK(false, "an image is no solid"); }
+  bool operator()(const MeshShape&) const { PALPATE_CHECK(false, "a mesh is no solid"); }
   bool in_bounds(const Bounds& box) const {
     return (p.array() >= box.lo.array() - slack).all() && (p.array() <= box.hi.array() + slack).all();
   }

@@ -6,14 +6,16 @@
 
 namespace palpate::physics {
 
-/// A node that is joined to fewer others than deep inside (EQUATIONS C-12), or that was a corner of a cell that broke.
+/// Of a mesh a corner of an outer face; else a node that is joined to fewer others than deep inside (EQUATIONS C-12), or that was a corner of a cell that broke.
 class ExposedNodes {
  public:
   /// @param open_ones  also nodes that lack nothing but that space reaches, as at the bottom of a pit of the fcc surface or in
-  ///   an inner corner of voxels. Deviation: in the paper a mass touches only where it lacks an element itself.
-  ExposedNodes(const Body& body, bool open_ones) : lattice_(&body.lattice), open_ones_(open_ones) {}
+  ///   an inner corner of voxels. Deviation: in the paper a mass touches only where it lacks an element itself. Means nothing of a mesh.
+  ExposedNodes(const Body& body, bool open_ones)
+      : lattice_(&body.lattice), mesh_(body.mesh.get()), open_ones_(open_ones) {}
 
   bool contains(Index node, const Adjacency& now) const noexcept {
+    if (mesh_ != nullptr) return mesh_->is_outer[static_cast<std::size_t>(node)] != 0;
     if (lattice_->is_beyond(node)) return false;
     return now.degree(node) < complete_degree(node) || (open_ones_ && lies_open(node)) || now.has_lost(node);
   }
@@ -23,6 +25,7 @@ class ExposedNodes {
   bool lies_open(Index node) const noexcept;
 
   const Lattice* lattice_;
+  const MeshBody* mesh_;  // null: a lattice
   bool open_ones_;
 };
 

@@ -12,12 +12,15 @@ namespace palpate::physics {
 
 class ExposedTriangles {
  public:
-  explicit ExposedTriangles(const Body& body)
-      : lattice_(&body.lattice), patterns_(triangle_patterns(body.lattice)) {}
+  explicit ExposedTriangles(const Body& body) : lattice_(&body.lattice), mesh_(body.mesh.get()) {
+    if (mesh_ == nullptr) patterns_ = triangle_patterns(body.lattice);
+  }
 
   /// No node is the first corner of more.
   std::size_t most_of_a_node() const noexcept {
     std::size_t most = 0;
+    if (mesh_ != nullptr)
+      for (const Index node : mesh_->nodes) most = std::max(most, mesh_->faces_of_first.of(node).size());
     for (const auto& patterns : patterns_) most = std::max(most, patterns.size());
     return most;
   }
@@ -25,6 +28,7 @@ class ExposedTriangles {
   /// @param wanted  called with another corner: false leaves the triangle out
   template <class Wanted, class Take>
   void each(Index a, const Adjacency& now, const Wanted& wanted, const Take& take) const noexcept {
+    if (mesh_ != nullptr) return each_of_mesh(a, wanted, take);
     const auto live = [&](Index node) { return now.live_elements(node); };
     for (const TrianglePattern& triangle : patterns_[static_cast<std::size_t>(lattice_->row_kind(a))]) {
       if (!holds(triangle.edges[0], a, live)) continue;
@@ -36,7 +40,16 @@ class ExposedTriangles {
   }
 
  private:
+  template <class Wanted, class Take>
+  void each_of_mesh(Index a, const Wanted& wanted, const Take& take) const noexcept {
+    for (const Index f : mesh_->faces_of_first.of(a)) {
+      const MeshTriangle& face = mesh_->faces[static_cast<std::size_t>(f)];
+      if (wanted(face[1]) && wanted(face[2])) take(face[1], face[2]);
+    }
+  }
+
   const Lattice* lattice_;
+  const MeshBody* mesh_;  // null: a lattice
   TrianglePatterns patterns_;
 };
 

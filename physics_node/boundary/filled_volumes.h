@@ -13,9 +13,9 @@ namespace palpate::physics {
 class FilledVolumes {
  public:
   /// @param moving  outlives this
-  explicit FilledVolumes(const BodyModel& moving)
-      : moving_(&moving), patterns_(volume_patterns(moving.body().lattice)) {
+  explicit FilledVolumes(const BodyModel& moving) : moving_(&moving) {
     const Body& body = moving.body();
+    if (!body.mesh) patterns_ = volume_patterns(body.lattice);
     if (body.cells) shift_ = lattice_corner(*body.cells, body.lattice);
   }
 
@@ -23,6 +23,14 @@ class FilledVolumes {
   template <class Take>
   void each(Index node, const Take& take) const noexcept {
     const Body& body = moving_->body();
+    if (body.mesh) {
+      for (const Index t : body.mesh->filled_of_first.of(node)) {
+        const auto& corners = body.mesh->filled[static_cast<std::size_t>(t)];
+        take(std::array<Vec3, 4>{moving_->position(corners[0]), moving_->position(corners[1]),
+                                 moving_->position(corners[2]), moving_->position(corners[3])});
+      }
+      return;
+    }
     const Lattice& lattice = body.lattice;
     const auto live = [&](Index n) { return moving_->adjacency().live_elements(n); };
     for (const VolumePattern& volume : patterns_[static_cast<std::size_t>(lattice.row_kind(node))]) {

@@ -9,10 +9,12 @@ LiveElements::LiveElements(const Topology& moving) : LiveElements(moving.body())
 void LiveElements::copy(const Topology& moving) { copy(moving.body(), moving.adjacency()); }
 
 void LiveElements::copy(const Body& body, const Adjacency& from) {
+  if (body.mesh) return;
   for (const Index node : body.nodes()) mask_[static_cast<std::size_t>(node)] = from.live_elements(node);
 }
 
 void LiveElements::copy(const Body& body, std::span<const Mask> recorded) {
+  if (body.mesh) return;
   for (std::size_t n = 0; n < body.nodes().size(); ++n)
     mask_[static_cast<std::size_t>(body.nodes()[n])] = recorded[n];
 }

@@ -12,6 +12,7 @@
 
 namespace palpate::physics {
 
+/// Of a mesh, in which nothing breaks, it holds nothing.
 class LiveElements {
  public:
   /// Those alive now.

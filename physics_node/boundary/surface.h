@@ -18,7 +18,7 @@ struct Surface {
   std::vector<std::array<std::uint32_t, 4>>
       facets;                       // corners, anticlockwise from outside; a triangle repeats its last
   std::vector<std::uint32_t> rgba;  // 0xAABBGGRR                      (n_facets)
-  std::vector<std::uint32_t> site;  // which voxel cell or octahedral site it is of (n_facets)
+  std::vector<std::uint32_t> site;  // which voxel cell or octahedral site it is of; of a mesh 0 (n_facets)
   std::uint64_t hidden = 0;         // facets between two filled cells
 
   std::size_t n_vertices() const { return rest.size(); }
@@ -42,7 +42,10 @@ Surface voxel_surface(const Body& body, const LiveElements& live, std::optional<
 /// masses hold together; a triangle that bounds nothing is a sheet and is shown too. Source: EQUATIONS C-8, C-12.
 Surface fcc_surface(const Body& body, const LiveElements& live, std::uint32_t rgba);
 
-/// The surface of either kind.
+/// The outer faces of a mesh as triangles; nothing of it breaks. hidden: the faces between two tetrahedra.
+Surface mesh_surface(const Body& body, std::uint32_t rgba);
+
+/// The surface of any kind.
 Surface make_surface(const Body& body, const LiveElements& live, std::optional<double> threshold,
                      std::uint32_t plain_rgba);
 /// The same from the elements alive now.

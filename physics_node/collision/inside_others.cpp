@@ -76,7 +76,7 @@ void InsideOthers::take_points(const Other& of, const Eigen::AlignedBox3d& box,
   const auto masses = of.moving->body().nodes();
   for (std::size_t n = 0; n < masses.size() && point_.size() < point_.capacity(); ++n) {
     const Vec3 p = of.rest[n] + of.moving->displacement(masses[n]);
-    if (of.moving->body().lattice.is_beyond(masses[n])) continue;
+    if (of.moving->body().is_beyond(masses[n])) continue;
     if (!box.contains(p)) continue;  // nor does it where it is not finite
     const Vec3 looked_for = p + cell_ * (inwards * (of.box.center() - p).stableNormalized() + off_planes);
     grid_.insert(static_cast<std::uint32_t>(point_.size()), looked_for);
@@ -119,7 +119,8 @@ void InsideOthers::mark_in_volumes(const Other& outer, const Fragments* apart) n
   const BodyModel& moving = *outer.moving;
   const auto nodes = moving.body().nodes();
   Eigen::AlignedBox3d reach = near_;
-  const Vec3 margin = Vec3::Constant(farthest_corner * moving.body().spacing());
+  const Vec3 margin = Vec3::Constant(
+      std::max(farthest_corner * moving.body().spacing(), 2 * moving.body().longest_element()));
   reach.min() -= margin, reach.max() += margin;
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     if (!reach.contains(outer.rest[n] + moving.displacement(nodes[n]))) continue;

@@ -20,7 +20,8 @@ constexpr double all_moves = 0.999;        // of a force, borne by masses: hardl
 bool presses_faces(const ToolSpec& tool, const Body& body, Integrator integrator) {
   if (integrator == Integrator::backward_euler || !FacePress::is_resolved(tool.radius, body.spacing()))
     return false;
-  return tool.contact.value_or(body.solid ? PointContact::faces : PointContact::nodes) == PointContact::faces;
+  return tool.contact.value_or(is_of_finite_elements(body) ? PointContact::faces : PointContact::nodes) ==
+         PointContact::faces;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -39,6 +40,8 @@ constexpr double yielding_bytes = 236, yielding_double_bytes = 472;
 constexpr double plastic_bytes = 680, plastic_double_bytes = 1030;
 // A point or a stick feels what breaks open: two sites of 9 bytes a mass, and room for a facet.
 constexpr double felt_bytes = 42;
+// Of a node of a mesh with its 5.5 tetrahedra; and of its file while it is read, a byte of it.
+constexpr double mesh_bytes = 1500, mesh_double_bytes = 2200, mesh_file_bytes = 4;
 constexpr double storage_bytes = 14;  // of a storage cell: elements, share, inverse mass
 constexpr double image_bytes =
     10;  // of a cell of an image: intensity, twice while it is read, filled, deformable
@@ -87,6 +90,15 @@ MemoryNeed solid_need(const BodySpec& body) {
   return need;
 }
 
+/// Of a mesh, whose nodes are known when it is read: its text and what is made of it, some times as much.
+MemoryNeed mesh_need(const MeshShape& shape) {
+  std::error_code none;
+  const auto bytes = std::filesystem::file_size(shape.file, none);
+  MemoryNeed need;
+  if (!none) need.bytes = mesh_file_bytes * static_cast<double>(bytes);
+  return need;
+}
+
 VolumeFacts facts_of(const VolumeShape& shape) {
   if (!shape.slices) return volume_facts(shape.file);
   const GreyPicture first = read_grey_png(shape.slices->files.front());
@@ -125,6 +137,7 @@ bool yields(const std::string& material, const Scene& scene) {
 
 /// What a person may write instead, so that a body takes `share` of what it does.
 std::string what_fits(const BodySpec& body, double share) {
+  if (std::holds_alternative<MeshShape>(body.shape)) return "a mesh with fewer tetrahedra would fit";
   const double finer = std::cbrt(share);
   if (body.spacing)
     return fmt::format("spacing_mm = {:.3g} would fit",
@@ -135,6 +148,8 @@ std::string what_fits(const BodySpec& body, double share) {
 }  // namespace
 
 double bytes_of_masses(double masses, const BodySpec& body, const Scene& scene) {
+  if (std::holds_alternative<MeshShape>(body.shape))
+    return masses * (scene.physics->precision == Precision::double_ ? mesh_double_bytes : mesh_bytes);
   bool any_breaks = breaks(body.material, scene);
   bool any_yields = yields(body.material, scene);
   for (const RegionSpec& region : body.regions) {
@@ -161,7 +176,10 @@ double bytes_of_masses(double masses, const BodySpec& body, const Scene& scene) 
 
 MemoryNeed memory_need(const BodySpec& body, const Scene& scene) {
   const auto* image = std::get_if<VolumeShape>(&body.shape);
-  MemoryNeed need = image != nullptr ? image_need(body, *image) : solid_need(body);
+  const auto* mesh = std::get_if<MeshShape>(&body.shape);
+  MemoryNeed need = mesh != nullptr    ? mesh_need(*mesh)
+                    : image != nullptr ? image_need(body, *image)
+                                       : solid_need(body);
   need.bytes += bytes_of_masses(need.masses, body, scene);
   return need;
 }

@@ -52,6 +52,20 @@ void add_holds(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
   }
 }
 
+/// What the reader of a mesh had to mend.
+void add_mended(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (!bodies[b]->body().mesh) continue;
+    const Tidied& tidied = bodies[b]->body().mesh->tidied;
+    if (tidied.turned > 0)
+      remarks.push_back(fmt::format("{}: {} of its {} tetrahedra were inside out, and are turned",
+                                    who(scene, b), tidied.turned, bodies[b]->body().n_elements()));
+    if (tidied.unused > 0)
+      remarks.push_back(fmt::format("{}: {} nodes of its file are of no tetrahedron, and are left out",
+                                    who(scene, b), tidied.unused));
+  }
+}
+
 void add_voxels(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
   constexpr double most_filled = 0.95;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -161,6 +175,7 @@ void add_cracks(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
 Remarks body_remarks(const Scene& scene, const Bodies& bodies) {
   Remarks remarks;
   add_holds(scene, bodies, remarks);
+  add_mended(scene, bodies, remarks);
   add_voxels(scene, bodies, remarks);
   add_planes(scene, bodies, remarks);
   add_overlaps(scene, bodies, remarks);

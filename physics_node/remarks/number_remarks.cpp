@@ -72,14 +72,16 @@ void add_sizes(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
 /// What would make steps fewer: viscosity, where its own bound is the narrower, and what the scene's materials allow.
 std::string what_takes_fewer(const Scene& scene, const Bodies& bodies, int steps_a_frame) {
   const double step = 1 / (scene.physics->frame_Hz * steps_a_frame);
-  bool damped = false, relaxes = false;
+  bool damped = false, relaxes = false, is_mesh = false;
   for (const auto& body : bodies) {
+    damped = damped || damper_time(body->body()) > viscous_lag_of_a_step * step;
+    is_mesh = is_mesh || body->body().mesh;
     if (!body->body().solid) continue;
-    damped = damped || body->body().solid->beta > viscous_lag_of_a_step * step;
     relaxes = relaxes || !body->body().solid->relaxation.empty();
   }
   std::string means = "larger cells, softer or heavier material";
   if (damped) means = "less viscosity, " + means;
+  if (is_mesh) return means + " take fewer";
   if (!relaxes) means += ", or integrator = \"backward_euler\"";
   return means + (relaxes ? " takes fewer" : " take fewer");
 }

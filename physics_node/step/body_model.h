@@ -24,6 +24,7 @@ class BodyModel : public Stepper, public NodeMotion, public Books, public Topolo
 };
 using BodyModels = std::vector<std::unique_ptr<BodyModel>>;
 
+/// Of whatever kind the body is; a mesh is stepped by symplectic Euler only.
 /// @param start  displacements of body.nodes() that it begins with, and comes back to when it is reset; EMPTY: none [m]
 std::unique_ptr<BodyModel> make_body_model(Body body, Precision precision,
                                            Integrator integrator = Integrator::symplectic_euler,

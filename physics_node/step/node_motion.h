@@ -27,9 +27,7 @@ class NodeMotion {
   virtual ~NodeMotion() = default;
   const Body& body() const noexcept { return *body_; }
 
-  Vec3 position(Index cell) const noexcept {
-    return body_->lattice.rest_position(cell) + displacements_[cell];
-  }
+  Vec3 position(Index cell) const noexcept { return body_->rest_position(cell) + displacements_[cell]; }
   Vec3 displacement(Index cell) const noexcept { return displacements_[cell]; }  // from rest [m]
   Vec3 velocity(Index cell) const noexcept { return velocities_[cell]; }         // [m/s]
 

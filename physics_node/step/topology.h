@@ -32,13 +32,13 @@ class Topology {
   virtual void conditions(std::span<const Index> nodes, std::span<Condition> out) const noexcept = 0;
 
  protected:
-  explicit Topology(const Body& body) : body_(&body), adjacency_(body.lattice) {}
+  explicit Topology(const Body& body) : body_(&body) {}
   /// Once, by the maker: what it steps.
   void show(const Adjacency& now) { adjacency_ = now; }
 
  private:
   const Body* body_;
-  Adjacency adjacency_;
+  Adjacency adjacency_;  // empty until it is shown
 };
 
 }  // namespace palpate::physics

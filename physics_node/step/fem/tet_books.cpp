@@ -38,6 +38,24 @@ Losses Tetrahedra<Real>::losses() const noexcept {
 }
 
 template <class Real>
+Losses Tetrahedra<Real>::due() {
+  if (model_.beta == 0 || dt_before_ == 0) return {};
+  TetContext<Real> m = context();
+  elements(m, {}, kernel_.energies);
+  const double at_u = elastic();
+  m.beta = static_cast<Real>(model_.beta);
+  elements(m, {}, kernel_.watched_forces);
+  double passed = passed_;
+  for (std::size_t n = 0; n < n_nodes(); ++n) {
+    Vec3 force = vector_at(seen_f_, n);
+    for (Index p = layout_.of_node.begin[n]; p < layout_.of_node.begin[n + 1]; ++p)
+      force += vector_at(force_, static_cast<std::size_t>(layout_.of_node.part[static_cast<std::size_t>(p)]));
+    passed += 0.5 * model_.beta * force.dot(vector_at(v_, n) - vector_at(seen_v_, n));
+  }
+  return {.viscous = passed + elastic() - at_u - viscous_};
+}
+
+template <class Real>
 Watch Tetrahedra<Real>::watch() const noexcept {
   return watch_;
 }
@@ -69,12 +87,14 @@ bool Tetrahedra<Real>::is_finite() const noexcept {
 
 template Energies Tetrahedra<float>::energies(const Vec3&);
 template Losses Tetrahedra<float>::losses() const noexcept;
+template Losses Tetrahedra<float>::due();
 template Watch Tetrahedra<float>::watch() const noexcept;
 template Momenta Tetrahedra<float>::momenta() const noexcept;
 template std::uint64_t Tetrahedra<float>::hash(std::uint64_t) const noexcept;
 template bool Tetrahedra<float>::is_finite() const noexcept;
 template Energies Tetrahedra<double>::energies(const Vec3&);
 template Losses Tetrahedra<double>::losses() const noexcept;
+template Losses Tetrahedra<double>::due();
 template Watch Tetrahedra<double>::watch() const noexcept;
 template Momenta Tetrahedra<double>::momenta() const noexcept;
 template std::uint64_t Tetrahedra<double>::hash(std::uint64_t) const noexcept;

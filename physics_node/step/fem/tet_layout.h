@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-#include "physics_node/step/fem/tet_model.h"
+#include "physics_node/body/tet_model.h"
 
 namespace palpate::physics {
 

@@ -1,7 +1,7 @@
 #pragma once
 // The fastest vibration of a body of tetrahedra near rest.
 
-#include "physics_node/step/fem/tet_model.h"
+#include "physics_node/body/tet_model.h"
 #include "physics_node/step/lattice/stable_step.h"
 
 namespace palpate::physics {

@@ -3,7 +3,7 @@
 
 #include <Eigen/SparseCore>
 
-#include "physics_node/step/fem/tet_model.h"
+#include "physics_node/body/tet_model.h"
 
 namespace palpate::physics {
 

@@ -207,28 +207,6 @@ double Tetrahedra<Real>::inverse_mass(Index node) const noexcept {
 }
 
 template <class Real>
-Vec3 Tetrahedra<Real>::displacement(Index node) const noexcept {
-  return vector_at(u_, static_cast<std::size_t>(node));
-}
-
-template <class Real>
-Vec3 Tetrahedra<Real>::velocity(Index node) const noexcept {
-  return vector_at(v_, static_cast<std::size_t>(node));
-}
-
-template <class Real>
-void Tetrahedra<Real>::place(Index node, const Vec3& displacement, const Vec3& velocity) noexcept {
-  set_vector(u_, static_cast<std::size_t>(node), displacement);
-  set_vector(v_, static_cast<std::size_t>(node), velocity);
-  dt_before_ = 0;  // no step came before this state
-}
-
-template <class Real>
-void Tetrahedra<Real>::kick(Index node, const Vec3& impulse) noexcept {
-  set_vector(v_, static_cast<std::size_t>(node), velocity(node) + inverse_mass(node) * impulse);
-}
-
-template <class Real>
 void Tetrahedra<Real>::forces(std::vector<Vec3>& out) noexcept {
   elements(context(), {}, kernel_.forces);
   for (std::size_t n = 0; n < n_nodes(); ++n) {

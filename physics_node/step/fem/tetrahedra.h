@@ -35,8 +35,24 @@ class Tetrahedra {
   Vec3 velocity(Index node) const noexcept;      // [m/s]
   /// Puts a node somewhere, held or not.
   void place(Index node, const Vec3& displacement, const Vec3& velocity) noexcept;
-  /// v += impulse / m  [N s]
-  void kick(Index node, const Vec3& impulse) noexcept;
+  /// An impulse at the beginning of the step of dt just integrated: v += dv, u += dt dv.
+  void push(Index node, const Vec3& dv, double dt) noexcept;
+  /// Four numbers of each node: x, y, z and 0.
+  const Real* displacements() const noexcept { return u_.data(); }
+  const Real* velocities() const noexcept { return v_.data(); }
+
+  /// Where it is, and what it has lost by then.
+  struct Saved {
+    ZeroedArray<Real> u;
+    double viscous = 0, numerical = 0;  // [J]
+    Watch watch{};
+  };
+  Saved saved() const;  // room for it
+  void save(Saved& to) const noexcept;
+  /// At rest where it was.
+  void bring_back(const Saved& from) noexcept;
+  /// Begins the books anew: nothing is lost, and no step came before.
+  void forget() noexcept;
 
   /// Forces on all nodes as they are, at u without the damper, in the precision of the state [N]. (nodes)
   void forces(std::vector<Vec3>& out) noexcept;
@@ -44,6 +60,9 @@ class Tetrahedra {
   Energies energies(const Vec3& gravity);
   /// Lost in the damper, and to steps of another dt, as of the last watched step.
   Losses losses() const noexcept;
+  /// What the next step books of the damper that `losses` do not have yet. Cost: two sweeps.
+  Losses due();
+  double least_J() const noexcept { return least_of_all_J_; }  // of all steps that were watched
   Watch watch() const noexcept;
   Momenta momenta() const noexcept;  // about the origin
   std::uint64_t hash(std::uint64_t seed) const noexcept;

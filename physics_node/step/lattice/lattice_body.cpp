@@ -1,4 +1,4 @@
-#include "physics_node/step/body_model.h"
+#include "physics_node/step/lattice/lattice_body.h"
 
 #include <algorithm>
 #include <cmath>
@@ -345,8 +345,8 @@ class LatticeBody final : public BodyModel, private PendingStep {
 
 }  // namespace
 
-std::unique_ptr<BodyModel> make_body_model(Body body, Precision precision, Integrator integrator,
-                                           std::vector<Vec3> start) {
+std::unique_ptr<BodyModel> make_lattice_body(Body body, Precision precision, Integrator integrator,
+                                             std::vector<Vec3> start) {
   if (precision == Precision::single_)
     return std::make_unique<LatticeBody<float>>(std::move(body), integrator, std::move(start));
   return std::make_unique<LatticeBody<double>>(std::move(body), integrator, std::move(start));

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "physics_node/body/element_constants.h"
+#include "physics_node/step/fem/tet_spectrum.h"
 #include "physics_node/step/lattice/hex_spectrum.h"
 #include "physics_node/step/lattice/lattice_spectrum.h"
 
@@ -51,6 +52,7 @@ StiffestMode stiffest_mode_anyhow(const Body& body) {
 }
 
 StiffestMode stiffest_mode(const Body& body) {
+  if (body.mesh) return stiffest_mode_of_tetrahedra(body.mesh->model);
   if (body.solid) return stiffest_mode_of_hexahedra(body);
   const StiffestMode anyhow = stiffest_mode_anyhow(body);
   if (body.law.damper != Damper::axial || anyhow.omega2 == 0) return anyhow;  // not an axial law

@@ -15,7 +15,8 @@ struct StiffestMode {
 /// Near rest: the smaller of two upper bounds,
 ///   Bloch       largest_eigenvalue of the lattice with the stiffest constants present, over the lightest mass;
 ///   Gershgorin  2 sum k / m, 2 sum c / m over the live elements of a mass (EQUATIONS C-32).
-/// The first is sharp for one material, the second does without the lattice's order where many meet.
+/// The first is sharp for one material, the second does without the lattice's order where many meet. Finite elements have bounds of their
+/// own: hex_spectrum.h, fem/tet_spectrum.h.
 StiffestMode stiffest_mode(const Body& body);
 
 /// However the body is stretched, compressed or folded: Gershgorin's bound alone, since an element is nowhere stiffer than k1,

@@ -18,11 +18,14 @@ std::string Recipe::sphere(double radius_mm) {
 }
 
 Scene scene_of(const Recipe& recipe) {
+  const std::string lattice = recipe.lattice.empty() ? ""
+                                                     : fmt::format("lattice = \"{}\"\nspacing_mm = {}\n",
+                                                                   recipe.lattice, recipe.spacing_mm);
   const std::string text = fmt::format(
       "title = \"test\"\ngravity_m_per_s2 = {}\n[physics]\nprecision = \"{}\"\n{}\n[material.m]\n{}\n"
-      "[[body]]\nname = \"body\"\nlattice = \"{}\"\nspacing_mm = {}\nmaterial = \"m\"\n{}\n{}\n{}\n",
-      recipe.gravity, recipe.precision, recipe.physics, recipe.material, recipe.lattice, recipe.spacing_mm,
-      recipe.shape, recipe.body, recipe.world);
+      "[[body]]\nname = \"body\"\n{}material = \"m\"\n{}\n{}\n{}\n",
+      recipe.gravity, recipe.precision, recipe.physics, recipe.material, lattice, recipe.shape, recipe.body,
+      recipe.world);
   return parse_scene(text, "test.toml");
 }
 

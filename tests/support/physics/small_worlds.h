@@ -14,7 +14,7 @@ namespace palpate::physics::test {
 
 /// One body and what surrounds it, as text of a scene. Every part can be replaced.
 struct Recipe {
-  std::string lattice = "fcc";
+  std::string lattice = "fcc";  // empty: a mesh, without spacing
   std::string shape = box(40, 40, 40);
   double spacing_mm = 10;
   std::string material = "mass_g = 1\nk1_N_per_m = 200";

@@ -10,6 +10,7 @@
 #include "physics_node/record/recorder.h"
 #include "physics_node/step/fem/tetrahedra.h"
 #include "tests/support/image/scratch_folder.h"
+#include "tests/support/physics/mesh_worlds.h"
 #include "tests/support/physics/pressed_world.h"
 
 namespace {
@@ -73,6 +74,24 @@ TEST(Tetrahedra, TakeNoMemoryInAStep) {
         {.dt = 5e-5, .gravity = Vec3(0, 0, -9.81), .team = &team, .threads = 1 + n % 2, .watch = n % 4 == 3});
   in_frame = false;
   EXPECT_EQ(allocations, 0u);
+}
+
+/// Pressed by a hand, and fallen onto by a cube, which then falls onto the floor.
+TEST(World, OfAMeshTakesNoMemoryInAFrame) {
+  Recipe recipe = mesh_box({12, 12, 5}, 0.004);
+  recipe.precision = "single";
+  recipe.material += "\nviscosity_Pa_s = 1";
+  recipe.body = "fixed = [\"-z\"]";
+  recipe.gravity = "[0, 0, -9.81]";
+  recipe.physics = "threads = 2";
+  recipe.world =
+      point_tool(4) + floor_at(-12) +
+      "[[body]]\nname = \"cube\"\nshape = \"box\"\nlattice = \"voxel\"\nmodel = \"fem\"\nspacing_mm = "
+      "4\nsize_mm = [12, 12, 12]\nat_mm = [20, 20, 17]\nvelocity_m_per_s = [0.5, 0, -1]\nmaterial = \"m\"\n";
+  World world(scene_of(recipe));
+  EXPECT_EQ(allocations_in(world, steady_hand({0, 0, 0.2}), 60), 0u);
+  EXPECT_FALSE(forces_of_tool(world).empty());
+  EXPECT_GT(world.collisions()->tally().collisions, 0);
 }
 
 TEST(World, TakesNoMemoryInAFrameWhateverHappens) {

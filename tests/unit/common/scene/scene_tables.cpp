@@ -37,6 +37,12 @@ SceneTable elements() {
           ""};
 }
 
+SceneTable mesh() {
+  const std::string tissue = "density_kg_per_m3 = 1\nmodulus_kPa = 10\n";
+  return {"[[body]]", "mesh", "[material.m]\n" + tissue + "[material.n]\n" + tissue + "[[body]]\n",
+          "name = \"b\"\nmaterial = \"m\"\nshape = \"mesh\"\nfile = \"scan.h5\"\nunit = \"mm\"\n", ""};
+}
+
 SceneTable tool(const std::string& of, const std::string& keys) {
   return {"[[tool]]", of, least + hand + "[[tool]]\n", "device = \"d\"\n" + keys, ""};
 }
@@ -72,6 +78,7 @@ std::vector<SceneTable> all_tables() {
       body("sphere", "radius_mm = 5\nspacing_mm = 1\n"),
       body("box", "size_mm = [5, 5, 5]\nspacing_mm = 1\n"),
       elements(),
+      mesh(),
       body("tube", "outer_radius_mm = 60\nlength_mm = 9\nspacing_mm = 1\n"),
       body("knife", knife),
       body("needle", needle),
@@ -84,6 +91,7 @@ std::vector<SceneTable> all_tables() {
       in_body("regions", "[[body.regions]]", "", "material = \"n\"\n" + box),
       in_body("regions", "[[body.regions]]", "", "material = \"n\"\n" + round),
       in_body("regions", "[[body.regions]]", "", "material = \"n\"\nintensity = [0, 1]\n"),
+      {"regions", "", mesh().text() + "[[body.regions]]\n", "material = \"n\"\ngroup = 1\n", ""},
       in_body("[[body.cavity]]", "[[body.cavity]]", "", box),
       in_body("[[body.cavity]]", "[[body.cavity]]", "", round),
       tool("point", "name = \"t\"\n"),

@@ -9,8 +9,8 @@
 #include <Eigen/Geometry>
 #include <random>
 
+#include "physics_node/body/tet_model.h"
 #include "physics_node/material/lame.h"
-#include "physics_node/step/fem/tet_model.h"
 
 namespace palpate::physics {
 namespace {

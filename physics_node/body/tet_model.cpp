@@ -1,4 +1,4 @@
-#include "physics_node/step/fem/tet_model.h"
+#include "physics_node/body/tet_model.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
