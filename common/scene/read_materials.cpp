@@ -126,7 +126,8 @@ bool is_of_elements(const toml::table& scene, std::string_view material) {
       const toml::array* regions = (*table)["regions"].as_array();
       if (!names(node) && (regions == nullptr || std::none_of(regions->begin(), regions->end(), names)))
         continue;
-      if ((*table)["model"].value_or(std::string_view()) != "fem") return false;
+      const bool is_mesh = (*table)["shape"].value_or(std::string_view()) == "mesh";
+      if (!is_mesh && (*table)["model"].value_or(std::string_view()) != "fem") return false;
       any = true;
     }
   }

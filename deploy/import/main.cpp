@@ -1,4 +1,4 @@
-// palpate-import: an image becomes a volume file, a made brain a folder of slices. See docs/volume_file.md.
+// palpate-import: an image becomes a volume file, a made brain a folder of slices, a made lobe a mesh. See docs/volume_file.md.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -9,6 +9,7 @@
 
 #include "common/error/error.h"
 #include "common/file/privacy.h"
+#include "common/math/angles.h"
 #include "common/math/units.h"
 #include "common/process/checked_option.h"
 #include "common/process/command_line.h"
@@ -18,7 +19,10 @@
 #include "deploy/import/image_format.h"
 #include "deploy/import/import_image.h"
 #include "deploy/import/in_child.h"
+#include "deploy/import/lobe_phantom.h"
 #include "deploy/import/memory_budget.h"
+#include "physics_node/mesh/mesh_quality.h"
+#include "physics_node/mesh/write_msh.h"
 
 namespace {
 
@@ -28,6 +32,7 @@ struct Command {
   ImportOptions options;
   std::string out;
   bool brain = false;  // a folder of slices, no volume
+  bool lobe = false;   // a mesh, no volume
   bool quiet = false;
   double memory_limit = 0;  // [bytes]
 };
@@ -42,13 +47,14 @@ Command parse(CLI::App& app, int argc, char** argv) {
   std::uint64_t header = 0;
   auto* image = app.add_option("image", command.options.input,
                                ".inv3, .nii[.gz], .nrrd, .mha, .raw, .inr, or a DICOM file or folder");
-  auto* phantom_option =
-      app.add_option(
-             "--phantom", phantom,
-             "instead of an image: a made angiogram (size 336,336,140), or a brain as PNG slices in a folder")
-          ->check(one_of({"aneurysm", "brain"}))
-          ->excludes(image);
-  app.add_option("--out", command.out, "the volume to write; of a brain, the folder")->required();
+  auto* phantom_option = app.add_option("--phantom", phantom,
+                                        "instead of an image: a made angiogram (size 336,336,140), a brain "
+                                        "as PNG slices in a folder, or a lobe as "
+                                        "a mesh of tetrahedra")
+                             ->check(one_of({"aneurysm", "brain", "lobe"}))
+                             ->excludes(image);
+  app.add_option("--out", command.out, "the volume to write; of a brain, the folder; of a lobe, a .msh")
+      ->required();
   app.add_option("--size", size, "raw, phantom: cells nx,ny,nz")->delimiter(',')->expected(3);
   app.add_option("--spacing-mm", spacing_mm, "raw: spacing x,y,z")
       ->delimiter(',')
@@ -65,10 +71,15 @@ Command parse(CLI::App& app, int argc, char** argv) {
       ->check(number_in({.lo = 1e-9 * least_memory, .hi = 1e6}));
   app.add_flag("--quiet", command.quiet, "say nothing when all is well");
   app.parse(argc, argv);
-  if (image->empty() && phantom.empty()) throw CLI::RequiredError("image, or --phantom aneurysm or brain");
+  if (image->empty() && phantom.empty())
+    throw CLI::RequiredError("image, or --phantom aneurysm, brain or lobe");
   command.options.phantom = !phantom.empty();
   command.memory_limit = std::max(least_memory, 1e9 * gigabytes);
   command.brain = phantom == "brain";
+  command.lobe = phantom == "lobe";
+  if (command.lobe && (!size.empty() || !partition.empty() || !command.options.transfer.empty()))
+    throw CLI::ValidationError("--phantom lobe",
+                               "is a mesh of one size; leave out --size, --partition and --transfer");
   if (command.brain && (!size.empty() || !partition.empty() || !command.options.transfer.empty()))
     throw CLI::ValidationError("--phantom brain",
                                "is slices of one size; leave out --size, --partition and --transfer");
@@ -130,6 +141,23 @@ void make_brain(const Command& command) {
       brain_planes, brain_width, brain_height, brain_pixel_mm, brain_pixel_mm, brain_plane_mm, command.out);
 }
 
+void make_lobe(const Command& command) {
+  if (std::filesystem::path(command.out).extension() != ".msh")
+    throw InputError(fmt::format("{}: a mesh is a .msh file, and its name should say so; write --out {}.msh",
+                                 command.out, stem_of(command.out)));
+  make_last_folder(command.out);
+  const physics::TetMesh mesh = lobe_phantom();
+  physics::write_msh(command.out, mesh, lobe_unit);
+  if (command.quiet) return;
+  const physics::DihedralAngles angles = physics::dihedral_angles(mesh);
+  fmt::print(
+      "phantom lobe: {} tetrahedra, {} nodes, dihedral angles {:.0f} to {:.0f} degrees, unit = \"mm\", "
+      "written "
+      "to {}\n",
+      mesh.tets.size(), mesh.nodes.size(), deg_from_rad(angles.least), deg_from_rad(angles.largest),
+      command.out);
+}
+
 /// Of a file, or of all in the folder of a DICOM series, which the library holds at once [bytes]. 0: none
 std::uint64_t file_bytes(const std::string& input) {
   namespace fs = std::filesystem;
@@ -154,6 +182,10 @@ int import(const Command& command) {
     begin_memory(static_cast<std::uint64_t>(command.memory_limit), file_bytes(command.options.input));
     if (command.brain) {
       make_brain(command);
+      return exit_ok;
+    }
+    if (command.lobe) {
+      make_lobe(command);
       return exit_ok;
     }
     check_output(command);

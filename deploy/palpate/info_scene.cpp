@@ -16,6 +16,7 @@
 #include "deploy/palpate/info.h"
 #include "physics_node/forecast/memory_need.h"
 #include "physics_node/forecast/speed_forecast.h"
+#include "physics_node/mesh/mesh_quality.h"
 #include "physics_node/remarks/remarks.h"
 #include "physics_node/world.h"
 
@@ -60,8 +61,11 @@ struct ShapeText {
 std::string structure_text(const BodySpec& body, const physics::Body& built) {
   if (!built.mesh) return body.lattice == LatticeKind::fcc ? "fcc lattice" : "voxel lattice";
   constexpr const char* kinds[] = {"plain", "nodal pressure", "second order"};
-  return fmt::format("{} tetrahedra ({}) with {} nodes, faces of {:.3g} mm", built.n_elements(),
-                     kinds[static_cast<int>(body.tet_elements)], built.n_nodes(), mm_from_m(built.spacing()));
+  const physics::DihedralAngles angles = physics::dihedral_angles(built.mesh->model.mesh);
+  return fmt::format(
+      "{} tetrahedra ({}) with {} nodes, faces of {:.3g} mm, dihedral angles {:.3g} to {:.3g} degrees",
+      built.n_elements(), kinds[static_cast<int>(body.tet_elements)], built.n_nodes(),
+      mm_from_m(built.spacing()), deg_from_rad(angles.least), deg_from_rad(angles.largest));
 }
 
 std::string body_text(const BodySpec& body, const physics::Body& built) {

@@ -43,11 +43,12 @@ std::size_t masses_of(const BodyModels& bodies) {
 InsideOthers::InsideOthers(const BodyModels& bodies)
     : now_(bodies.size(), 0),
       most_(bodies.size(), 0),
-      grid_(std::min(most_points, masses_of(bodies))),
+      room_(std::min(most_points, masses_of(bodies))),
+      grid_(room_),
       frames_between_(1 + static_cast<int>(masses_of(bodies) / masses_a_frame)) {
-  point_.reserve(std::min(most_points, masses_of(bodies)));
-  inside_.reserve(point_.capacity());
-  piece_.reserve(point_.capacity());
+  point_.reserve(room_);
+  inside_.reserve(room_);
+  piece_.reserve(room_);
   for (const auto& moving : bodies) {
     const Body& body = moving->body();
     Other& other = bodies_.emplace_back(Other{moving.get(), FilledVolumes(*moving)});
@@ -74,7 +75,7 @@ void InsideOthers::take_points(const Other& of, const Eigen::AlignedBox3d& box,
   if (box.isEmpty()) return;
   grid_.clear(cell_);
   const auto masses = of.moving->body().nodes();
-  for (std::size_t n = 0; n < masses.size() && point_.size() < point_.capacity(); ++n) {
+  for (std::size_t n = 0; n < masses.size() && point_.size() < room_; ++n) {
     const Vec3 p = of.rest[n] + of.moving->displacement(masses[n]);
     if (of.moving->body().is_beyond(masses[n])) continue;
     if (!box.contains(p)) continue;  // nor does it where it is not finite

@@ -52,6 +52,7 @@ class InsideOthers {
 
   std::vector<Other> bodies_;
   std::vector<Index> now_, most_;  // by body
+  std::size_t room_;               // for points; a copy has it, too, whatever its vectors have kept
   PointGrid grid_;                 // masses of the body that is looked at
   std::vector<Vec3> point_;
   std::vector<Index> piece_;          // that each point belongs to: a fragment of its own body

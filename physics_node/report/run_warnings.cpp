@@ -99,9 +99,9 @@ const Kind kinds[] = {
          if (const auto least = w.body(b).counts().least_corner_J; least && *least <= 0)
            list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", w.body(b).body().name);
        return fmt::format(
-           "cells of {} were turned inside out at a corner (det F down to {:.2g}): what is drawn and felt "
+           "elements of {} were turned inside out at a corner (det F down to {:.2g}): what is drawn and felt "
            "there is wrong; "
-           "smaller cells, a larger tip or less depth would do",
+           "smaller ones, a larger tip or less depth would do",
            list, w.report().least_corner_J);
      }},
     {[](const World& w) noexcept { return w.facets_left_out() > 0; },

@@ -76,7 +76,7 @@ TEST(Mesh, ACantileverBendsAsItsElementsDo) {
   };
   // As docs/benchmarks.md has it of an end load, over quadratic bricks: 0.608, 0.834, 0.980.
   for (const Case& c :
-       {Case{"plain", 4, 0.55, 0.70}, {"nodal_pressure", 4, 0.78, 0.90}, {"second_order", 2, 0.96, 1.01}}) {
+       {Case{"plain", 4, 0.55, 0.70}, {"nodal_pressure", 4, 0.78, 0.90}, {"second_order", 2, 0.93, 1.01}}) {
     Recipe recipe = mesh_box({8 * c.cells, c.cells, c.cells}, h / c.cells, c.elements, 0);
     recipe.material = "density_kg_per_m3 = 1000\nmodulus_kPa = 4000\npoisson_ratio = 0.45";
     recipe.body = "fixed = [\"-x\"]\nstart = \"balanced\"";
@@ -97,7 +97,7 @@ TEST(Mesh, InFreeFlightKeepsItsMomenta) {
     BodyModel& body = world.body(0);
     for (const Index node : body.body().nodes()) {
       const Vec3 rest = body.body().rest_position(node);
-      body.place(node, dice.within(3e-4), flight + spin.cross(rest) + dice.within(0.05));
+      body.place(node, dice.within(3e-5), flight + spin.cross(rest) + dice.within(0.005));
     }
     world.restart_ledger();
     const Momenta before = body.momenta();
@@ -119,20 +119,26 @@ TEST(Mesh, OfTheFloorKeepsItsBooks) {
                         {"\nviscosity_Pa_s = 2", "[contact]\nrestitution = 0.5\n", "single"}}) {
     Recipe recipe = mesh_box({6, 6, 4}, 0.005);
     recipe.material += c.material;
-    recipe.body = "velocity_m_per_s = [0, 0, -1]";
+    recipe.body = "velocity_m_per_s = [0, 0, -0.5]";
     recipe.gravity = down;
     recipe.precision = c.precision;
     recipe.world = floor_at(-15) + c.contact;
     World world(scene_of(recipe));
-    double least = 0;
-    for (int n = 0; n < 150; ++n) world.frame({}), least = std::min(least, lowest(world));
+    double least = 0, up = -HUGE_VAL;
+    for (int n = 0; n < 60; ++n) {
+      world.frame({});
+      least = std::min(least, lowest(world));
+      up = std::max(up, world.body(0).momenta().linear.z());
+    }
     std::printf("%s%s: balance error %.2e, watched %.2e, %.3f mm below the floor\n", c.precision, c.material,
                 world.ledger().balance_error(), world.watched_ledger().balance_error(),
                 1e3 * (-0.015 - least));
     EXPECT_LT(world.ledger().balance_error(), 0.01);
     EXPECT_LT(world.watched_ledger().balance_error(), 0.01);
-    EXPECT_GT(world.body(0).momenta().linear.z(), 0) << "comes back up";
-    EXPECT_GT(least, -0.0155);
+    const double came = 0.5 * 1000 * 0.03 * 0.03 * 0.02;  // m v
+    EXPECT_GT(up / came, 0.2) << "comes back up";
+    EXPECT_LT(up / came, 1);
+    EXPECT_GT(least, -0.016);
     EXPECT_EQ(world.report().restored, 0);
     const MomentumBalance balance = world.body(0).momentum_balance();
     EXPECT_LT(balance.missing.linear.norm(), (c.precision[0] == 's' ? 1e-5 : 1e-12) * balance.linear);
@@ -251,14 +257,16 @@ TEST(Mesh, KnowsWhatIsInsideIt) {
   EXPECT_EQ(inside.now(1), 9) << "those at 15 mm; what is flush with its face, at 20 mm, is outside";
 }
 
+/// Pressed until it is half as thin: frames are cut finer than at rest.
 TEST(Mesh, StiffensWhereItIsCrushed) {
-  Recipe recipe = pressed_mesh("nodal_pressure");
-  World world(scene_of(recipe));
-  press(world, 1.5, 300);
+  World world(scene_of(pressed_mesh("nodal_pressure")));
+  press(world, 0.4, 300);
   EXPECT_EQ(world.report().restored, 0);
-  EXPECT_GT(world.report().steps,
-            world.report().frames * std::ceil(1e-3 / (0.9 * world.stable_step_seconds())))
-      << "frames are cut finer than at rest";
+  const double at_rest = std::ceil(1e-3 / (0.8 * world.stable_step_seconds()));  // steps of a frame
+  EXPECT_GT(static_cast<double>(world.report().steps), static_cast<double>(world.report().frames) * at_rest);
+  std::printf("%.2f steps a frame, at rest %.0f, J down to %.2f\n",
+              static_cast<double>(world.report().steps) / static_cast<double>(world.report().frames), at_rest,
+              world.report().least_corner_J);
   EXPECT_GT(world.report().least_corner_J, 0);
   EXPECT_LT(world.report().least_corner_J, 0.9);
 }

@@ -40,6 +40,7 @@ TEST_F(RemarksOfScenes, ThatComeAlongAreAsExpected) {
   const std::string data = (folder / "data").string();
   ASSERT_EQ(palpate("import --phantom aneurysm --out " + test::quoted(data + "/aneurysm.h5")), 0) << log;
   ASSERT_EQ(palpate("import --phantom brain --out " + test::quoted(data + "/brain")), 0) << log;
+  ASSERT_EQ(palpate("import --phantom lobe --out " + test::quoted(data + "/lobe.msh")), 0) << log;
   ASSERT_TRUE(fs::exists(head)) << "install the Debian package invesalius-examples";
   ASSERT_EQ(palpate(std::string("import ") + head + " --out " + test::quoted(data + "/cranium.h5")), 0)
       << log;
@@ -51,7 +52,7 @@ TEST_F(RemarksOfScenes, ThatComeAlongAreAsExpected) {
     const auto known = expected.find(entry.path().stem().string());
     EXPECT_EQ(remarks_in_log(), known == expected.end() ? "" : known->second) << entry.path();
   }
-  EXPECT_GE(scenes, 26);
+  EXPECT_GE(scenes, 27);
 }
 
 TEST_F(RemarksOfScenes, AreSaidByInfoAndSimulateAndKeptInTheSummary) {

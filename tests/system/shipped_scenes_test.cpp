@@ -82,6 +82,25 @@ TEST_F(ShippedScenes, AneurysmOfAMadeAngiogramIsPressed) {
   EXPECT_LT(summary["bodies"]["vessels"]["masses"].get<int>(), 10000);
 }
 
+/// Pressed, recorded, drawn, exported; and run again from its record alone it has the same bits.
+TEST_F(ShippedScenes, ALobeOfTetrahedraIsPressed) {
+  const std::string file = (folder / "lobe.msh").string(),
+                    set = " --set body.lobe.file=" + test::quoted(file);
+  ASSERT_EQ(palpate("import --phantom lobe --out " + test::quoted(file)), 0) << log;
+  const auto summary = simulate("fem_mesh", "--set 'record.what=[\"positions\"]'" + set);
+  const auto& lobe = summary["bodies"]["lobe"];
+  EXPECT_GT(summary["tools"]["tip"]["force_peak"].get<double>(), 0.3);
+  EXPECT_EQ(lobe["elements"], 6336);
+  EXPECT_GT(lobe["min_corner_J"].get<double>(), 0.3);
+  EXPECT_EQ(lobe["outcome"], "restitution");
+  EXPECT_TRUE(summary["warnings"].empty()) << summary["warnings"];
+  const std::string record = (folder / "fem_mesh" / "record.h5").string(),
+                    again = (folder / "again").string();
+  EXPECT_TRUE(fs::exists(folder / "fem_mesh" / "record.pvd"));
+  ASSERT_EQ(palpate("replay " + test::quoted(record) + " --out " + test::quoted(again)), 0) << log;
+  EXPECT_EQ(read_json(again + "/summary.json")["state_hash"], summary["state_hash"]);
+}
+
 /// Rows of a tool's CSV: t, x, y, z, fx, fy, fz.
 std::vector<std::array<double, 7>> read_trace(const fs::path& file) {
   std::vector<std::array<double, 7>> rows;

@@ -78,7 +78,7 @@ TEST_F(SceneMesh, IsAmongTheFilesOfTheScene) {
 
 TEST_F(SceneMesh, SaysWhatItLacks) {
   EXPECT_THAT(complaint(""), HasSubstr("lacks \"unit\"; write what one unit of the file is"));
-  EXPECT_THAT(complaint("unit = \"inch\""), HasSubstr(":9:8: \"unit\" in [[body]] \"organ\" is \"inch\""));
+  EXPECT_THAT(complaint("unit = \"inch\""), HasSubstr(":11:8: \"unit\" in [[body]] \"organ\" is \"inch\""));
   std::filesystem::remove(folder / "organ.msh");
   EXPECT_THAT(complaint(mm), HasSubstr("there is no file " + (folder / "organ.msh")));
   EXPECT_THAT(complaint(mm), HasSubstr("palpate import --phantom lobe --out"));
@@ -94,7 +94,7 @@ TEST_F(SceneMesh, RefusesWhatIsOfOtherShapes) {
            {"cavity = [{ center_mm = [0, 0, 0], radius_mm = 1 }]", "nothing can be cut out of a mesh"},
            {"model = \"springs\"", "a mesh is of finite elements"},
            {"regions = [{ material = \"m\", intensity = [0, 1] }]", "\"intensity\" needs an image"}})
-    EXPECT_THAT(complaint(mm + keys), testing::AllOf(HasSubstr(why), HasSubstr("test.toml:10:"))) << keys;
+    EXPECT_THAT(complaint(mm + keys), testing::AllOf(HasSubstr(why), HasSubstr("test.toml:12:"))) << keys;
 }
 
 TEST_F(SceneMesh, RefusesWhatTetrahedraDoNotFollow) {

@@ -112,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(
         {"name = \"head\"", "name = \"my head\"", "27:8", "write a name of letters, digits"},
         {"name = \"ball\"", "name = \"head\"", "37:8", "the name \"head\" is taken"},
         {"shape = \"sphere\"", "shape = \"ball\"", "38:9",
-         "write \"sphere\", \"box\", \"tube\", \"knife\", \"needle\", \"volume\" or \"slices\""},
+         "write \"sphere\", \"box\", \"tube\", \"knife\", \"needle\", \"volume\", \"slices\" or \"mesh\""},
         {"shape = \"sphere\"\n", "", "36:1", "[[body]] \"ball\" lacks \"shape\""},
         {"radius_mm = 20", "radius_mm = 0", "39:13",
          "\"radius_mm\" in [[body]] \"ball\" is 0; write a number above 0"},

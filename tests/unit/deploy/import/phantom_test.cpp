@@ -79,6 +79,16 @@ TEST(AneurysmPhantom, IsWrittenByTheImporter) {
   EXPECT_EQ(read_volume(folder / "q.h5").size, (std::array<int, 3>{20, 36, 30}));
 }
 
+TEST(LobePhantom, IsWrittenByTheImporter) {
+  const ScratchFolder folder;
+  const Outcome outcome = run_importer({"--phantom", "lobe", "--out", folder / "lobe.msh"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out,
+              HasSubstr("phantom lobe: 6336 tetrahedra, 1428 nodes, dihedral angles 19 to 147 degrees"));
+  EXPECT_TRUE(std::filesystem::is_regular_file(folder / "lobe.msh"));
+  EXPECT_EQ(run_importer({"--phantom", "lobe", "--size", "9,9,9", "--out", folder / "lobe.msh"}).code, 2);
+}
+
 TEST(AneurysmPhantom, IsNotMixedUpWithAnImage) {
   const ScratchFolder folder;
   const auto complaint = [&](std::vector<std::string> arguments) {
