@@ -9,6 +9,7 @@
 #include "common/scene/material_spec.h"
 #include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
+#include "common/scene/shape_spec.h"
 #include "common/scene/tool_spec.h"
 
 namespace palpate::physics {
@@ -29,6 +30,9 @@ bool is_used(const MaterialSpec& material, const Scene& scene) {
 
 /// What of the scene needs explicit steps, with what would not; empty: nothing.
 std::string what_needs_steps(const Scene& scene) {
+  for (const BodySpec& body : scene.bodies)
+    if (std::holds_alternative<MeshShape>(body.shape))
+      return fmt::format("body \"{}\" is a mesh of tetrahedra, which is not solved yet", body.name);
   for (const MaterialSpec& material : scene.materials)
     if (const std::string what = beyond_backward_euler(material); !what.empty() && is_used(material, scene))
       return fmt::format("[material.{}] {}", material.name, what);
