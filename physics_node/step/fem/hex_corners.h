@@ -21,17 +21,26 @@ namespace palpate::physics {
 inline constexpr double corner_share = 0.4;
 
 /// Least J - 1 of the eight corners, each from the three edges that meet there: below -1 a corner is folded, which the centre need
-/// not show.
-/// @param w  displacements of the corners [m]
-template <class P, class Real, class T = typename P::V>
-T least_corner_change(const HexConstants<Real>& k, const Corners<P>& w) noexcept {
+/// not show. An edge is one of four along its axis, and has two corners.
+/// @param w  displacements of the corners, as Corners<P> or what gives one component after the other as these do [m]
+template <class P, class Real, class Moved, class T = typename P::V>
+inline __attribute__((always_inline)) T least_corner_change(const HexConstants<Real>& k,
+                                                            const Moved& w) noexcept {
+  std::array<Tensor<T>, 4> edge;  // the n-th along each axis: what it changes by, over its length
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::array<T, 8> c = w[i];
+    for (std::size_t j = 0; j < 3; ++j)
+      for (std::size_t n = 0; n < 4; ++n) {
+        const std::size_t below = n & ((1U << j) - 1), from = (n - below) * 2 + below;
+        edge[n][i][j] = (c[from | std::size_t{1} << j] - c[from]) * P::all(4 * k.per_4h[j]);
+      }
+  }
   T least = P::all(1);
   for (std::size_t a = 0; a < 8; ++a) {
+    const std::size_t n[3] = {a >> 1, (a >> 2) * 2 + (a & 1), a & 3};
     Tensor<T> h;
-    for (std::size_t j = 0; j < 3; ++j) {
-      const std::size_t from = a & ~(std::size_t{1} << j), to = a | std::size_t{1} << j;
-      for (std::size_t i = 0; i < 3; ++i) h[i][j] = (w[i][to] - w[i][from]) * P::all(4 * k.per_4h[j]);
-    }
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) h[i][j] = edge[n[j]][i][j];
     // J - 1 = tr H + tr cof H + det H
     const Tensor<T> cof = cofactor<P>(h);
     const T det = P::fma(h[0][2], cof[0][2], P::fma(h[0][1], cof[0][1], h[0][0] * cof[0][0]));
@@ -69,7 +78,7 @@ inline __attribute__((always_inline)) HexCorner<P> hex_corner(const HexConstants
 /// and what y^2 = r^2, (1 - r)^3 = share, is for q is the bound.
 /// @param q  sum of |m_M|^2 [m^2]; @param cof2  |cof F|^2
 template <class P, class Real, class T = typename P::V>
-T may_fold(const HexConstants<Real>& k, T q, T cof2, T J) noexcept {
+inline __attribute__((always_inline)) T may_fold(const HexConstants<Real>& k, T q, T cof2, T J) noexcept {
   constexpr double r = 0.263;
   static_assert((1 - r) * (1 - r) * (1 - r) >= corner_share);
   const Real per_h2 =
@@ -80,7 +89,8 @@ T may_fold(const HexConstants<Real>& k, T q, T cof2, T J) noexcept {
 
 /// The same of a cell whose gradient of the displacement is h.
 template <class P, class Real, class T = typename P::V>
-T may_fold_at(const HexConstants<Real>& k, T q, const Tensor<T>& h) noexcept {
+inline __attribute__((always_inline)) T may_fold_at(const HexConstants<Real>& k, T q,
+                                                    const Tensor<T>& h) noexcept {
   Tensor<T> cof = cofactor<P>(h);  // of H; then of F
   const T det = P::fma(h[0][2], cof[0][2], P::fma(h[0][1], cof[0][1], h[0][0] * cof[0][0]));
   const T t = trace(h), change = t + (trace(cof) + det);

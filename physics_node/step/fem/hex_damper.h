@@ -75,7 +75,8 @@ struct Damping {
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j) {
         stress_of_rate[i][j] = P::fma(f[i][0], s[0][j], P::fma(f[i][1], s[1][j], f[i][2] * s[2][j]));
-        stress[i][j] = stress[i][j] + stress_of_rate[i][j];
+        stress[i][j] =
+            P::fma(f[i][0], s[0][j], P::fma(f[i][1], s[1][j], P::fma(f[i][2], s[2][j], stress[i][j])));
       }
 
     const auto rate_of = [&](const std::array<T, 3>& moves, const std::array<T, 3>& is) {

@@ -30,7 +30,7 @@ struct Modes {
 };
 
 template <class T>
-Modes<T> modes_of(const std::array<T, 8>& c) noexcept {
+inline __attribute__((always_inline)) Modes<T> modes_of(const std::array<T, 8>& c) noexcept {
   const T s0 = c[0] + c[1], s1 = c[2] + c[3], s2 = c[4] + c[5], s3 = c[6] + c[7];
   const T d0 = c[1] - c[0], d1 = c[3] - c[2], d2 = c[5] - c[4], d3 = c[7] - c[6];
   const T ss0 = s0 + s1, ss1 = s2 + s3, sd0 = s1 - s0, sd1 = s3 - s2;
@@ -47,13 +47,23 @@ Modes<T> modes_of(const std::array<T, 8>& c) noexcept {
 
 /// The transpose, without a translation: sum over S of s_S(a) m_S.
 template <class T>
-std::array<T, 8> corners_of(const Modes<T>& m) noexcept {
+inline __attribute__((always_inline)) std::array<T, 8> corners_of(const Modes<T>& m) noexcept {
   // Corner (x, y, z) gets s_x A + B, A = m_x + s_y m_xy + s_z (m_xz + s_y m_xyz), B = s_y (m_y + s_z m_yz) + s_z m_z.
   const T x0 = m.x - m.xz, x1 = m.x + m.xz, xy0 = m.xy - m.xyz, xy1 = m.xy + m.xyz;  // at -z, +z
   const T y0 = m.y - m.yz, y1 = m.y + m.yz;
   const T low0 = -m.z - y0, low1 = y0 - m.z, high0 = m.z - y1, high1 = m.z + y1;
   const T a0 = x0 - xy0, a1 = x0 + xy0, a2 = x1 - xy1, a3 = x1 + xy1;
   return {low0 - a0, low0 + a0, low1 - a1, low1 + a1, high0 - a2, high0 + a2, high1 - a3, high1 + a3};
+}
+
+/// Of what each mode is pulled by, the forces on the corners: the same with the other sign.
+template <class T>
+inline __attribute__((always_inline)) std::array<T, 8> against(const Modes<T>& m) noexcept {
+  const T x0 = m.x - m.xz, x1 = m.x + m.xz, xy0 = m.xy - m.xyz, xy1 = m.xy + m.xyz;  // at -z, +z
+  const T y0 = m.y - m.yz, y1 = m.y + m.yz;
+  const T low0 = m.z + y0, low1 = m.z - y0, high0 = y1 - m.z, high1 = m.z + y1;
+  const T a0 = x0 - xy0, a1 = x0 + xy0, a2 = x1 - xy1, a3 = x1 + xy1;
+  return {low0 + a0, low0 - a0, low1 + a1, low1 - a1, high0 + a2, high0 - a2, a3 - high1, -(high1 + a3)};
 }
 
 /// The four hourglass modes, by component.
@@ -63,7 +73,8 @@ struct Hourglass {
 };
 
 template <class P, class T = typename P::V>
-std::array<T, 3> transposed_times(const Tensor<T>& f, const std::array<T, 3>& m) noexcept {
+inline __attribute__((always_inline)) std::array<T, 3> transposed_times(const Tensor<T>& f,
+                                                                        const std::array<T, 3>& m) noexcept {
   std::array<T, 3> t;
   for (std::size_t j = 0; j < 3; ++j) t[j] = P::fma(f[2][j], m[2], P::fma(f[1][j], m[1], f[0][j] * m[0]));
   return t;
@@ -71,7 +82,8 @@ std::array<T, 3> transposed_times(const Tensor<T>& f, const std::array<T, 3>& m)
 
 /// G of t: bending pairs share the direction in which they are linear, twists the axis about which they turn.
 template <class P, class Real, class T = typename P::V>
-Hourglass<T> hourglass_forces(const HexConstants<Real>& k, const Hourglass<T>& t) noexcept {
+inline __attribute__((always_inline)) Hourglass<T> hourglass_forces(const HexConstants<Real>& k,
+                                                                    const Hourglass<T>& t) noexcept {
   const auto all = [](Real r) { return P::all(r); };
   const auto pair = [&](std::size_t i, std::size_t j, T own, T other) {
     return P::fma(all(k.bend[i][i]), own, all(k.bend[i][j]) * other);
@@ -82,15 +94,15 @@ Hourglass<T> hourglass_forces(const HexConstants<Real>& k, const Hourglass<T>& t
   g.xy[y] = pair(y, z, t.xy[y], t.xz[z]), g.xz[z] = pair(z, y, t.xz[z], t.xy[y]);  // linear in x
   g.xz[x] = pair(x, y, t.xz[x], t.yz[y]), g.yz[y] = pair(y, x, t.yz[y], t.xz[x]);  // linear in z
   // Shears g_xz = t_xy,z / h_x + t_yz,x / h_z and so on, each linear along the third axis.
-  const auto twist = [&](std::size_t i, std::size_t j, T a, T b) {  // of g_ij on what has h_i
-    return P::fma(all(k.twist[i][i]), a, all(k.twist[i][j]) * b);
+  const auto twist = [&](std::size_t i, std::size_t j, T own, std::size_t l, T of_i, T of_j) {
+    return P::fma(all(k.twist[i][i] + k.twist[j][j]), own,
+                  P::fma(all(k.twist[i][l]), of_i, all(k.twist[j][l]) * of_j));
   };
   const T a = t.xy[z], b = t.xz[y], c = t.yz[x];
-  g.xy[z] = twist(x, z, a, c) + twist(y, z, a, b);
-  g.xz[y] = twist(z, y, b, a) + twist(x, y, b, c);
-  g.yz[x] = twist(z, x, c, a) + twist(y, x, c, b);
-  const T third = all(Real(1) / Real(3));
-  for (std::size_t j = 0; j < 3; ++j) g.xyz[j] = all(k.bend[j][j]) * third * t.xyz[j];
+  g.xy[z] = twist(x, y, a, z, c, b);
+  g.xz[y] = twist(x, z, b, y, c, a);
+  g.yz[x] = twist(y, z, c, x, b, a);
+  for (std::size_t j = 0; j < 3; ++j) g.xyz[j] = all(k.bend[j][j] * (Real(1) / Real(3))) * t.xyz[j];
   return g;
 }
 
@@ -100,7 +112,6 @@ inline __attribute__((always_inline)) void spread(const HexConstants<Real>& k, T
                                                   const Hourglass<T>& mode, const Tensor<T>& stress,
                                                   const Hourglass<T>& g, Corners<P>& out) noexcept {
   for (std::size_t i = 0; i < 3; ++i) {
-    Modes<T> force;
     std::array<T, 3> of_strain;
     for (std::size_t j = 0; j < 3; ++j) {
       T sum = P::all(k.volume) * stress[i][j];
@@ -108,18 +119,19 @@ inline __attribute__((always_inline)) void spread(const HexConstants<Real>& k, T
         sum = P::fma(
             mode.xy[i], g.xy[j],
             P::fma(mode.xz[i], g.xz[j], P::fma(mode.yz[i], g.yz[j], P::fma(mode.xyz[i], g.xyz[j], sum))));
-      of_strain[j] = sum * P::all(-k.per_4h[j]);
+      of_strain[j] = sum * P::all(k.per_4h[j]);
     }
-    const auto back = [&](const std::array<T, 3>& g_m, T m_i) {
-      T sum = -every * m_i;
+    const auto of = [&](const std::array<T, 3>& g_m, T m_i) {
+      T sum = every * m_i;
       if constexpr (bends)
-        for (std::size_t j = 0; j < 3; ++j) sum = P::fnma(f[i][j], g_m[j], sum);
+        for (std::size_t j = 0; j < 3; ++j) sum = P::fma(f[i][j], g_m[j], sum);
       return sum;
     };
-    force.x = of_strain[0], force.y = of_strain[1], force.z = of_strain[2];
-    force.xy = back(g.xy, mode.xy[i]), force.xz = back(g.xz, mode.xz[i]);
-    force.yz = back(g.yz, mode.yz[i]), force.xyz = back(g.xyz, mode.xyz[i]);
-    out[i] = corners_of(force);
+    Modes<T> pull;
+    pull.x = of_strain[0], pull.y = of_strain[1], pull.z = of_strain[2];
+    pull.xy = of(g.xy, mode.xy[i]), pull.xz = of(g.xz, mode.xz[i]);
+    pull.yz = of(g.yz, mode.yz[i]), pull.xyz = of(g.xyz, mode.xyz[i]);
+    out[i] = against(pull);
   }
 }
 

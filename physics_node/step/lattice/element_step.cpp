@@ -76,8 +76,9 @@ InstructionSet find_instruction_set() noexcept {
   const bool sse2_wanted = wanted != nullptr && std::strcmp(wanted, "sse2") == 0;
   const bool avx2_wanted = wanted != nullptr && std::strcmp(wanted, "avx2") == 0;
   const bool has_avx2 = __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0;
-  if (!sse2_wanted && !avx2_wanted && has_avx2 && __builtin_cpu_supports("avx512f") != 0)
-    return InstructionSet::avx512;
+  const bool has_avx512 =
+      __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512vl") != 0;  // vl: short tails
+  if (!sse2_wanted && !avx2_wanted && has_avx2 && has_avx512) return InstructionSet::avx512;
   return !sse2_wanted && has_avx2 ? InstructionSet::avx2 : InstructionSet::sse2;
 }
 
