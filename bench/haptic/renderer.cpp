@@ -12,6 +12,10 @@ const char* name_of(RenderMode mode) noexcept {
       return "raw planes";
     case RenderMode::direct:
       return "direct";
+    case RenderMode::copy:
+      return "copy";
+    case RenderMode::extrapolated:
+      return "extrapolated";
   }
   return "";
 }

@@ -11,7 +11,9 @@ namespace palpate::bench {
 enum class RenderMode {
   local,       // haptic::Controller
   raw_planes,  // the newest plane as it comes: F = K d n - B v_n, no tank, no interpolation
-  direct       // force computed by physics at its own rate and held until the next one comes
+  direct,      // force computed by physics at its own rate and held until the next one comes
+  copy,        // haptic::TissueTouch: tissue pressed by the hand's recorded motion, a copy of it felt
+  extrapolated  // the force that such tissue bore, continued with its stiffness, no tank: F = F_s + K_t (x - x_s)
 };
 const char* name_of(RenderMode mode) noexcept;
 
@@ -29,6 +31,11 @@ struct Rendered {
 /// F = K (p - x) along n on the deepest facet, as it comes; not below zero, not above `limit`.
 Rendered raw_plane_force(const ContactPatch& patch, const Vec3& x, const Vec3& v,
                          const haptic::ControllerSettings& settings) noexcept;
+
+/// Modes in which physics presses its tissue by the hand's recorded motion.
+inline bool is_pressed_by_motion(RenderMode mode) noexcept {
+  return mode == RenderMode::copy || mode == RenderMode::extrapolated;
+}
 
 /// The production controller's answer to one tick. Energy is that of a spring whose force ends at the limit.
 Rendered local_force(haptic::Controller& controller, std::int64_t now_ns, const haptic::DeviceSample& sample,

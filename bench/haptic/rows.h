@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench/haptic/matrix.h"
+#include "bench/haptic/touch_trials.h"
 
 namespace palpate::bench {
 
@@ -20,9 +21,11 @@ struct Row {
 struct Runs {
   Effort effort = Effort::full;
   int jobs = 1;
-  std::vector<CaseResult> seen;   // all cases with the production controller so far, for S6
-  std::vector<CaseResult> raw;    // with raw planes
-  std::vector<CaseResult> world;  // with real tissue
+  std::vector<CaseResult> seen;    // all cases with the production controller so far, for S6
+  std::vector<CaseResult> raw;     // with raw planes
+  std::vector<CaseResult> world;   // with real tissue
+  std::vector<CaseResult> copied;  // with a copy of tissue
+  std::vector<SineFelt> sines;     // of T1
 };
 
 // rows_matrix.cpp

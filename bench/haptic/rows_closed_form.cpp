@@ -7,6 +7,7 @@
 
 #include "bench/haptic/proxy_oracle.h"
 #include "bench/haptic/rows.h"
+#include "bench/haptic/rows_touch.h"
 #include "bench/haptic/rubbish.h"
 #include "common/scene/device_spec.h"
 #include "haptic_node/device/calibration.h"
@@ -117,7 +118,20 @@ std::vector<Row> all_rows(Runs& runs) {
           world_return_is_no_kick(),
           torque_is_bounded(runs),
           stick_is_steady(runs),
-          stick_with_torques_is_steady(runs)};
+          stick_with_torques_is_steady(runs),
+          sines_are_felt_as_borne(runs),
+          lump_of_a_chain_is_seen_through(runs),
+          taps_are_felt_as_borne(runs),
+          relaxation_is_felt(runs),
+          clear_tip_bears_nothing(runs),
+          cuts_are_felt(runs),
+          copy_is_stable(runs),
+          copy_gains_nothing_without_a_hand(runs),
+          copy_bears_wrong_models(runs),
+          copy_bears_a_wrong_first_touch(runs),
+          copy_keeps_energy_with_any_model(runs),
+          extrapolated_force_is_unstable(runs),
+          pulse_is_felt_by_copy(runs)};
 }
 
 }  // namespace palpate::bench

@@ -33,6 +33,7 @@ class Tissue {
 
   double base() const noexcept { return base_; }          // [m]
   double surface() const noexcept { return base_ + z_; }  // [m]
+  double load() const noexcept { return load_; }          // that it bears [N]
   /// A square of 2 x 40 mm side in two triangles.
   ContactPatch patch(std::uint64_t tick) const noexcept;
 

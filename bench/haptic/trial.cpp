@@ -32,6 +32,15 @@ haptic::ControllerSettings settings_of(const Case& c) {
   return settings;
 }
 
+haptic::TouchSettings touch_settings_of(const Case& c, double period) {
+  haptic::TouchSettings settings;
+  settings.spring = {c.stiffness, c.damping};
+  settings.period = period;
+  settings.force_limit = c.device.force_limit;
+  settings.resolution = c.device.resolution;
+  return settings;
+}
+
 PlaneKind kind_of(RenderMode mode) { return mode == RenderMode::local ? PlaneKind::norton : PlaneKind::raw; }
 
 }  // namespace
@@ -44,6 +53,7 @@ Trial::Trial(const Case& c, Path path)
       settings_(settings_of(c)),
       controller_(settings_),
       motion_(settings_.period),
+      touch_(touch_settings_of(c, settings_.period)),
       up_(c.link, 2 * c.seed),
       down_(c.link, 2 * c.seed + 1),
       now_ns_(start_ns - static_cast<std::int64_t>(lead_in * 1e9)),
@@ -52,10 +62,14 @@ Trial::Trial(const Case& c, Path path)
   if (c.slab != nullptr)
     world_ = std::make_unique<WorldObject>(
         slab_scene(*c.slab, asked_by(c.mode), c.rate_Hz, c.stiffness, c.damping));
+  if (is_pressed_by_motion(c.mode))
+    pressed_ = std::make_unique<PressedTissue>(c.specimen != nullptr ? *c.specimen : specimen_of(c.object),
+                                               c.told, haptic::ContactSpring{c.stiffness, c.damping});
 }
 
 Trial::HandReport Trial::report() {
-  HandReport hand{rendered_.reported.z(), plant_.measured(), rendered_.proxy, {}};
+  HandReport hand{rendered_.reported.z(), plant_.measured(), rendered_.proxy, {}, {}};
+  if (pressed_) hand.samples = newest_samples(touch_.history());
   if (!world_) return hand;
   hand.state.tick = ++tick_;
   hand.state.stamp_ns = now_ns_;
@@ -81,6 +95,23 @@ void Trial::answer_of_world() {
   down_.send(now_ns_, answer);
 }
 
+/// A frame of tissue that the hand's recorded motion presses.
+void Trial::answer_of_pressed() {
+  up_.receive(now_ns_, known_);
+  const auto each = [this](double sample) {
+    const double then = (sample - 1) * settings_.period - lead_in;
+    if (move_object) move_object(tissue_, then);
+    if (move_object) pressed_->specimen().set_base(-tissue_.base());
+    if (alter_specimen) alter_specimen(pressed_->specimen(), then);
+  };
+  pressed_->frame(known_.samples.get(), 1.0 / case_.rate_Hz, each);
+  if (!physics_alive || pressed_->stamp() == 0) return;
+  Answer answer;
+  answer.tissue = pressed_->answer(++frame_);
+  answer.patch.tick = frame_;
+  down_.send(now_ns_, answer);
+}
+
 /// Both directions of the link; physics frames.
 void Trial::exchange() {
   up_.send(now_ns_, report());
@@ -88,6 +119,8 @@ void Trial::exchange() {
   if (due) next_frame_ns_ += static_cast<std::int64_t>(1e9 / case_.rate_Hz);
   if (due && world_) {
     answer_of_world();
+  } else if (due && pressed_) {
+    answer_of_pressed();
   } else if (due) {
     up_.receive(now_ns_, known_);
     // Without a local model physics computes the force itself, from the last position that it knows.
@@ -120,12 +153,35 @@ void Trial::render() {
     return;
   }
   motion_.take(sample, now_ns_);
+  if (pressed_) return render_pressed();
   rendered_ = {};
   if (!newest_) return;
   if (case_.mode == RenderMode::raw_planes)
     rendered_ = raw_plane_force(newest_->patch, motion_.x(), motion_.v(), settings_);
   else
     rendered_.force = {0, 0, newest_->force};
+}
+
+/// Depths and forces of the copy count into the tissue, those of the trial out of it.
+void Trial::render_pressed() {
+  const haptic::TissueAnswer* newest = newest_ ? &newest_->tissue : nullptr;
+  const bool copies = case_.mode == RenderMode::copy;
+  if (answers_.accept(newest, now_ns_) && copies) touch_.take(*newest);
+  const double x = -motion_.x().z();
+  double force = touch_.tick(x, copies ? answers_.gain(now_ns_) : 0.0);
+  if (!copies && newest != nullptr && touch_.history().has(newest->stamp)) {
+    double give = 1 / case_.stiffness + newest->model.residual;
+    for (std::uint32_t i = 0; i < newest->model.n_modes; ++i)
+      give += newest->model.modes[i].phi * newest->model.modes[i].phi / newest->model.modes[i].stiffness;
+    const double moved = x - touch_.history().at(newest->stamp).x;
+    force = std::clamp(newest->state.force + moved / give, 0.0, settings_.force_limit);
+  }
+  rendered_ = {};
+  rendered_.force = rendered_.reported = {0, 0, force};
+  rendered_.proxy = motion_.x();
+  rendered_.touching = force > 0;
+  rendered_.stored = copies ? touch_.stored() : 0.0;
+  rendered_.plane_work = touch_.correction_work();
 }
 
 void Trial::book_force_step(const Vec3& force) {

@@ -10,9 +10,11 @@
 #include "bench/haptic/link.h"
 #include "bench/haptic/models.h"
 #include "bench/haptic/plant.h"
+#include "bench/haptic/pressed_tissue.h"
 #include "bench/haptic/renderer.h"
 #include "bench/haptic/tissue.h"
 #include "bench/haptic/world_object.h"
+#include "haptic_node/tissue/tissue_touch.h"
 #include "physics_node/loop/hands.h"
 
 namespace palpate::bench {
@@ -22,10 +24,12 @@ struct Case {
   HandSpring hand = hand_springs[0];
   ObjectModel object = object_models[0];
   const SlabModel* slab =
-      nullptr;          // the real physics library instead of `object`, whose stiffness is then only aimed by
-  double rate_Hz = 60;  // of patches
-  LinkModel link;       // each way
-  double clock_ahead = 0;  // the clock of physics before the hand's [s]
+      nullptr;  // the real physics library instead of `object`, whose stiffness is then only aimed by
+  const SpecimenModel* specimen = nullptr;  // of a mode that presses by motion, instead of `object`
+  ModelError told;                          // there, what is told wrong
+  double rate_Hz = 60;                      // of patches
+  LinkModel link;                           // each way
+  double clock_ahead = 0;                   // the clock of physics before the hand's [s]
   double stiffness = 500;
   double damping = 1;
   double torque_limit = 0;  // above 0 a stick is felt by its wrench, without torques by its plane [N m]
@@ -66,6 +70,8 @@ class Trial {
   std::function<void(haptic::DeviceSample&)> spoil_sample;
   std::function<void(ContactPatch&, const Vec3& known_proxy)> alter_patch;
   std::function<void(Tissue&, double t)> move_object;
+  /// The same on tissue that motion presses, in its own time, which is the hand's: that of the newest sample it has.
+  std::function<void(Specimen&, double t)> alter_specimen;
 
   double t() const noexcept { return 1e-9 * static_cast<double>(now_ns_ - start_ns); }  // 0 after lead_in [s]
   const Plant& plant() const noexcept { return plant_; }
@@ -73,6 +79,10 @@ class Trial {
   const haptic::Controller& controller() const noexcept { return controller_; }
   const Rendered& rendered() const noexcept { return rendered_; }
   const WorldObject* world() const noexcept { return world_.get(); }
+  const Tissue& tissue() const noexcept { return tissue_; }
+  /// Null in modes of another kind.
+  const PressedTissue* pressed() const noexcept { return pressed_.get(); }
+  const haptic::TissueTouch& touch() const noexcept { return touch_; }
   /// Largest force change in a tick; the same less K (v T + q), v the hand's speed then, q the resolution [N].
   double force_step() const noexcept { return force_step_; }
   double force_step_beyond_motion() const noexcept { return step_beyond_; }
@@ -84,11 +94,13 @@ class Trial {
     Vec3 x = Vec3::Zero();  // [m]
     Vec3 proxy = Vec3::Zero();
     ToolState state{};  // of which the three above are parts
+    std::shared_ptr<const HandSamples> samples{};
   };
   struct Answer {  // physics -> hand
     ContactPatch patch;
     double force = 0;  // computed by physics; RenderMode::direct holds it [N]
     ToolWrench wrench{};
+    haptic::TissueAnswer tissue{};
   };
 
   void exchange();
@@ -97,6 +109,8 @@ class Trial {
   }
   HandReport report();
   void answer_of_world();
+  void answer_of_pressed();
+  void render_pressed();
   void render();
   void book_force_step(const Vec3& force);
   void advance_plant();
@@ -106,9 +120,12 @@ class Trial {
   Plant plant_;
   Tissue tissue_;
   std::unique_ptr<WorldObject> world_;  // null: `tissue_`
+  std::unique_ptr<PressedTissue> pressed_;
   haptic::ControllerSettings settings_;
   haptic::Controller controller_;
-  haptic::MotionWatch motion_;  // of raw planes and direct: the same velocity as the controller's
+  haptic::MotionWatch motion_;  // of all modes but local: the same velocity as the controller's
+  haptic::TissueTouch touch_;
+  haptic::AnswerWatch<haptic::TissueAnswer> answers_{0};
   Link<HandReport> up_;
   Link<Answer> down_;
   EnergyBook energy_;

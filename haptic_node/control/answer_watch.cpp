@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/time/clock.h"
+#include "haptic_node/tissue/tissue_model.h"
 
 namespace palpate::haptic {
 namespace {
@@ -93,5 +94,6 @@ double AnswerWatch<Answer>::gain(std::int64_t now_ns) const noexcept {
 
 template class AnswerWatch<ContactPatch>;
 template class AnswerWatch<ToolWrench>;
+template class AnswerWatch<TissueAnswer>;
 
 }  // namespace palpate::haptic

@@ -1,0 +1,52 @@
+#pragma once
+// What is felt, on its way to what physics knows. The felt copy S goes a share beta of the way to the shadow S* in each tick:
+//
+//   S := S + beta (S* - S),   in r, phi q, phi w, p, and in the parameters
+//   beta = the largest in [0, alpha], alpha = 1 - exp(-h / tau), for which H rises by no more than the tank holds, and
+//          F changes by no more than a given step
+//
+// tau is 50 ms, so that a wrong model stands still. After an event, which takes force and energy away (a cut, a yield), it
+// is 10 ms: from where S* lies below F by 0.1 N and a quarter, until it has been reached. A ripple is no event: within
+// 0.5 s after S* was above F it does not count.
+// Source: Hannaford & Ryu 2002 for what pays; the fade is ours.
+
+#include "haptic_node/contact/work_tank.h"
+#include "haptic_node/tissue/tissue_step.h"
+
+namespace palpate::haptic {
+
+/// A model with its state, and what steps it.
+struct TissueCopy {
+  TissueStep step;
+  TissueState state;
+};
+
+/// S + beta (S* - S); both have the same counts.
+TissueCopy mixed(const TissueCopy& felt, const TissueCopy& shadow, double beta) noexcept;
+
+class ModelFade {
+ public:
+  static constexpr double slow = 50e-3, quick = 10e-3;  // tau [s]
+  static constexpr double event_force = 0.1;            // that S* lies below F [N]
+  static constexpr double event_share = 0.25;           // of F
+  static constexpr double event_over = 0.02;            // that is left of it in the end [N]
+  static constexpr double ripple_force = 0.05;          // that S* lies above F [N]
+  static constexpr double ripple_rest = 0.5;            // after which it counts no more [s]
+
+  /// One tick: moves `felt` towards `shadow`, both at the same x, v.
+  /// @param before      F of the tick before [N]
+  /// @param force_step  most change of F [N]
+  /// @return energy that it put into the felt copy, taken from the tank; 0 without contact [J]
+  double pass(TissueCopy& felt, const TissueCopy& shadow, double x, double v, double before,
+              double force_step, WorkTank& tank) noexcept;
+
+  bool falling() const noexcept { return falling_; }
+
+ private:
+  bool is_event(double felt, double shadow, double h) noexcept;
+
+  bool falling_ = false;
+  double quiet_for_ = ripple_rest;  // since S* was above F [s]
+};
+
+}  // namespace palpate::haptic

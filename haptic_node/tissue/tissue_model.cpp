@@ -1,0 +1,41 @@
+#include "haptic_node/tissue/tissue_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/message/messages.h"
+
+namespace palpate::haptic {
+namespace {
+
+// Why: a tenth of a gram on what stands for "does not give", 1e9 N/m; what is beyond is no tissue.
+constexpr double largest_stiffness = 1e13;  // omega^2 [1/s^2]
+constexpr double largest_damping = 1e7;     // [1/s]
+constexpr double largest_phi = 1e3;         // of a microgram [1 / sqrt(kg)]
+constexpr double largest_state = 1e6;       // of q [m sqrt(kg)] and of w
+
+bool within(double value, double low, double high) noexcept { return value >= low && value <= high; }
+bool within(double value, double most) noexcept { return within(value, -most, most); }
+
+}  // namespace
+
+bool is_sound(const TissueAnswer& answer, std::uint32_t tool) noexcept {
+  const TissueModel& m = answer.model;
+  const TissueState& s = answer.state;
+  if (answer.tool != tool || m.n_modes > TissueModel::most_modes || m.n_branches > TissueModel::most_branches)
+    return false;
+  for (std::uint32_t i = 0; i < m.n_modes; ++i) {
+    if (!(m.modes[i].phi > 0) || !within(m.modes[i].phi, largest_phi)) return false;
+    if (!within(m.modes[i].stiffness, 0, largest_stiffness)) return false;
+    if (!within(m.modes[i].damping, 0, largest_damping)) return false;
+    if (!within(s.q[i], largest_state) || !within(s.w[i], largest_state)) return false;
+  }
+  for (std::uint32_t j = 0; j < m.n_branches; ++j) {
+    if (!within(m.branches[j].stiffness, 0, rigid_stiffness)) return false;
+    if (!(m.branches[j].time > 0) || !std::isfinite(m.branches[j].time)) return false;
+    if (!within(s.p[j], farthest_hand)) return false;
+  }
+  return within(m.residual, 0, 1) && within(s.rest, farthest_hand) && within(s.force, 0, strongest_tissue);
+}
+
+}  // namespace palpate::haptic

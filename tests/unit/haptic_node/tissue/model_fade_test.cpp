@@ -1,0 +1,102 @@
+#include "haptic_node/tissue/model_fade.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/haptic_node/tissue/some_tissues.h"
+
+namespace palpate::haptic {
+namespace {
+
+constexpr double h = 1e-3, x = 3e-3;
+
+/// At rest under a hand that holds still at x.
+TissueCopy resting(const TissueModel& model, double rest = 0) {
+  TissueCopy copy{TissueStep(model, {500, 1}, h), {}};
+  copy.state.rest = rest;
+  for (int n = 0; n < 20'000; ++n) copy.step.advance(copy.state, x, 0);
+  return copy;
+}
+
+/// Ticks until felt is within 0.05 N of the shadow.
+int ticks_to(TissueCopy felt, const TissueCopy& shadow, int alternate = 0) {
+  ModelFade fade;
+  WorkTank tank;
+  TissueCopy above = shadow;
+  above.state.force = felt.state.force + 2 * ModelFade::ripple_force;
+  for (int n = 0; n < alternate; ++n) {
+    TissueCopy stays = felt;
+    fade.pass(stays, above, x, 0, stays.state.force, 0.08, tank);
+  }
+  for (int n = 1; n < 5000; ++n) {
+    fade.pass(felt, shadow, x, 0, felt.state.force, 1.0, tank);
+    if (std::abs(felt.state.force - shadow.state.force) < 0.05) return n;
+  }
+  return 5000;
+}
+
+TEST(ModelFade, LeavesWhatIsTheSame) {
+  for (const TissueModel& model : some_tissues()) {
+    const TissueCopy shadow = resting(model);
+    TissueCopy felt = shadow;
+    WorkTank tank;
+    ModelFade fade;
+    EXPECT_NEAR(fade.pass(felt, shadow, x, 0, felt.state.force, 0.08, tank), 0, 1e-15);
+    EXPECT_NEAR(felt.state.q[0], shadow.state.q[0], 1e-15);
+    EXPECT_NEAR(felt.state.force, shadow.state.force, 1e-12);
+  }
+}
+
+TEST(ModelFade, MixesTheSurfaceStraight) {
+  const TissueCopy a = resting(lump(0.1, 2, 200)), b = resting(lump(0.3, 1, 100), 1e-3);
+  const double from = modal_surface(a.step.model(), a.state), to = modal_surface(b.step.model(), b.state);
+  for (const double beta : {0.0, 0.25, 0.5, 1.0}) {
+    const TissueCopy m = mixed(a, b, beta);
+    EXPECT_NEAR(modal_surface(m.step.model(), m.state), from + beta * (to - from), 1e-15);
+  }
+}
+
+/// Energy that comes in is the tank's, tick by tick, and forces grow by no more than the step allowed.
+TEST(ModelFade, IsPaidByTheTank) {
+  TissueCopy felt = resting(lump(0.1, 2, 100));
+  const TissueCopy shadow = resting(lump(0.1, 2, 1000));
+  WorkTank tank;
+  ModelFade fade;
+  double before = felt.step.energy(felt.state, x), force = felt.state.force;
+  ASSERT_LT(felt.state.force, shadow.state.force);
+  for (int n = 0; n < 3000; ++n) {
+    const double level = tank.level();
+    const double put_in = fade.pass(felt, shadow, x, 0, force, 0.02, tank);
+    EXPECT_NEAR(felt.step.energy(felt.state, x) - before, put_in, 1e-15);
+    EXPECT_LE(put_in, level + 1e-18);
+    EXPECT_LE(std::abs(felt.state.force - force), 0.02 + 1e-12);
+    tank.pass(h, true);
+    before = felt.step.energy(felt.state, x);
+    force = felt.state.force;
+  }
+  EXPECT_NEAR(felt.state.force, shadow.state.force, 1e-3);
+}
+
+/// A cut falls with 10 ms, to the end; what falls after a ripple does so with 50 ms.
+TEST(ModelFade, FallsFastAfterAnEventOnly) {
+  const TissueCopy whole = resting(lump(0.1, 2, 1000)), cut = resting(lump(0.1, 2, 200));
+  const double below = whole.state.force - cut.state.force;
+  ASSERT_GT(below, 0.3);
+  const double quick = ModelFade::quick * std::log(below / 0.05) / h;
+  EXPECT_NEAR(ticks_to(whole, cut), quick, 0.4 * quick);
+  EXPECT_GT(ticks_to(whole, cut, 1), 3 * quick);
+}
+
+/// Without contact before and after there is nothing to pay.
+TEST(ModelFade, CostsNothingWithoutContact) {
+  TissueCopy felt{TissueStep(lump(0.1, 2, 100), {500, 1}, h), {}}, shadow = felt;
+  shadow.state.rest = 1e-3;
+  shadow.state.q[0] = 1e-4;
+  WorkTank tank;
+  tank.book(WorkTank::capacity);
+  ModelFade fade;
+  EXPECT_EQ(fade.pass(felt, shadow, -5e-3, 0, 0, 0.08, tank), 0);
+  EXPECT_NEAR(felt.state.rest, 1e-3 * -std::expm1(-h / ModelFade::slow), 1e-12);
+}
+
+}  // namespace
+}  // namespace palpate::haptic

@@ -1,0 +1,149 @@
+#include "haptic_node/tissue/tissue_step.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "tests/unit/haptic_node/tissue/some_tissues.h"
+
+namespace palpate::haptic {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double h = 1e-3;
+
+TEST(TissueStep, PressesAWallWithSpringAndDamper) {
+  const ContactSpring spring{500, 1};
+  const TissueStep step({}, spring, h);
+  TissueState state;
+  state.rest = 1e-3;
+  step.advance(state, 0.9e-3, 0.1);
+  EXPECT_EQ(state.force, 0);
+  step.advance(state, 3e-3, 0.1);
+  EXPECT_NEAR(state.force, 500 * 2e-3 + 0.1, 1e-12);
+  step.advance(state, 3e-3, 10);  // the damper adds half of the spring at most
+  EXPECT_NEAR(state.force, 1.5, 1e-12);
+  step.advance(state, 3e-3, -10);  // and never pulls
+  EXPECT_EQ(state.force, 0);
+}
+
+/// At the end of a tick the force that was solved for is the one that the law of the spring gives there.
+TEST(TissueStep, SolvesTheLawOfTheSpringAtItsEnd) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> depth(-2e-3, 6e-3), speed(-0.5, 0.5);
+  for (const TissueModel& model : some_tissues()) {
+    const TissueStep step(model, {500, 1}, h);
+    TissueState state;
+    int pressed = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const double before = state.force, x = depth(random), v = speed(random);
+      step.advance(state, x, v);
+      const double e = x - modal_surface(model, state), e_dot = v - modal_speed(model, state);
+      EXPECT_NEAR(state.force, step.spring().force(model.residual, h, e, e_dot, before), 1e-9);
+      pressed += state.force > 0;
+    }
+    EXPECT_GT(pressed, 500);
+  }
+}
+
+/// Against the same tissue in steps that are a hundred times as short.
+TEST(TissueStep, IsNearlyThatOfTinySubsteps) {
+  for (const TissueModel& model : some_tissues()) {
+    const TissueStep step(model, {500, 1}, h), fine(model, {500, 1}, h / 100);
+    TissueState state, truth;
+    double most = 0, error = 0;
+    const auto depth = [](double t) { return 2e-3 * (1 - std::cos(2 * pi * 8 * t)); };
+    const auto speed = [](double t) { return 2e-3 * 2 * pi * 8 * std::sin(2 * pi * 8 * t); };
+    for (int n = 1; n <= 500; ++n) {
+      step.advance(state, depth(n * h), speed(n * h));
+      for (int i = 1; i <= 100; ++i) {
+        const double t = (n - 1 + i / 100.0) * h;
+        fine.advance(truth, depth(t), speed(t));
+      }
+      most = std::max(most, truth.force);
+      error = std::max(error, std::abs(truth.force - state.force));
+    }
+    EXPECT_LT(error, 0.02 * most) << model.n_modes << " modes, " << model.residual;
+  }
+}
+
+/// Held for long the force is that of springs in series; branches have relaxed.
+TEST(TissueStep, EndsAtTheStaticForce) {
+  for (const TissueModel& model : some_tissues()) {
+    const TissueStep step(model, {500, 1}, h);
+    TissueState state;
+    for (int n = 0; n < 20'000; ++n) step.advance(state, 3e-3, 0);
+    double compliance = 1 / 500.0 + model.residual;
+    for (std::uint32_t i = 0; i < model.n_modes; ++i)
+      compliance += model.modes[i].phi * model.modes[i].phi / model.modes[i].stiffness;
+    EXPECT_NEAR(state.force, 3e-3 / compliance, 1e-6);
+  }
+}
+
+/// In a closed cycle of the hand tissue keeps nothing: what went in is what it dissipated, and it is not less than nothing.
+TEST(TissueStep, DissipatesInAClosedCycle) {
+  for (const TissueModel& model : some_tissues())
+    for (const double frequency : {0.5, 3.0, 11.0, 30.0}) {
+      const TissueStep step(model, {500, 1}, h);
+      TissueState state;
+      const auto depth = [&](double t) { return 2e-3 - 0.5e-3 * std::cos(2 * pi * frequency * t); };
+      const int cycle = static_cast<int>(std::lround(1 / (frequency * h)));
+      double given = 0, dissipated = 0, before = 0;
+      for (int n = 1; n <= 60 * cycle; ++n) {
+        const double then = (n - 1.0) / (cycle * frequency), now = n / (cycle * frequency);
+        const StepWork work = step.advance(state, depth(then), depth(now), (depth(now) - depth(then)) / h);
+        if (n > 59 * cycle) given += work.given, dissipated += work.dissipated;
+        if (n == 59 * cycle) before = step.energy(state, depth(now));
+      }
+      const double after = step.energy(state, depth(0));
+      EXPECT_NEAR(given - dissipated, after - before, 1e-15);
+      EXPECT_GT(dissipated, 0) << model.n_modes << " modes at " << frequency << " Hz";
+    }
+}
+
+/// Without a hand energy only falls, and without dampers it stays.
+TEST(TissueStep, KeepsTheEnergyOfAFreeSwing) {
+  TissueModel model;
+  model.n_modes = 2;
+  model.modes[0] = {3, 4000, 0};
+  model.modes[1] = {2, 90'000, 0};
+  const TissueStep step(model, {500, 1}, h);
+  TissueState state;
+  state.q = {1e-3, -2e-3};
+  state.w = {0.1, 0.2};
+  const double before = tissue_energy(model, state);
+  for (int n = 0; n < 10'000; ++n) step.advance(state, -1, 0);
+  EXPECT_NEAR(tissue_energy(model, state), before, 1e-9 * before);
+}
+
+TEST(TissueModel, RejectsWhatIsNoTissue) {
+  TissueAnswer good;
+  good.model = some_tissues().back();
+  good.state.force = 0.5;
+  EXPECT_TRUE(is_sound(good, 0));
+  EXPECT_FALSE(is_sound(good, 1));
+  const auto rejected = [&](auto&& spoil) {
+    TissueAnswer bad = good;
+    spoil(bad);
+    return !is_sound(bad, 0);
+  };
+  const double nan = std::nan("");
+  EXPECT_TRUE(rejected([](TissueAnswer& a) { a.model.n_modes = 10; }));
+  EXPECT_TRUE(rejected([](TissueAnswer& a) { a.model.n_branches = 5; }));
+  EXPECT_TRUE(rejected([](TissueAnswer& a) { a.model.modes[0].phi = 0; }));
+  EXPECT_TRUE(rejected([](TissueAnswer& a) { a.model.modes[0].stiffness = -1; }));
+  EXPECT_TRUE(rejected([&](TissueAnswer& a) { a.model.modes[0].damping = nan; }));
+  EXPECT_TRUE(rejected([&](TissueAnswer& a) { a.state.q[0] = nan; }));
+  EXPECT_TRUE(rejected([&](TissueAnswer& a) { a.state.w[0] = INFINITY; }));
+  EXPECT_TRUE(rejected([](TissueAnswer& a) { a.model.branches[0].time = 0; }));
+  EXPECT_TRUE(rejected([&](TissueAnswer& a) { a.state.p[0] = nan; }));
+  EXPECT_TRUE(rejected([](TissueAnswer& a) { a.model.residual = -1e-6; }));
+  EXPECT_TRUE(rejected([&](TissueAnswer& a) { a.state.rest = nan; }));
+  EXPECT_TRUE(rejected([](TissueAnswer& a) { a.state.force = -0.1; }));
+}
+
+}  // namespace
+}  // namespace palpate::haptic
