@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <complex>
 #include <memory>
+#include <numbers>
 #include <thread>
 
 #include "bench/haptic/press_pair.h"
-#include "bench/haptic/rows.h"
+#include "bench/haptic/replay_cost.h"
+#include "bench/haptic/rows_touch.h"
 #include "bench/haptic/solver_cost.h"
 #include "bench/machine/result_folder.h"
 #include "bench/problems/stopwatch.h"
@@ -45,6 +49,43 @@ std::pair<double, double> write_pair(const std::string& out) {
   return {force_range(held, 3.0), force_range(local, 3.0)};
 }
 
+/// T1, and today's coupling beside it, on the lump that it has.
+void write_sines(const std::string& out, Runs& runs) {
+  Table table{
+      {"mode", "tissue", "age", "frequency_Hz", "felt_over_ideal", "felt_phase_deg", "borne_over_ideal",
+       "borne_phase_deg", "felt_over_borne", "motor_over_borne", "motor_phase_deg"},
+      {}};
+  const auto degrees = [](const std::complex<double>& z) { return std::arg(z) * 180 / std::numbers::pi; };
+  const auto add = [&](const char* mode, const SineFelt& sine) {
+    const SineResult& r = sine.result;
+    table.add({mode, sine.specimen, sine.age, text_of(sine.frequency_Hz), text_of(std::abs(r.felt_by_ideal)),
+               text_of(degrees(r.felt_by_ideal)), text_of(std::abs(r.borne_by_ideal)),
+               text_of(degrees(r.borne_by_ideal)), text_of(std::abs(r.felt_by_borne)),
+               text_of(std::abs(r.motor_by_borne)), text_of(degrees(r.motor_by_borne))});
+  };
+  for (const SineFelt& sine : runs.sines) add(name_of(RenderMode::copy), sine);
+  for (const LinkAge& age : link_ages)
+    for (const double frequency : touch_frequencies(runs.effort))
+      add(name_of(RenderMode::local), {object_models[1].name, age.name, frequency,
+                                       feel_sine(todays_case(object_models[1], age), frequency)});
+  ResultFolder(out, "haptic_sines").write_csv(table);
+}
+
+/// A tap of 0.1 s on O1 at 100 ms, felt and borne, with the copy and as today.
+void write_tap(const std::string& out) {
+  const SpecimenModel O1 = specimen_of(object_models[1]);
+  const TouchRun copy = tap(led_case(O1, link_ages[2]), 0.1, 3e-3);
+  const TouchRun today = tap(todays_case(object_models[1], link_ages[2]), 0.1, 3e-3);
+  Table table{{"t_s", "depth_mm", "ideal_N", "copy_felt_N", "copy_borne_N", "local_felt_N", "local_borne_N"},
+              {}};
+  for (std::size_t i = 0; i < std::min(copy.samples.size(), today.samples.size()); ++i) {
+    const Touched &c = copy.samples[i], &a = today.samples[i];
+    table.add({text_of(c.t), text_of(1e3 * c.x), text_of(c.ideal), text_of(c.felt), text_of(c.borne),
+               text_of(a.felt), text_of(a.borne)});
+  }
+  ResultFolder(out, "haptic_tap").write_csv(table);
+}
+
 int run_haptic(const Options& options) {
   const ResultFolder folder(options.out, "haptic");
   Runs runs;
@@ -68,7 +109,18 @@ int run_haptic(const Options& options) {
              held, local);
   const SolverCost cost = measure_solver(20'000);
   fmt::print("proxy of 8 planes: {:.2f} us median, {:.2f} us p99 (CPU time)\n", cost.median_us, cost.p99_us);
+  nlohmann::json replays = nlohmann::json::array();
+  for (const int modes : {1, 3, 9}) {
+    const ReplayCost replay = measure_replay(modes, 20'000);
+    fmt::print(
+        "replay of 100 ticks of {} modes: {:.1f} us median, {:.1f} us p99 (CPU time), {:.1f} % of a tick\n",
+        modes, replay.median_us, replay.p99_us, 0.1 * replay.median_us);
+    replays.push_back({{"modes", modes}, {"median_us", replay.median_us}, {"p99_us", replay.p99_us}});
+  }
+  write_sines(options.out, runs);
+  write_tap(options.out);
   std::vector<CaseResult> cases = runs.seen;
+  cases.insert(cases.end(), runs.copied.begin(), runs.copied.end());
   cases.insert(cases.end(), runs.raw.begin(), runs.raw.end());
   cases.insert(cases.end(), runs.world.begin(), runs.world.end());
   folder.write_csv(table_of(cases));
@@ -79,6 +131,7 @@ int run_haptic(const Options& options) {
                      {"cpu_s", watch.cpu_s()},
                      {"held_swing_N", held},
                      {"local_swing_N", local},
+                     {"replay_100_ticks_cpu_us", replays},
                      {"proxy_8_planes_cpu_us", {{"median", cost.median_us}, {"p99", cost.p99_us}}}});
   const bool drawn = folder.plot();
   fmt::print("results: {}\n", options.out);

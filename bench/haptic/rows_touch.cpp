@@ -140,11 +140,7 @@ Row clear_tip_bears_nothing(Runs&) {
         felt = std::max(felt, s.felt);
       }
     }
-  Case c = led_case(hertz_ball, link_ages[1]);
-  c.specimen = nullptr;
-  c.object = object_models[1];
-  c.mode = RenderMode::local;
-  const TouchRun run = tap(c, 0.2, 10e-3);
+  const TouchRun run = tap(todays_case(object_models[1], link_ages[1]), 0.2, 10e-3);
   for (const Touched& s : run.samples)
     if (s.x <= -3e-3) today = std::max(today, s.borne);
   return {"T4", "a tap from 10 mm above: samples of a tip that is 3 mm clear",

@@ -43,6 +43,14 @@ Case led_case(const SpecimenModel& specimen, const LinkAge& age) {
   return c;
 }
 
+Case todays_case(const ObjectModel& object, const LinkAge& age) {
+  Case c = led_case(chain_of_ten, age);
+  c.specimen = nullptr;
+  c.object = object;
+  c.mode = RenderMode::local;
+  return c;
+}
+
 Path straight_down(std::function<double(double)> depth) {
   return [depth = std::move(depth)](double t) {
     constexpr double dt = 1e-6;
@@ -145,9 +153,8 @@ double relaxation_error(const Case& c) {
 }
 
 CutResult cut_under_hand(const LinkAge& age) {
-  Case c = led_case(yielding_lump, age);
-  c.specimen = nullptr;
-  c.object = object_models[1];
+  Case c = todays_case(object_models[1], age);
+  c.mode = RenderMode::copy;
   c.device = device_models[0];
   c.hand = hand_springs[1];
   constexpr double cut_at = 2.0;

@@ -28,6 +28,8 @@ inline constexpr std::array<LinkAge, 3> link_ages{
 
 /// No friction, no steps of an encoder: the motion is what is told.
 Case led_case(const SpecimenModel& specimen, const LinkAge& age);
+/// The same with the coupling that `palpate run` has, whose tissue is a lump and lives in its own time.
+Case todays_case(const ObjectModel& object, const LinkAge& age);
 
 /// One sample of the hand; depths and forces into the tissue.
 struct Touched {

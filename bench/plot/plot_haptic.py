@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""haptic.png: force held against a local plane, and which cases are stable with raw planes and with the local model.
+"""haptic.png: force held against a local plane, and which cases are stable with raw planes and with the local model; below,
+the copy of tissue beside the local plane: sines and a tap, felt and borne.
 
 Usage: plot_haptic.py DIR
 """
@@ -44,17 +45,50 @@ def draw_map(axes, rows, mode):
     axes.set_title(f"{mode}: cases above 200 um", fontsize=10)
 
 
+LOOKS = {"copy": ("#1d3557", "copy of tissue"), "local": ("#c1121f", "local plane")}
+
+
+def draw_sines(axes, rows, what, title):
+    """Amplitude over the ideal coupling on O1, a line for each age."""
+    for mode, (color, label) in LOOKS.items():
+        for age, style in (("2 ms", "-"), ("20 ms", "--"), ("100 ms", ":")):
+            chosen = [r for r in rows if r["mode"] == mode and r["tissue"] == "O1" and r["age"] == age]
+            axes.semilogx([r["frequency_Hz"] for r in chosen], [r[what] for r in chosen], style, color=color, lw=1.4,
+                          marker=".", label=f"{label}, {age}")
+    axes.axhspan(0.95, 1.05, color="0.92", lw=0)
+    axes.set_ylim(0, 2)
+    tidy(axes, "frequency [Hz]", "over the ideal coupling")
+    axes.set_title(title, fontsize=10)
+
+
+def draw_tap(axes, rows):
+    t = [1e3 * r["t_s"] for r in rows]
+    axes.plot(t, [r["ideal_N"] for r in rows], color="0.7", lw=4, label="ideal coupling")
+    for mode, (color, label) in LOOKS.items():
+        axes.plot(t, [r[mode + "_felt_N"] for r in rows], color=color, lw=1.4, label=f"{label}, felt")
+        axes.plot(t, [r[mode + "_borne_N"] for r in rows], "--", color=color, lw=1.2, label=f"{label}, borne")
+    axes.set_xlim(200, 500)
+    tidy(axes, "time of the hand [ms]", "force [N]")
+    axes.set_title("tap of 0.1 s, 2 mm, O1, 100 ms", fontsize=10)
+    axes.legend(fontsize=7, loc="upper right", frameon=True)
+
+
 def main(folder):
     rows = read_table(folder, "haptic")
     press = read_table(folder, "haptic_press")
     machine, results = read_results(folder, "haptic")
-    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(13, 4.2), width_ratios=(1.5, 1, 1))
+    sines, tap = read_table(folder, "haptic_sines"), read_table(folder, "haptic_tap")
+    figure, ((left, middle, right), (tapped, felt, borne)) = plt.subplots(2, 3, figsize=(13, 8), width_ratios=(1.5, 1, 1))
     draw_press(left, press, results)
     draw_map(middle, rows, "raw planes")
     draw_map(right, rows, "local")
-    figure.text(0.54, 0.035, "Touch, K 500 N/m, three hands, static wall and three objects that yield; 1 N held for 3.7 s",
+    draw_tap(tapped, tap)
+    draw_sines(felt, sines, "felt_over_ideal", "felt, 0.5 mm about 2 mm, O1")
+    draw_sines(borne, sines, "borne_over_ideal", "borne by the tissue")
+    felt.legend(fontsize=7, loc="upper left", frameon=True)
+    figure.text(0.54, 0.51, "Touch, K 500 N/m, three hands, static wall and three objects that yield; 1 N held for 3.7 s",
                 fontsize=7, color="0.4")
-    figure.tight_layout(rect=(0, 0.06, 1, 1))
+    figure.tight_layout(rect=(0, 0.03, 1, 1), h_pad=3)
     save(figure, folder, "haptic", machine)
 
 

@@ -8,7 +8,8 @@
 //
 // S is the energy of the copy, H. On the way out it is that of the contact spring alone: tissue keeps energy after the tip has
 // left, and half of that would never be missed. The other way round, with the spring alone always, a handle falls through soft
-// tissue for ever. Without contact L is at most half the slack, so that a surface never stays away.
+// tissue for ever. Without contact L is at most half the slack and what the copy still swings with: a surface never stays away
+// for longer than that, and what a device at its limit did not take in is not forgotten while the copy has it.
 // Steps of the encoder count as in energy_limit.h.
 // Source: Hannaford & Ryu 2002 (passivity observer). Deviation: forces shrink instead of a damper being added; the copy's own
 // dissipation is told to the observer, which otherwise holds back the force of all tissue that is viscous.
@@ -49,7 +50,7 @@ class LeakLimit {
     if (touching) leak_ += apparent_step_work(step);
     leak_ = std::max(leak_, -credit);
     if (!touching) {
-      leak_ = std::min(leak_, 0.5 * slack);
+      leak_ = std::min(leak_, 0.5 * slack + step.whole_energy);
       pace_ = {};
       left_ = 0;
       return share_ = 1;

@@ -101,8 +101,7 @@ double ModelFade::pass(TissueCopy& felt, const TissueCopy& shadow, double x, dou
     if (t.energy <= held && t.force <= force) beta = fast;
   }
   Tried t = tried(felt, shadow, x, v, before, beta);
-  const bool free = force <= 0 && t.force <= 0;
-  if (!free && !fits(t)) {
+  if (!fits(t)) {
     double low = 0, high = beta;
     for (int i = 0; i < halvings; ++i) {
       beta = 0.5 * (low + high);
@@ -114,7 +113,6 @@ double ModelFade::pass(TissueCopy& felt, const TissueCopy& shadow, double x, dou
   }
   felt = mixed(felt, shadow, beta);
   felt.state.force = t.force;
-  if (free) return 0;
   tank.book(t.energy - held);
   return t.energy - held;
 }

@@ -61,17 +61,19 @@ double TissueTouch::tick(double x, double gain) noexcept {
   if (shadow_at_ > 0) shadow_.step.advance(shadow_.state, hand.x, hand.v), shadow_at_ = history_.newest();
 
   StepWork work;
+  double put_in = 0;
   if (shadow_at_ > 0 && (!began_ || !felt_.step.model().same_counts(shadow_.step.model()))) {
     begin(hand.x);
   } else if (began_) {
     const double before = felt_.state.force;
     work = felt_.step.advance(felt_.state, x_before, hand.x, hand.v);
     if (gain > gain_) weaken(gain_ / gain, hand.x);
-    fade_.pass(felt_, shadow_, hand.x, hand.v, before, slew * settings_.period, tank_);
+    put_in = fade_.pass(felt_, shadow_, hand.x, hand.v, before, slew * settings_.period, tank_);
   }
   gain_ = gain;
   made_ -= std::min(0.0, work.dissipated);
-  tank_.pass(settings_.period, touching());
+  // The tank fills again after a rest in which nothing was put into the copy either.
+  tank_.pass(settings_.period, touching() || put_in > 0);
 
   const double F = began_ ? felt_.state.force : 0.0;
   LeakStep step{way, hand.v, work.given, work.dissipated, gain * F, 0, 0};

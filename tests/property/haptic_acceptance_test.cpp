@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/haptic/rows.h"
+#include "bench/haptic/rows_touch.h"
 
 namespace palpate::bench {
 namespace {
@@ -44,6 +44,22 @@ INSTANTIATE_TEST_SUITE_P(
         std::pair{"StickWithTorques", &stick_with_torques_is_steady}, std::pair{"TrueForce", &force_is_true},
         std::pair{"Pulse", &pulse_is_felt}),
     [](const auto& which) { return std::string(which.param.first); });
+
+INSTANTIATE_TEST_SUITE_P(CopyOfTissue, InAMatrix,
+                         ::testing::Values(std::pair{"Sines", &sines_are_felt_as_borne},
+                                           std::pair{"LumpOfAChain", &lump_of_a_chain_is_seen_through},
+                                           std::pair{"Taps", &taps_are_felt_as_borne},
+                                           std::pair{"Relaxation", &relaxation_is_felt},
+                                           std::pair{"ClearTip", &clear_tip_bears_nothing},
+                                           std::pair{"Cuts", &cuts_are_felt},
+                                           std::pair{"TissueThatYields", &copy_is_stable},
+                                           std::pair{"NoHand", &copy_gains_nothing_without_a_hand},
+                                           std::pair{"WrongModels", &copy_bears_wrong_models},
+                                           std::pair{"WrongFirstTouch", &copy_bears_a_wrong_first_touch},
+                                           std::pair{"AnyModel", &copy_keeps_energy_with_any_model},
+                                           std::pair{"ExtrapolatedForce", &extrapolated_force_is_unstable},
+                                           std::pair{"Pulse", &pulse_is_felt_by_copy}),
+                         [](const auto& which) { return std::string(which.param.first); });
 
 TEST(HapticLoop, PushesGentlyWhenPlanesTeleport) { expect(teleports_push_gently()); }
 TEST(HapticLoop, FeelsEdgesAndCornersAsTheyAre) { expect(edges_and_corners()); }

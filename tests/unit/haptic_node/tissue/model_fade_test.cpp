@@ -86,16 +86,25 @@ TEST(ModelFade, FallsFastAfterAnEventOnly) {
   EXPECT_GT(ticks_to(whole, cut, 1), 3 * quick);
 }
 
-/// Without contact before and after there is nothing to pay.
-TEST(ModelFade, CostsNothingWithoutContact) {
+/// A tip in the air is no way around the tank: what the hand would meet later is paid when it is put in. The rest costs nothing.
+TEST(ModelFade, IsPaidInTheAirToo) {
+  constexpr double above = -5e-3;
   TissueCopy felt{TissueStep(lump(0.1, 2, 100), {500, 1}, h), {}}, shadow = felt;
   shadow.state.rest = 1e-3;
-  shadow.state.q[0] = 1e-4;
-  WorkTank tank;
-  tank.book(WorkTank::capacity);
+  WorkTank empty;
+  empty.book(WorkTank::capacity);
   ModelFade fade;
-  EXPECT_EQ(fade.pass(felt, shadow, -5e-3, 0, 0, 0.08, tank), 0);
+  EXPECT_EQ(fade.pass(felt, shadow, above, 0, 0, 0.08, empty), 0);
   EXPECT_NEAR(felt.state.rest, 1e-3 * -std::expm1(-h / ModelFade::slow), 1e-12);
+  shadow.state.w[0] = 1;  // half a joule
+  TissueCopy held = felt;
+  fade.pass(held, shadow, above, 0, 0, 0.08, empty);
+  EXPECT_EQ(tissue_energy(held.step.model(), held.state), 0);
+  WorkTank full;
+  const double put_in = fade.pass(felt, shadow, above, 0, 0, 0.08, full);
+  EXPECT_NEAR(tissue_energy(felt.step.model(), felt.state), put_in, 1e-15);
+  EXPECT_GT(put_in, 0.9 * WorkTank::capacity);
+  EXPECT_LE(put_in, WorkTank::capacity);
 }
 
 }  // namespace
