@@ -46,7 +46,7 @@ class OwnFrame {
   }
   /// Are they a row or fewer?
   bool is_narrow(std::size_t face, double layer) const {
-    return extent(face, layer).first < 0.99 * body_.spacing();
+    return extent(face, layer).first < 0.5 * body_.spacing();  // Why: a single triangle is wider
   }
 
  private:

@@ -40,8 +40,10 @@ constexpr double yielding_bytes = 236, yielding_double_bytes = 472;
 constexpr double plastic_bytes = 680, plastic_double_bytes = 1030;
 // A point or a stick feels what breaks open: two sites of 9 bytes a mass, and room for a facet.
 constexpr double felt_bytes = 42;
-// Of a node of a mesh with its 5.5 tetrahedra; and of its file while it is read, a byte of it.
-constexpr double mesh_bytes = 1500, mesh_double_bytes = 2200, mesh_file_bytes = 4;
+// Of a node of a mesh, with what joins nodes while it is made; and of its file while it is read, a byte of it. Measured as above, of 600,000
+// tetrahedra.
+constexpr double mesh_bytes = 700, mesh_double_bytes = 1000, mesh_file_bytes = 2;
+constexpr double second_order_bytes = 640, second_order_double_bytes = 700;
 constexpr double storage_bytes = 14;  // of a storage cell: elements, share, inverse mass
 constexpr double image_bytes =
     10;  // of a cell of an image: intensity, twice while it is read, filled, deformable
@@ -148,15 +150,18 @@ std::string what_fits(const BodySpec& body, double share) {
 }  // namespace
 
 double bytes_of_masses(double masses, const BodySpec& body, const Scene& scene) {
-  if (std::holds_alternative<MeshShape>(body.shape))
-    return masses * (scene.physics->precision == Precision::double_ ? mesh_double_bytes : mesh_bytes);
+  const bool doubled = scene.physics->precision == Precision::double_;
+  if (std::holds_alternative<MeshShape>(body.shape)) {
+    if (body.tet_elements == TetElements::second_order)
+      return masses * (doubled ? second_order_double_bytes : second_order_bytes);
+    return masses * (doubled ? mesh_double_bytes : mesh_bytes);
+  }
   bool any_breaks = breaks(body.material, scene);
   bool any_yields = yields(body.material, scene);
   for (const RegionSpec& region : body.regions) {
     any_breaks = any_breaks || (!region.material.empty() && breaks(region.material, scene));
     any_yields = any_yields || (!region.material.empty() && yields(region.material, scene));
   }
-  const bool doubled = scene.physics->precision == Precision::double_;
   const bool felt = std::any_of(scene.tools.begin(), scene.tools.end(), meets_facets);
   const bool of_cells = body.model == ElementModel::fem;
   const bool plastic = any_breaks && !of_cells;

@@ -1,5 +1,6 @@
 // Bodies that are meshes of tetrahedra, through the door of a scene: closed forms, conservation, the ledger, the same bits, and what
 // they do beside hexahedra.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -12,6 +13,7 @@
 #include "common/scene/load_scene.h"
 #include "common/scene/scene.h"
 #include "physics_node/contact/point_tool.h"
+#include "physics_node/remarks/remarks.h"
 #include "physics_node/world.h"
 #include "tests/support/physics/mesh_worlds.h"
 
@@ -269,6 +271,21 @@ TEST(Mesh, StiffensWhereItIsCrushed) {
               world.report().least_corner_J);
   EXPECT_GT(world.report().least_corner_J, 0);
   EXPECT_LT(world.report().least_corner_J, 0.9);
+}
+
+TEST(Mesh, SaysWhatItsFileHadToBeMended) {
+  TetMesh mesh = make_tet_box({.edge = 0.02});
+  for (std::size_t t = 0; t < 2; ++t) std::swap(mesh.tets[t][0], mesh.tets[t][1]);
+  mesh.nodes.push_back({0.01, 0.01, 0.01});
+  Recipe recipe = mesh_box({1, 1, 1}, 0.02);
+  recipe.body = "fixed = [\"-z\"]";
+  EXPECT_EQ(remarks_about(World(scene_of(recipe))), Remarks{});
+  recipe.shape = "shape = \"mesh\"\nunit = \"mm\"\nfile = \"" + mesh_file(mesh) + "\"";
+  const World world(scene_of(recipe));
+  EXPECT_THAT(remarks_about(world),
+              testing::ElementsAre(testing::HasSubstr("2 of its 6 tetrahedra were inside out"),
+                                   testing::HasSubstr("1 nodes of its file are of no")));
+  EXPECT_EQ(world.body(0).body().n_nodes(), 8);
 }
 
 TEST(Mesh, IsBalancedOnlyWhereItIsHeld) {

@@ -21,6 +21,7 @@
 #include "physics_node/forecast/memory_need.h"
 #include "physics_node/forecast/speed_forecast.h"
 #include "physics_node/world.h"
+#include "tests/support/physics/mesh_worlds.h"
 
 namespace palpate::physics {
 namespace {
@@ -52,6 +53,21 @@ TEST(MemoryNeed, IsThatOfTheBodyAsItIsBuilt) {
     EXPECT_GT(need.cells, 0.9 * lattice.n_cells()) << body;
     EXPECT_LT(need.cells, 2.5 * lattice.n_cells()) << body;
   }
+}
+
+/// Before its file is read its nodes are not known, and the file stands for them.
+TEST(MemoryNeed, OfAMeshIsThatOfItsFileAndThenOfItsNodes) {
+  const std::string file = test::mesh_file(make_tet_box({.cells = {8, 8, 8}, .edge = 0.005}));
+  const Scene scene = scene_of("shape = \"mesh\"\nunit = \"mm\"\nfile = \"" + file + "\"\n");
+  const MemoryNeed need = memory_need(scene.bodies[0], scene);
+  EXPECT_EQ(need.masses, 0);
+  EXPECT_GE(need.bytes, static_cast<double>(std::filesystem::file_size(file)));
+  EXPECT_GT(bytes_of_masses(729, scene.bodies[0], scene), 729 * 8 * 3 * 8) << "places, state, six tetrahedra";
+  EXPECT_THROW(refuse_too_large(scene, {{.masses = 1e9, .cells = 0, .bytes = 1e12}}, 1e9), InputError);
+  const World world(scene);
+  const double masses = 729;
+  const SpeedForecast speed = forecast_speed(scene, {&masses, 1}, world.stable_step_seconds());
+  EXPECT_GT(speed.real_time_factor, 1);
 }
 
 std::string complaint_of(const Scene& scene, double memory) {
