@@ -48,6 +48,7 @@ void read_physics(TableReader& root, ReadContext& context) {
     physics.threads = static_cast<int>(*threads);
   set_if(physics.frame_Hz, reader.read_number("frame_Hz", {.lo = 20, .hi = 20000}));
   set_if(physics.sleep, reader.read_flag("sleep"));
+  set_if(physics.subcycle, reader.read_flag("subcycle"));
   reader.refuse_left_over();
 }
 

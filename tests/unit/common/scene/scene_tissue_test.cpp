@@ -167,6 +167,8 @@ TEST(Physics, SleepsUnlessToldNotTo) {
   EXPECT_TRUE(parsed(scene_with("", ball)).physics->sleep);
   EXPECT_FALSE(parsed(scene_with("", ball), {"physics.sleep=false"}).physics->sleep);
   EXPECT_THAT(one_complaint(scene_with("", ball), {"physics.sleep=deep"}), HasSubstr("write true or false"));
+  EXPECT_TRUE(parsed(scene_with("", ball)).physics->subcycle);
+  EXPECT_FALSE(parsed(scene_with("", ball), {"physics.subcycle=false"}).physics->subcycle);
 }
 
 TEST(Record, KeepsTheEnergyUnlessAListLeavesItOut) {
