@@ -277,6 +277,7 @@ void World::reset() noexcept {
   if (inside_) inside_->restart();
   n_substeps_ = std::max(1, n_substeps_ >> guard_.recoveries());
   held_substeps_ = held_until_ = 0;
+  stiffening_ = 1;
   dt_ = frame_dt_ / n_substeps_;
   guard_.reset();
   pressed_ = pressed_before_ = false;

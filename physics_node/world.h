@@ -77,8 +77,8 @@ class World {
   }
 
  private:
-  /// Which integrator it is, where the scene leaves that open, and its stable step.
-  Integrator settle_integrator(const std::vector<Body>& built);
+  /// Which integrator it is, where the scene leaves that open, and its stable step; bodies hear of stiff cells that step alone.
+  Integrator settle_steps(std::vector<Body>& built);
   void step(double dt, double done, bool watch) noexcept;
   void move_bodies(double dt, bool watch) noexcept;
   void touch(double dt, double done) noexcept;

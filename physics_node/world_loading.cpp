@@ -16,6 +16,7 @@
 #include "physics_node/forecast/integrator_choice.h"
 #include "physics_node/forecast/memory_need.h"
 #include "physics_node/forecast/speed_forecast.h"
+#include "physics_node/step/lattice/fast_choice.h"
 #include "physics_node/step/lattice/stable_step.h"
 #include "physics_node/step/multigrid/start_of_body.h"
 #include "physics_node/world.h"
@@ -24,6 +25,12 @@ namespace palpate::physics {
 namespace {
 
 constexpr Index masses_worth_a_team = 15000;  // below, a second thread brings little (palpate bench team)
+
+/// May anything touch bodies?
+bool may_touch(const Scene& scene) {
+  return scene.floor || !scene.walls.empty() || !scene.tools.empty() ||
+         (scene.contact->enabled && scene.bodies.size() > 1);
+}
 
 /// backward_euler solves springs on one thread, finite elements on as many as there are.
 bool solves_springs(const Scene& scene) {
@@ -62,7 +69,7 @@ std::vector<Body> build_bodies(const Scene& scene) {
 
 World::World(const Scene& scene, int spare_cores) : scene_(scene) {
   std::vector<Body> built = build_bodies(scene);
-  const Integrator integrator = settle_integrator(built);
+  const Integrator integrator = settle_steps(built);
   Index n_masses = 0;
   std::size_t n_pieces = 0;
   if (scene.floor) planes_.push_back({Vec3::UnitZ(), scene.floor->height});
@@ -108,21 +115,20 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
   restart_ledger();
 }
 
-Integrator World::settle_integrator(const std::vector<Body>& built) {
+Integrator World::settle_steps(std::vector<Body>& built) {
   Integrator& integrator = scene_.physics->integrator;
-  std::vector<StiffestMode> modes;
-  for (const Body& body : built) modes.push_back(stiffest_mode(body));
-  const auto shortest = [&](Integrator of) {
-    double dt = std::numeric_limits<double>::infinity();
-    for (const StiffestMode& mode : modes) dt = std::min(dt, stable_step(mode, of));
-    return dt;
-  };
   if (integrator == Integrator::automatic) {
-    IntegratorChoice choice = choose_integrator(scene_, shortest(Integrator::symplectic_euler));
+    double dt = std::numeric_limits<double>::infinity();
+    for (const Body& body : built)
+      dt = std::min(dt, stable_step(stiffest_mode(body), Integrator::symplectic_euler));
+    IntegratorChoice choice = choose_integrator(scene_, dt);
     integrator = choice.integrator;
     if (!choice.remark.empty()) remarks_.push_back(std::move(choice.remark));
   }
-  stable_dt_ = shortest(integrator);
+  stable_dt_ = std::numeric_limits<double>::infinity();
+  for (std::size_t b = 0; b < built.size(); ++b)
+    stable_dt_ =
+        std::min(stable_dt_, settle_step(scene_.bodies[b], built[b], scene_, may_touch(scene_), remarks_));
   return integrator;
 }
 

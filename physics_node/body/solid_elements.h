@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/scene/element_kinds.h"
+#include "physics_node/lattice/lattice_types.h"
 
 namespace palpate::physics {
 
@@ -26,6 +27,12 @@ struct Yielding {
   double hardening = 0;  // slope of its stress over strain after that, over the slope before; below 1
 };
 
+/// Cells so stiff that they are stepped on their own, several times in a step of the rest: see step/lattice/hex_fast.h.
+struct FastCells {
+  std::vector<Index> cells;  // storage cells of their lowest corners, in storage order; EMPTY: none
+  double step = 0;           // the longest that is theirs [s]
+};
+
 /// Stiffness of a cell and the mass of a node are per cell, as the cells around a node may be of several materials.
 struct SolidElements {
   double modulus = 0;                  // Young's, of the body's own material, where it varies its least [Pa]
@@ -43,6 +50,7 @@ struct SolidElements {
   std::vector<Yielding> yields;   // likewise; EMPTY: nothing yields
   std::vector<std::uint8_t>
       failure_of;  // of a cell, as stiffness: an index of failures and of yields; EMPTY with both (n_cells)
+  FastCells fast;
 };
 
 }  // namespace palpate::physics

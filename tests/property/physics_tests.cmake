@@ -9,6 +9,8 @@ palpate_test(NAME physics_laws_test KIND property
   LIBS palpate_physics_worlds)
 palpate_test(NAME physics_elements_test KIND property SOURCES physics_elements_test.cpp physics_damper_test.cpp physics_shadow_energy_test.cpp physics_tissue_laws_test.cpp
   LIBS palpate_physics_worlds palpate_bench_problems)
+# Few stiff cells that take steps of their own.
+palpate_test(NAME physics_fast_cells_test KIND property SOURCES physics_fast_cells_test.cpp LIBS palpate_physics_worlds)
 palpate_test(NAME physics_failure_test KIND property SOURCES physics_failure_test.cpp LIBS palpate_physics_worlds)
 palpate_test(NAME physics_yield_test KIND property SOURCES physics_yield_test.cpp LIBS palpate_physics_worlds)
 # Meshes of tetrahedra through the door of a scene: closed forms, laws, contact.

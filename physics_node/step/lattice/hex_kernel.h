@@ -25,6 +25,7 @@ struct HexContext {
   const std::uint8_t* torn;  // of each run, 1: cells have lost stiffness; null: none ever does
   const Real* damage;        // share of it that a cell has lost; only with torn                     (n_cells)
   Real* high[3];             // zero between steps [N]                                               (n_cells)
+  Real* pulled[3];           // sum of both [N]; null: nobody asks                                (n_cells)
   double* elastic;           // of each run, when watched [J]
   double* least_J;           // least J of a corner of each run, when watched
   double* stiffest;          // bound of the tangent of the law in each run, largest of its cells [Pa]

@@ -40,6 +40,7 @@ typename Pack<Real>::V move_row(const HexContext<Real>& m, const RowSegment& row
       p.v[a] = P::load(m.masses.v[a] + i);
       p.f[a] = P::load(m.high[a] + i) + P::load(m.masses.f[a] + i);
       P::store(m.high[a] + i, typename P::V{});
+      if (m.pulled[a] != nullptr) P::store(m.pulled[a] + i, p.f[a]);
       if constexpr (exact) {
         const typename P::V f = P::load(m.rate_high[a] + i) + P::load(m.rate_low[a] + i);
         lost = P::fnma(f + P::load(m.rate_seen[a] + i), p.v[a], lost);

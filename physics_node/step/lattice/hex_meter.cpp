@@ -20,16 +20,17 @@ class HexCellMeter {
  public:
   using One = Scalar<double>;
 
-  HexCellMeter(const Body& body, const LatticeState<Real>& state)
+  HexCellMeter(const Body& body, const LatticeState<Real>& state, const Three<Real>& v)
       : body_(body),
         state_(state),
+        v_(v),
         k_(hex_constants_of<double>(body)),
         terms_(relaxation_terms<double>(body, state.dt_before, 0)) {}
 
   MeasuredCell at(const std::array<Index, 8>& corner) const {
     Corners<One> w, v;
     for (std::size_t a = 0; a < 8; ++a) {
-      const Vec3 x = vector_of(state_.u, corner[a]), moves = vector_of(state_.v, corner[a]);
+      const Vec3 x = vector_of(state_.u, corner[a]), moves = vector_of(v_, corner[a]);
       for (std::size_t c = 0; c < 3; ++c) {
         w[c][a] = x[static_cast<Eigen::Index>(c)];
         v[c][a] = moves[static_cast<Eigen::Index>(c)];
@@ -71,6 +72,7 @@ class HexCellMeter {
 
   const Body& body_;
   const LatticeState<Real>& state_;
+  const Three<Real>& v_;
   HexConstants<double> k_;
   std::array<RelaxationTerm<double>, most_relaxations> terms_;
 };
@@ -85,19 +87,23 @@ double hex_bound_at_rest(const Body& body) {
 }
 
 template <class Real>
-MeasuredHexahedra measure_hexahedra(const Body& body, const HexGrid& grid, const LatticeState<Real>& state) {
+MeasuredHexahedra measure_hexahedra(const Body& body, const HexGrid& grid, const LatticeState<Real>& state,
+                                    CellsOf which, const Three<Real>& v) {
   MeasuredHexahedra sum;
   sum.force.assign(static_cast<std::size_t>(body.capacity()), Vec3::Zero());
   sum.force_of_rate.assign(sum.force.size(), Vec3::Zero());
   sum.power.assign(grid.runs.size(), 0);
-  const HexCellMeter<Real> meter(body, state);
+  const HexCellMeter<Real> meter(body, state, v);
   for_each_cell(body, grid, state,
                 [&](double stiffness, const std::array<Index, 8>& corner, std::size_t run) {
+                  const bool is_fast = state.fast.has_cell(corner[0]);
+                  if (is_fast != (which == CellsOf::fast)) return;
                   const MeasuredCell now = meter.at(corner);
                   const auto& out = now.forces;
                   sum.elastic += stiffness * out.energy;
                   sum.lost_before += stiffness * now.lost_before;
                   sum.power[run] += stiffness * now.power;
+                  if (is_fast) sum.power_of_cell.push_back(stiffness * now.power);
                   for (std::size_t a = 0; a < 8; ++a) {
                     const auto node = static_cast<std::size_t>(corner[a]);
                     sum.force[node] += stiffness * Vec3(out.f[0][a], out.f[1][a], out.f[2][a]);
@@ -108,7 +114,9 @@ MeasuredHexahedra measure_hexahedra(const Body& body, const HexGrid& grid, const
   return sum;
 }
 
-template MeasuredHexahedra measure_hexahedra(const Body&, const HexGrid&, const LatticeState<float>&);
-template MeasuredHexahedra measure_hexahedra(const Body&, const HexGrid&, const LatticeState<double>&);
+template MeasuredHexahedra measure_hexahedra(const Body&, const HexGrid&, const LatticeState<float>&, CellsOf,
+                                             const Three<float>&);
+template MeasuredHexahedra measure_hexahedra(const Body&, const HexGrid&, const LatticeState<double>&,
+                                             CellsOf, const Three<double>&);
 
 }  // namespace palpate::physics

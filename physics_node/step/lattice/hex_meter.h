@@ -58,14 +58,26 @@ void for_each_cell(const Body& body, const HexGrid& grid, const LatticeState<Rea
   }
 }
 
-/// Energy of all cells, their forces on the nodes, what their terms have lost since the last step and what their dampers take.
+enum class CellsOf { rest, fast };  // see FastCells; without any, all are the rest
+
+/// Fastest vibration of cells of a cube, within a tenth of what stiffest_mode() finds [1/s].
+/// @param stiffness  of them, over that of the body's own material
+inline double fastest_of(const Body& body, double at_rest, double stiffness) {
+  return std::sqrt(at_rest * stiffness / body.solid->density *
+                   body.lattice.step.cwiseInverse().squaredNorm() / 2);
+}
+
+/// Energy of some cells, their forces on the nodes, what their terms have lost since the last step and what their dampers take.
 struct MeasuredHexahedra {
   double elastic = 0, lost_before = 0;
-  std::vector<double> power;        // by run [W]
-  std::vector<Vec3> force;          // (n_cells)
-  std::vector<Vec3> force_of_rate;  // of dampers alone  (n_cells)
+  std::vector<double> power;          // by run [W]
+  std::vector<double> power_of_cell;  // of fast ones, in storage order [W]
+  std::vector<Vec3> force;            // (n_cells)
+  std::vector<Vec3> force_of_rate;    // of dampers alone  (n_cells)
 };
+/// @param v  velocities of the nodes [m/s]
 template <class Real>
-MeasuredHexahedra measure_hexahedra(const Body& body, const HexGrid& grid, const LatticeState<Real>& state);
+MeasuredHexahedra measure_hexahedra(const Body& body, const HexGrid& grid, const LatticeState<Real>& state,
+                                    CellsOf which, const Three<Real>& v);
 
 }  // namespace palpate::physics

@@ -29,7 +29,8 @@ double largest_of_one_cell(const Body& body) {
 /// y = M^-1/2 K M^-1/2 x on the nodes that may move.
 class ScaledStiffness {
  public:
-  explicit ScaledStiffness(const Body& body)
+  /// @param counts  1: cells of this lowest corner have a stiffness; EMPTY: all have
+  ScaledStiffness(const Body& body, std::span<const std::uint8_t> counts)
       : body_(body),
         grid_(make_hex_grid(body)),
         size_(1e-6 * body.lattice.step.minCoeff()),
@@ -41,7 +42,7 @@ class ScaledStiffness {
     stiffness_ = ZeroedArray<double>(n, colour++);
     for (const Index cell : body.lattice.masses) {
       const auto i = static_cast<std::size_t>(cell);
-      stiffness_[i] = static_cast<double>(body.solid->stiffness[i]);
+      if (counts.empty() || counts[i] != 0) stiffness_[i] = static_cast<double>(body.solid->stiffness[i]);
       if (body.inverse_mass[i] > 0) nodes_.push_back(cell);
     }
     elastic_.resize(grid_.runs.size());
@@ -101,8 +102,17 @@ class ScaledStiffness {
 StiffestMode stiffest_mode_of_hexahedra(const Body& body) {
   StiffestMode mode;
   if (body.n_held == body.n_nodes()) return mode;
-  ScaledStiffness operation(body);
+  ScaledStiffness operation(body, {});
   mode.omega2 = std::min(largest_of_one_cell(body), largest_eigenvalue(operation, operation.size()));
+  mode.gamma = body.solid->beta * mode.omega2;
+  return mode;
+}
+
+StiffestMode stiffest_mode_of_hexahedra(const Body& body, std::span<const std::uint8_t> counts) {
+  StiffestMode mode;
+  if (body.n_held == body.n_nodes()) return mode;
+  ScaledStiffness operation(body, counts);
+  mode.omega2 = largest_eigenvalue(operation, operation.size());
   mode.gamma = body.solid->beta * mode.omega2;
   return mode;
 }

@@ -1,6 +1,9 @@
 #pragma once
 // The fastest vibration of a body of hexahedra near rest.
 
+#include <cstdint>
+#include <span>
+
 #include "physics_node/step/lattice/stable_step.h"
 
 namespace palpate::physics {
@@ -14,5 +17,9 @@ namespace palpate::physics {
 /// cells that bound allows 0.7 of the step that is stable.
 /// Cost: at most 60 sweeps over the cells, in double.
 StiffestMode stiffest_mode_of_hexahedra(const Body& body);
+
+/// The same where only some cells have a stiffness, without the bound of a single cell; all nodes keep their masses.
+/// @param counts  1: cells of this lowest corner do  (n_cells)
+StiffestMode stiffest_mode_of_hexahedra(const Body& body, std::span<const std::uint8_t> counts);
 
 }  // namespace palpate::physics

@@ -23,7 +23,7 @@ HexKind kind_of(const Body& body, bool exact) {
 }  // namespace
 
 template <class Real>
-Hexahedra<Real>::Hexahedra(const Body& body)
+Hexahedra<Real>::Hexahedra(const Body& body, const LatticeState<Real>& state)
     : grid_(make_hex_grid(body)),
       acting_(grid_),
       elastic_(grid_.runs.size()),
@@ -41,6 +41,14 @@ Hexahedra<Real>::Hexahedra(const Body& body)
   for (const Index cell : body.lattice.masses)
     stiffness_[static_cast<std::size_t>(cell)] =
         static_cast<Real>(solid.stiffness[static_cast<std::size_t>(cell)]);
+  double largest = solid.fast.cells.empty() ? solid.largest_stiffness : 0;
+  if (!solid.fast.cells.empty()) {
+    fast_ = std::make_unique<HexFast<Real>>(body, state, constants_, at_rest_);
+    for (const Index cell : solid.fast.cells) stiffness_[static_cast<std::size_t>(cell)] = 0;
+    for (const Index cell : body.lattice.masses)
+      largest = std::max(largest, static_cast<double>(stiffness_[static_cast<std::size_t>(cell)]));
+    for (auto& axis : pulled_) axis = ZeroedArray<Real>(n, colour++);
+  }
   for (auto& axis : high_) axis = ZeroedArray<Real>(n, colour++);
   if (!solid.relaxation.empty())
     for (auto* lost : {&lost_before_, &lost_after_}) lost->resize(grid_.runs.size());
@@ -56,10 +64,7 @@ Hexahedra<Real>::Hexahedra(const Body& body)
   for (auto* three : {&rate_low_, &rate_high_, &rate_seen_})
     for (auto& axis : *three) axis = ZeroedArray<Real>(n, colour++);
   for (auto* one : {&power_, &damped_}) one->resize(grid_.runs.size());
-  // Within a tenth of what stiffest_mode() finds for a cube of cells.
-  const double omega2 =
-      at_rest_ * solid.largest_stiffness / solid.density * body.lattice.step.cwiseInverse().squaredNorm() / 2;
-  damper_weight_ = hex_damper_weight(at_rest_, solid.beta, std::sqrt(omega2));
+  damper_weight_ = hex_damper_weight(at_rest_, solid.beta, fastest_of(body, at_rest_, largest));
 }
 
 template <class Real>
@@ -78,18 +83,20 @@ StepOutcome Hexahedra<Real>::step(const Body& body, LatticeState<Real>& state,
   follow_rows(body, state);
   const std::int64_t broken = failure_ ? failure_->begin_step(state, acting_, step, stiffness_) : 0;
   if (yield_) yield_->begin_step(state, acting_, step, stiffness_, high_);
+  if (fast_) fast_->begin(state);
   HexContext<Real> m = {};
   ElementContext<Real>& masses = m.masses;
   masses.rows = body.lattice.rows.data();
   masses.row_state = state.row_state.data();
   masses.ledger = state.ledger.data();
-  masses.inverse_mass = state.inverse_mass.data();
+  masses.inverse_mass = fast_ ? fast_->swept_inverse_mass() : state.inverse_mass.data();
   for (std::size_t a = 0; a < 3; ++a) {
     masses.u[a] = state.u[a].data();
     masses.v[a] = state.v[a].data();
     masses.f[a] = state.f[a].data();
     masses.g[a] = static_cast<Real>(step.gravity[static_cast<Eigen::Index>(a)]);
     m.high[a] = high_[a].data();
+    m.pulled[a] = pulled_[a].data();
     m.rate_low[a] = rate_low_[a].data();
     m.rate_high[a] = rate_high_[a].data();
     m.rate_seen[a] = rate_seen_[a].data();
@@ -142,6 +149,7 @@ StepOutcome Hexahedra<Real>::step(const Body& body, LatticeState<Real>& state,
   } else {
     for (const HexLayer& layer : layers) forces(layer), move(layer);
   }
+  if (fast_) fast_->step(state, step, pulled_, passed_);
   if (yield_) yield_->stiffen(acting_, stiffest_);
   if (yield_ && step.watch) yield_->watch(state);
   state.dt_before = step.dt;
@@ -152,13 +160,14 @@ StepOutcome Hexahedra<Real>::step(const Body& body, LatticeState<Real>& state,
       if (acting_.acts(static_cast<Index>(r))) stiffest = std::max(stiffest, stiffest_[r]);
       if (step.watch) least_corner_J_ = std::min(least_corner_J_, least_J_[r]);
     }
+  if (fast_) least_corner_J_ = std::min(least_corner_J_, fast_->least_corner_J());
   return {.broken = broken, .stiffening = stiffest / at_rest_, .least_corner_J = least_corner_J_};
 }
 
 template <class Real>
 Energies Hexahedra<Real>::energies(const Body& body, const LatticeState<Real>& state,
                                    const Vec3& gravity) const {
-  const MeasuredHexahedra now = measure_hexahedra(body, grid_, state);
+  const MeasuredHexahedra now = measure_hexahedra(body, grid_, state, CellsOf::rest, state.v);
   Energies e;
   e.elastic = now.elastic;
   double power = 0;
@@ -166,11 +175,13 @@ Energies Hexahedra<Real>::energies(const Body& body, const LatticeState<Real>& s
     const double w = body.inverse_mass[static_cast<std::size_t>(i)];
     if (w == 0) continue;
     const Vec3 v = vector_of(state.v, i);
-    e.kinetic += 0.5 / w * v.squaredNorm();
     e.gravitational -= gravity.dot(vector_of(state.u, i)) / w;
+    if (state.fast.has(i)) continue;
+    e.kinetic += 0.5 / w * v.squaredNorm();
     power += v.dot(gravity) / w + v.dot(now.force[static_cast<std::size_t>(i)]);
   }
   e.between = e.kinetic + 0.5 * state.dt_before * power;
+  if (fast_) fast_->add(body, grid_, state, gravity, now, e);
   return e;
 }
 
@@ -178,8 +189,9 @@ template <class Real>
 Losses Hexahedra<Real>::due(const Body& body, const LatticeState<Real>& state) const {
   Losses due;
   if ((body.solid->beta == 0 && body.solid->relaxation.empty()) || state.dt_before == 0) return due;
-  const MeasuredHexahedra now = measure_hexahedra(body, grid_, state);
-  due.viscous = now.lost_before + std::accumulate(lost_after_.begin(), lost_after_.end(), 0.0);
+  const MeasuredHexahedra now = measure_hexahedra(body, grid_, state, CellsOf::rest, state.v);
+  if (fast_) due.viscous = fast_->due(body, grid_, state, now);
+  due.viscous += now.lost_before + std::accumulate(lost_after_.begin(), lost_after_.end(), 0.0);
   if (rate_known_)
     for (const Index i : body.nodes())
       due.viscous -= 0.5 * state.dt_before *

@@ -6,6 +6,7 @@
 
 #include "physics_node/step/lattice/hex_acting.h"
 #include "physics_node/step/lattice/hex_failure.h"
+#include "physics_node/step/lattice/hex_fast.h"
 #include "physics_node/step/lattice/hex_grid.h"
 #include "physics_node/step/lattice/hex_kernel.h"
 #include "physics_node/step/lattice/hex_yield.h"
@@ -14,12 +15,13 @@
 namespace palpate::physics {
 
 /// A step is one sweep upwards, or as many as there are slabs: see HexSlab. Symplectic Euler, and its energy is that of
-/// the leapfrog: see element_step.h. Cells break and yield: hex_failure.h, hex_yield.h.
+/// the leapfrog: see element_step.h. Cells break and yield: hex_failure.h, hex_yield.h. Few that are much stiffer than the rest take
+/// smaller steps: hex_fast.h.
 /// Cost: bench/fem.
 template <class Real>
 class Hexahedra final : public LatticeElements<Real> {
  public:
-  explicit Hexahedra(const Body& body);
+  Hexahedra(const Body& body, const LatticeState<Real>& state);
 
   StepOutcome step(const Body& body, LatticeState<Real>& state, const ExplicitStep& step) noexcept override;
   Energies energies(const Body& body, const LatticeState<Real>& state, const Vec3& gravity) const override;
@@ -45,6 +47,8 @@ class Hexahedra final : public LatticeElements<Real> {
   std::vector<double> passed_;                    // by row [J]
   std::unique_ptr<HexFailure<Real>> failure_;     // only where a material breaks
   std::unique_ptr<HexYield<Real>> yield_;         // only where one yields
+  std::unique_ptr<HexFast<Real>> fast_;           // only where cells are stepped on their own
+  Three<Real> pulled_;                            // see HexContext; only with fast_  (n_cells)
   Three<Real> rate_low_, rate_high_, rate_seen_;  // by node: the same; only where it is damped [N]  (n_cells)
   bool rate_known_ = false;                       // the last step was exact
   HexKernel<Real> kernel_, exact_kernel_;

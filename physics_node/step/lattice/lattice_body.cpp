@@ -26,8 +26,8 @@ bool has_losses(const Body& body) {
 }
 
 template <class Real>
-std::unique_ptr<LatticeElements<Real>> make_elements(const Body& body) {
-  if (body.solid) return std::make_unique<Hexahedra<Real>>(body);
+std::unique_ptr<LatticeElements<Real>> make_elements(const Body& body, const LatticeState<Real>& state) {
+  if (body.solid) return std::make_unique<Hexahedra<Real>>(body, state);
   return std::make_unique<Springs<Real>>();
 }
 
@@ -45,7 +45,7 @@ class LatticeBody final : public BodyModel, private PendingStep {
         body_(std::move(body)),
         start_(std::move(start)),
         state_(body_),
-        elements_(make_elements<Real>(body_)),
+        elements_(make_elements<Real>(body_, state_)),
         sleep_(body_),
         saved_{{body_, state_}, {body_, state_}} {
     NodeMotion::show({state_.u[0].data(), state_.u[1].data(), state_.u[2].data()},
@@ -78,6 +78,10 @@ class LatticeBody final : public BodyModel, private PendingStep {
       const auto c = static_cast<std::size_t>(nodal.cell);
       if (state_.inverse_mass[c] == 0) continue;
       sleep_.wake_cell(body_, state_, nodal.cell);
+      if (state_.fast.has(nodal.cell)) {
+        kick_fast(nodal, dt);
+        continue;
+      }
       const bool verlet = state_.v_half[0].size() > 0;
       const Three<Real>& moving = moving_velocity(state_);
       momentum_.push(dt * nodal.force, position(nodal.cell) - dt * vector_of(moving, nodal.cell), dt);
@@ -223,13 +227,11 @@ class LatticeBody final : public BodyModel, private PendingStep {
   }
   Losses due() const override { return elements_->due(body_, state_); }
   Losses losses() const override { return measure_losses(state_); }
-  Momenta momenta() const override { return measure_momenta(body_, state_.u, state_.v).momenta; }
+  Momenta momenta() const override { return momenta_with(state_.v).momenta; }
   bool touched() const noexcept override { return momentum_.hits() > 0; }
-  void restart_momentum() noexcept override {
-    momentum_.restart(measure_momenta(body_, state_.u, moving_velocity(state_)));
-  }
+  void restart_momentum() noexcept override { momentum_.restart(momenta_with(moving_velocity(state_))); }
   MomentumBalance momentum_balance() const override {
-    return momentum_.balance(measure_momenta(body_, state_.u, moving_velocity(state_)).momenta);
+    return momentum_.balance(momenta_with(moving_velocity(state_)).momenta);
   }
   BodyCounts counts() const override {
     BodyCounts counts = elements_->counts(body_, state_);
@@ -296,6 +298,39 @@ class LatticeBody final : public BodyModel, private PendingStep {
             .newton_iterations = report.newton_iterations,
             .cg_iterations = report.cg_iterations,
             .least_corner_J = looked.least_corner_J};
+  }
+
+  /// Nodes that are stepped on their own have moved as the last forces would have it: see hex_fast.h.
+  void kick_fast(const NodalForce& nodal, double dt) noexcept {
+    const auto c = static_cast<std::size_t>(nodal.cell);
+    const auto w = static_cast<double>(state_.inverse_mass[c]);
+    std::array<Real, 3> a;
+    for (std::size_t i = 0; i < 3; ++i)
+      a[i] = static_cast<Real>(w * nodal.force[static_cast<Eigen::Index>(i)]);
+    const std::array<Real, 3> left = state_.fast.learn(nodal.cell, a);
+    Vec3 done, late;
+    for (std::size_t i = 0; i < 3; ++i) {
+      late[static_cast<Eigen::Index>(i)] = dt / w * static_cast<double>(left[i]);
+      done[static_cast<Eigen::Index>(i)] = dt / w * static_cast<double>(a[i] - left[i]);
+    }
+    const Vec3 x = position(nodal.cell), v = vector_of(state_.v, nodal.cell);
+    momentum_.hit(done, x - dt * v);
+    momentum_.push(late, x - dt * (v + state_.fast.lead(nodal.cell)), dt);
+    for (std::size_t i = 0; i < 3; ++i) {
+      state_.v[i][c] += static_cast<Real>(dt) * left[i];
+      state_.u[i][c] += static_cast<Real>(dt * dt) * left[i];
+    }
+  }
+
+  MomentumAccount::Start momenta_with(const Three<Real>& v) const noexcept {
+    MomentumAccount::Start sum = measure_momenta(body_, state_.u, v);
+    if (state_.dt_before > 0)
+      for (const Index node : state_.fast.node) {
+        const Vec3 mv = node_mass(body_, node) * state_.fast.lead(node);
+        sum.momenta.linear += mv;
+        sum.momenta.angular += position(node).cross(mv);
+      }
+    return sum;
   }
 
   void push_one(const NodalPush& one, double dt) noexcept {

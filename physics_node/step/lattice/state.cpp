@@ -9,7 +9,7 @@
 namespace palpate::physics {
 
 template <class Real>
-LatticeState<Real>::LatticeState(const Body& body) {
+LatticeState<Real>::LatticeState(const Body& body) : fast(body) {
   const auto n = static_cast<std::size_t>(body.lattice.n_cells());
   const auto n_half = static_cast<std::size_t>(body.lattice.n_half);
   std::size_t colour = 0;

@@ -7,6 +7,7 @@
 
 #include "physics_node/body/body.h"
 #include "physics_node/step/lattice/element_context.h"
+#include "physics_node/step/lattice/fast_nodes.h"
 #include "physics_node/step/lattice/fresh_breaks.h"
 #include "physics_node/step/zeroed_array.h"
 
@@ -64,6 +65,7 @@ struct LatticeState {
       remembered;            // of each cell, by term and entry of Remembered; only where it relaxes (n_cells)
   FailedCells<Real> failed;  // only where cells break
   YieldedCells<Real> plastic;      // only where cells yield
+  FastNodes<Real> fast;            // only where cells are stepped on their own
   std::uint64_t replacements = 0;  // how often the state was set from outside
 
   std::array<SlotList<Real>, max_row_kinds> all, level, up;  // constant: see ElementContext
