@@ -7,6 +7,7 @@
 #include "bench/fem/error_rows.h"
 #include "bench/fem/hex_cost.h"
 #include "bench/fem/hex_work.h"
+#include "bench/fem/lump_rows.h"
 #include "bench/fem/multigrid_rows.h"
 #include "bench/fem/spring_beam.h"
 #include "bench/fem/tet_rows.h"
@@ -115,6 +116,7 @@ int run_fem(const Options& options) {
   nlohmann::json json;
   json["kernel"] = kernel_rows(options.rounds, table);
   json["tet_kernel"] = tet_kernel_rows(options.rounds, fma_flops_per_s(true), table);
+  json["lumps"] = lump_rows(options.rounds);
   json["cycles"] = cycle_rows(options.rounds);
   json["frames"] = frame_rows();
   json["beam"] = beam_rows();
