@@ -85,7 +85,7 @@ def main(folder):
     draw_tap(tapped, tap)
     draw_sines(felt, sines, "felt_over_ideal", "felt, 0.5 mm about 2 mm, O1")
     draw_sines(borne, sines, "borne_over_ideal", "borne by the tissue")
-    felt.legend(fontsize=7, loc="upper left", frameon=True)
+    borne.legend(fontsize=7, loc="upper right", frameon=True)
     figure.text(0.54, 0.51, "Touch, K 500 N/m, three hands, static wall and three objects that yield; 1 N held for 3.7 s",
                 fontsize=7, color="0.4")
     figure.tight_layout(rect=(0, 0.03, 1, 1), h_pad=3)
