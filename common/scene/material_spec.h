@@ -39,7 +39,6 @@ struct MaterialSpec {
   std::optional<double> modulus;           // Young's modulus [Pa]      | of modulus_by_intensity the least
   std::optional<double> lambda;            // force per stretch, k1 L of every element [N] |
   double poisson_ratio = 0.45;             // of finite elements; springs have one of their own
-  bool states_poisson_ratio = false;       // the scene gives it
   std::vector<RelaxationSpec> relaxation;  // of finite elements; shares below 1 in all
   TissueLaw law = TissueLaw::neo_hookean;  // of finite elements
   std::vector<ModulusPoint>

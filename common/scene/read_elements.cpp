@@ -116,12 +116,12 @@ void refuse_implicit(TableReader& reader, const ReadContext& context, const Body
 }
 
 /// What of a material springs cannot follow; empty: nothing.
-std::string beyond_springs(const MaterialSpec& material) {
+std::string beyond_springs(const MaterialSpec& material, const ReadContext& context) {
   if (!material.relaxation.empty()) return "a relaxation";
   if (!material.modulus_by_intensity.empty()) return "modulus_by_intensity";
   if (material.law != TissueLaw::neo_hookean) return "a law";
   if (material.fracture_energy) return "fracture_energy_J_per_m2";
-  if (material.states_poisson_ratio) return "poisson_ratio";
+  if (std::ranges::count(context.with_poisson_ratio, material.name) > 0) return "poisson_ratio";
   return {};
 }
 
@@ -163,7 +163,7 @@ void refuse_filled(TableReader& reader, const BodySpec& spec) {
 void refuse_springs(TableReader& reader, const ReadContext& context, const BodySpec& spec) {
   for (const MaterialSpec& material : context.scene.materials) {
     if (!is_in(spec, material)) continue;
-    if (const std::string what = beyond_springs(material); !what.empty())
+    if (const std::string what = beyond_springs(material, context); !what.empty())
       reader.complain("material", fmt::format("{} is of springs, but [material.{}] has {}, which only finite "
                                               "elements follow; write model = \"fem\", or leave it out",
                                               reader.title(), material.name, what));

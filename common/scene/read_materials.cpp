@@ -63,7 +63,6 @@ void read_stiffness(TableReader& reader, MaterialSpec& spec) {
   check_group(reader, {"k1_N_per_m", "modulus_kPa", "lambda_N", "modulus_by_intensity"}, true);
   if (const auto word = reader.read_word("law", {"neo_hookean", "green"}))
     spec.law = static_cast<TissueLaw>(*word);
-  spec.states_poisson_ratio = reader.has("poisson_ratio");
   set_if(spec.poisson_ratio, reader.read_number("poisson_ratio", {.lo = 0, .hi = 0.495}));
   set_if(spec.k2_ratio, reader.read_number("k2_ratio", {.lo = 0, .hi = 1}));
 }
@@ -179,6 +178,7 @@ void read_materials(TableReader& root, ReadContext& context) {
     TableReader reader(*table, fmt::format("[material.{}]", name), context.complaints);
     auto spec = read_material(reader, is_of_elements(root.table(), name));
     spec.name = name;
+    if (reader.has("poisson_ratio")) context.with_poisson_ratio.push_back(name);
     context.scene.materials.push_back(std::move(spec));
   }
 }

@@ -2,6 +2,9 @@
 // The parts of a scene file, one function each; each has its own .cpp. They add what they read to the scene and
 // what is wrong to the complaints. Materials and devices come before the bodies and tools that name them.
 
+#include <string>
+#include <vector>
+
 #include "common/scene/body_spec.h"
 #include "common/scene/complaints.h"
 #include "common/scene/scene.h"
@@ -12,6 +15,7 @@ namespace palpate {
 struct ReadContext {
   Scene& scene;  // read so far
   Complaints& complaints;
+  std::vector<std::string> with_poisson_ratio = {};  // materials that state it
 };
 
 void read_run(TableReader& root, ReadContext& context);        // [scene]

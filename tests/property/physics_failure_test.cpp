@@ -35,7 +35,8 @@ Recipe weak_bar(double edge_mm, double ratio, double energy) {
 /// A bar whose left end is held and whose right end is led away, both along the bar only; and what that takes.
 class PulledBar {
  public:
-  PulledBar(const Recipe& recipe, double speed) : body_(ends_held(recipe)), state_(body_), elements_(body_) {
+  PulledBar(const Recipe& recipe, double speed)
+      : body_(ends_held(recipe)), state_(body_), elements_(body_, state_) {
     for (const Index node : led_) state_.v[0][static_cast<std::size_t>(node)] = speed;
     start_ = energy();
   }
@@ -97,7 +98,7 @@ void deform(const Body& body, LatticeState<Real>& state, const Eigen::Matrix3d& 
 std::int64_t weakened_by(const Recipe& recipe, const std::vector<Eigen::Matrix3d>& path) {
   const Body body = body_of(recipe);
   LatticeState<double> state(body);
-  Hexahedra<double> elements(body);
+  Hexahedra<double> elements(body, state);
   for (const Eigen::Matrix3d& F : path) {
     deform(body, state, F);
     elements.step(body, state, {.dt = 1e-9, .watch = true});
@@ -193,7 +194,7 @@ TEST(Failure, KeepsMomentaAndEnergy) {
   Recipe recipe = weak_bar(2.5, 1.1, 1.5);
   const Body body = body_of(recipe);
   LatticeState<double> state(body);
-  Hexahedra<double> elements(body);
+  Hexahedra<double> elements(body, state);
   Eigen::Matrix3d F = bar(1.25);
   deform(body, state, F);
   const Vec3 spin(3, 10, 5);

@@ -26,7 +26,7 @@ Recipe clay_bar(double edge_mm, const std::string& law) {
 /// A bar whose left end is held and whose right end is led along it, with sides that are free; and what that takes.
 class LedBar {
  public:
-  explicit LedBar(const Recipe& recipe) : body_(ends_held(recipe)), state_(body_), elements_(body_) {}
+  explicit LedBar(const Recipe& recipe) : body_(ends_held(recipe)), state_(body_), elements_(body_, state_) {}
 
   /// Work is that of the trapezoid, as the leapfrog keeps its energy by, with the forces after cells have flowed.
   std::int64_t step(double speed, double dt, bool watch = true) {
@@ -149,7 +149,7 @@ TEST(Yield, LeavesTheSetOfTheClosedForm) {
 TEST(Yield, KeepsMomentaAndEnergy) {
   const Body body = body_of(clay_bar(2.5, "yield_ratio = 1.03\nk2_ratio = 0.1"));
   LatticeState<double> state(body);
-  Hexahedra<double> elements(body);
+  Hexahedra<double> elements(body, state);
   const Eigen::Matrix3d F = Vec3(1.25, 0.9, 0.9).asDiagonal();
   place_masses<double>(body, state, [&F](const Vec3& X) { return Vec3(F * X); });
   const Vec3 spin(3, 10, 5);

@@ -79,5 +79,10 @@ struct MeasuredHexahedra {
 template <class Real>
 MeasuredHexahedra measure_hexahedra(const Body& body, const HexGrid& grid, const LatticeState<Real>& state,
                                     CellsOf which, const Three<Real>& v);
+/// Of a body without fast cells, with the velocities of the state.
+template <class Real>
+MeasuredHexahedra measure_hexahedra(const Body& body, const HexGrid& grid, const LatticeState<Real>& state) {
+  return measure_hexahedra(body, grid, state, CellsOf::rest, state.v);
+}
 
 }  // namespace palpate::physics
