@@ -14,9 +14,6 @@ constexpr double search_margin = 0.010;  // [m] beyond the tip: what a hand at 0
 constexpr double search_period = 0.020;  // [s] after which tissue may have come near by itself
 constexpr double facing_limit = -0.2;    // cosine below which a facet belongs to the other side
 constexpr std::size_t room = 16384;      // facets kept at the most, the nearest
-// Below the nearest facet, in spacings. Why: on a slope of whole cells facets lie up to one below each other; the second row of
-// a wall beside an edge begins at one and has its middle at one and a half.
-constexpr double reached_to = 1, reached_no_more = 1.5;
 
 /// One entry per mass, in storage order.
 void merge_equal_masses(std::vector<MassShare>& shares) noexcept {
@@ -39,7 +36,6 @@ void merge_equal_masses(std::vector<MassShare>& shares) noexcept {
 ToolContact::ToolContact(const Boundary& surface, const NodeMotion& moving, double radius)
     : surface_(surface), moving_(moving) {
   const double coarse = moving.body().spacing();
-  spacing_ = coarse;
   radius_ = std::max(2 * radius, 2 * coarse);
   reach_ = radius_ + search_margin;
   near_.reserve(8 * room);
@@ -106,47 +102,34 @@ void ToolContact::facets_within(const Vec3& p, double radius,
       out.push_back(facet.id);
 }
 
-/// From 1 on the surface to 0 for what lies too far below it.
-double ToolContact::reached(const Facet& facet, const Side& side) const noexcept {
-  const double below = side.rest_facing.dot(side.top - facet.rest) / spacing_;
-  return std::clamp((reached_no_more - below) / (reached_no_more - reached_to), 0.0, 1.0);
-}
-
-double ToolContact::weight(const Facet& facet, const Vec3& q, const Side& side) const noexcept {
+double ToolContact::weight(const Facet& facet, const Vec3& q, const Vec3& facing) const noexcept {
   const double r2 = (facet.centroid - q).squaredNorm() / (radius_ * radius_);
   if (r2 >= 1) return 0;
-  if (facet.normal.dot(side.facing) < facing_limit) return 0;
-  return facet.area * (1 - r2) * (1 - r2) * reached(facet, side);
+  if (facet.normal.dot(facing) < facing_limit) return 0;
+  return facet.area * (1 - r2) * (1 - r2);
 }
 
-double ToolContact::bearing(const Facet& facet, const Vec3& q, const Side& side) const noexcept {
-  return weight(facet, q, side) * std::max(0.0, facet.normal.dot(side.facing));
-}
-
-LocalPlane ToolContact::plane_at(const Vec3& q, const Side& side) const noexcept {
+LocalPlane ToolContact::plane_at(const Vec3& q, const Vec3& facing) const noexcept {
   LocalPlane plane;
-  plane.top = side.top;
-  double sum = 0, bearing_sum = 0;
+  double sum = 0;
   Vec3 point = Vec3::Zero();
   Vec3 normal = Vec3::Zero();
   Vec3 rest = Vec3::Zero();
   Vec3 rest_normal = Vec3::Zero();
   for (const Facet& facet : facets_) {
-    const double w = weight(facet, q, side);
+    const double w = weight(facet, q, facing);
     if (w <= 0) continue;
-    const double b = w * std::max(0.0, facet.normal.dot(side.facing));
     sum += w;
-    bearing_sum += b;
-    point += b * facet.centroid;
-    rest += b * facet.rest;
+    point += w * facet.centroid;
     normal += w * facet.normal;
+    rest += w * facet.rest;
     rest_normal += w * facet.rest_normal;
   }
-  if (bearing_sum <= 0 || normal.norm() < 0.1 * sum) return plane;
+  if (sum <= 0 || normal.norm() < 0.1 * sum) return plane;
   plane.found = true;
-  plane.point = point / bearing_sum;
+  plane.point = point / sum;
   plane.normal = normal.normalized();
-  plane.rest = rest / bearing_sum;
+  plane.rest = rest / sum;
   if (rest_normal.norm() >= 0.1 * sum) plane.rest_normal = rest_normal.normalized();
   return plane;
 }
@@ -155,10 +138,10 @@ LocalPlane ToolContact::plane_under(const Vec3& p) const noexcept {
   const Facet* start = nearest(p);
   if (start == nullptr) return {};
   // First the side that the neighbourhood faces: a single voxel facet may be the riser of a step.
-  LocalPlane plane = plane_at(start->centroid, {start->normal, start->rest_normal, start->rest});
+  LocalPlane plane = plane_at(start->centroid, start->normal);
   for (int n = 0; n < 3 && plane.found; ++n) {
     const Vec3 q = p - plane.normal.dot(p - plane.point) * plane.normal;
-    const LocalPlane next = plane_at(q, side_of(plane));
+    const LocalPlane next = plane_at(q, plane.normal);
     if (!next.found) break;
     plane = next;
   }
@@ -170,12 +153,11 @@ void ToolContact::find_shares(const Vec3& q) noexcept {
   const LocalPlane plane = plane_under(q);
   if (!plane.found) return;
   const Vec3 foot = q - plane.normal.dot(q - plane.point) * plane.normal;
-  const Side side = side_of(plane);
   double sum = 0;
-  for (const Facet& facet : facets_) sum += bearing(facet, foot, side);
+  for (const Facet& facet : facets_) sum += weight(facet, foot, plane.normal);
   if (sum <= 0) return;
   for (const Facet& facet : facets_) {
-    const double w = bearing(facet, foot, side);
+    const double w = weight(facet, foot, plane.normal);
     if (w <= 0) continue;
     for (std::size_t corner = 0; corner < 4; ++corner) {
       const Index mass = surface_.mass(facet.id, corner);
@@ -200,9 +182,8 @@ std::uint32_t ToolContact::write_facets(const Vec3& p, std::uint32_t body, Patch
   const LocalPlane under = plane_under(p);
   for (std::size_t f = 0; f < n && under.found; ++f) {
     const Facet& facet = facets_[f];
-    if (facet.normal.dot(under.normal) < facing_limit || reached(facet, side_of(under)) <= 0) continue;
-    const LocalPlane plane = plane_at(facet.centroid, side_of(under));
-    if (!plane.found) continue;
+    const LocalPlane plane = plane_at(facet.centroid, under.normal);
+    if (!plane.found || facet.normal.dot(under.normal) < facing_limit) continue;
     if (at_rest && plane.rest_normal.isZero()) continue;
     for (std::size_t half = 0; half < 2; ++half) {
       if (half == 1 && surface_.is_triangle(facet.id)) continue;

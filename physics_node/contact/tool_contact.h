@@ -16,7 +16,6 @@ struct LocalPlane {
   // The same weights over the facets at rest, where they were before any force:
   Vec3 rest = Vec3::Zero();         // point [m]
   Vec3 rest_normal = Vec3::Zero();  // unit, or 0 where they face all ways
-  Vec3 top = Vec3::Zero();          // of the facet nearest to the tool, at rest [m]
 };
 
 /// The part of a force on a plane that one mass behind it takes.
@@ -34,13 +33,10 @@ class ToolContact {
   void look(const Vec3& p, double t) noexcept;
 
   /// The plane under p:
-  ///   w_f = A_f (1 - |c_f - q|^2 / R^2)^2 s_f,   normal = sum w n / |sum w n|,   point = sum b c / sum b,   b_f = w_f max(0, n_f . facing)
-  /// where b is w by the area that a facet shows to the tool, so that a wall does not lower the face beside it.
+  ///   w_f = A_f (1 - |c_f - q|^2 / R^2)^2,   point = sum w c / sum w,   normal = sum w n / |sum w n|
   /// q begins at the facet nearest to p and follows the projection of p onto the plane. Facets that face away from
-  /// the nearest one do not count, nor do those that lie far below it (at rest, along the normal at rest): s falls from 1 to 0 between
-  /// 1 and 1.5 spacings. So the steps of a slope count whole, and the wall beside an edge or the floor of a cavity, which a tip on the
-  /// surface does not reach, does not pull the plane into the tissue. Source: Adamson & Alexa 2003 (point set surfaces from
-  /// weighted averages); R is twice the tip's radius, so the plane is smooth although voxel facets are steps.
+  /// the nearest one do not count. Source: Adamson & Alexa 2003 (point set surfaces from weighted averages);
+  /// R is twice the tip's radius, so the plane is smooth although voxel facets are steps.
   LocalPlane plane_under(const Vec3& p) const noexcept;
 
   /// Finds the masses that carry the plane under q and their shares: the weights of the plane's point, so that a force
@@ -70,27 +66,15 @@ class ToolContact {
     Vec3 rest, rest_normal;  // the same before any force
     double area;
   };
-  /// Which facets count: those of one side, down to a depth below its top.
-  struct Side {
-    Vec3 facing;
-    Vec3 rest_facing;  // 0: of any depth
-    Vec3 top;          // at rest [m]
-  };
-  static Side side_of(const LocalPlane& plane) noexcept {
-    return {plane.normal, plane.rest_normal, plane.top};
-  }
   void keep_nearest(const Vec3& p) noexcept;
-  double weight(const Facet& facet, const Vec3& q, const Side& side) const noexcept;   // w
-  double bearing(const Facet& facet, const Vec3& q, const Side& side) const noexcept;  // b
-  double reached(const Facet& facet, const Side& side) const noexcept;
-  LocalPlane plane_at(const Vec3& q, const Side& side) const noexcept;
+  double weight(const Facet& facet, const Vec3& q, const Vec3& facing) const noexcept;
+  LocalPlane plane_at(const Vec3& q, const Vec3& facing) const noexcept;
   const Facet* nearest(const Vec3& p) const noexcept;
 
   const Boundary& surface_;
   const NodeMotion& moving_;
-  double radius_;   // R [m]
-  double reach_;    // facets within this distance are kept [m]
-  double spacing_;  // [m]
+  double radius_;  // R [m]
+  double reach_;   // facets within this distance are kept [m]
   Vec3 searched_at_ = Vec3::Constant(1e9);
   double searched_when_ = -1e9;
   std::uint64_t searched_revision_ = 0;  // of the boundary

@@ -18,10 +18,7 @@ using testing::HasSubstr;
 
 constexpr const char* head = "/usr/share/doc/invesalius-examples/examples/Cranium.inv3";
 
-/// Scene: what it says of its remarks.
-const std::map<std::string, std::string> expected = {
-    {"inclusion",
-     "53 stiff cells of 3600 take 3 steps in each of 3 steps a frame, which would be 9 for all"}};
+const std::map<std::string, std::string> expected = {};  // scene: the remarks that it means to have
 
 class RemarksOfScenes : public CommandRun {
  protected:
@@ -53,10 +50,7 @@ TEST_F(RemarksOfScenes, ThatComeAlongAreAsExpected) {
     ++scenes;
     EXPECT_EQ(palpate("info " + test::quoted(entry.path())), 0) << log;
     const auto known = expected.find(entry.path().stem().string());
-    if (known == expected.end())
-      EXPECT_EQ(remarks_in_log(), "") << entry.path();
-    else
-      EXPECT_THAT(remarks_in_log(), HasSubstr(known->second)) << entry.path();
+    EXPECT_EQ(remarks_in_log(), known == expected.end() ? "" : known->second) << entry.path();
   }
   EXPECT_GE(scenes, 27);
 }

@@ -99,36 +99,6 @@ TEST(ToolContact, SeesAStaircaseAsTheSphereThatItStandsFor) {
   }
 }
 
-/// How deep a tip goes into the slab before its plane says that it has touched, where it comes down at x [m].
-double unfelt(Touch& touch, double x) {
-  const Vec3 p(x, 0.0013, 0.010);
-  touch.contact.look(p, 0);
-  const LocalPlane plane = touch.contact.plane_under(p);
-  return plane.found ? plane.normal.dot(p - plane.point) : HUGE_VAL;
-}
-
-TEST(ToolContact, FeelsTheFaceBesideAnEdgeAndNotTheWallBelowIt) {
-  for (const double radius : {0.003, 0.008, 0.03}) {  // the widest sees all walls of the slab
-    Touch touch(slab(), radius);
-    for (const double inside : {0.001, 0.003, 0.005, 0.010}) {
-      EXPECT_LT(unfelt(touch, 0.040 - inside), 0.0011) << radius << " " << inside;  // a quarter of a cell
-      EXPECT_GT(unfelt(touch, 0.040 - inside), -0.0005) << radius << " " << inside;
-    }
-  }
-}
-
-TEST(ToolContact, FeelsAThinWallAndNotTheCavityBehindIt) {
-  Recipe recipe = slab();
-  recipe.body = "[[body.cavity]]\nbox_min_mm = [-12, -12, -7]\nbox_max_mm = [12, 12, 5]";
-  Touch touch(recipe, 0.008);
-  EXPECT_NEAR(unfelt(touch, 0.0013), 0, 1e-9);
-}
-
-TEST(ToolContact, FeelsATipWiderThanTheBody) {
-  Touch touch(slab(), 0.1);
-  EXPECT_LT(std::abs(unfelt(touch, 0.0013)), 0.001);
-}
-
 TEST(ToolContact, FindsNothingInFreeSpace) {
   Touch touch(slab());
   const Vec3 p(0, 0, 0.2);
