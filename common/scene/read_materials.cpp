@@ -178,7 +178,9 @@ void read_materials(TableReader& root, ReadContext& context) {
     TableReader reader(*table, fmt::format("[material.{}]", name), context.complaints);
     auto spec = read_material(reader, is_of_elements(root.table(), name));
     spec.name = name;
-    if (reader.has("poisson_ratio")) context.with_poisson_ratio.push_back(name);
+    // What is stated and has been taken: else there is a complaint already.
+    if ((*table)["poisson_ratio"].value<double>() == spec.poisson_ratio)
+      context.with_poisson_ratio.push_back(name);
     context.scene.materials.push_back(std::move(spec));
   }
 }

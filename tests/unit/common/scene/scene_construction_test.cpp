@@ -272,5 +272,13 @@ TEST(SceneConstruction, CountsTheBodiesOfToolsToo) {
               ElementsAre(HasSubstr("too many bodies, those of tools included; at most 64")));
 }
 
+TEST(Springs, HaveNoPoissonRatioThatASceneCouldState) {
+  EXPECT_THAT(
+      complaints_about("[material.m]\ndensity_kg_per_m3 = 1000\nmodulus_kPa = 10\npoisson_ratio = 0.3\n"
+                       "[[body]]\nname = \"b\"\nshape = \"sphere\"\nradius_mm = 20\nspacing_mm = 5\n"
+                       "material = \"m\"\n"),
+      ElementsAre(HasSubstr("has poisson_ratio, which only finite elements follow")));
+}
+
 }  // namespace
 }  // namespace palpate

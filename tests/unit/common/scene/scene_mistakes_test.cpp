@@ -66,22 +66,22 @@ INSTANTIATE_TEST_SUITE_P(
         {"distance = \"paper\"", "distance = \"far\"", "70:12", "write \"paper\" or \"swept\""},
     }));
 
-INSTANTIATE_TEST_SUITE_P(Physics, SceneMistakes,
-                         testing::ValuesIn(std::vector<Mistake>{
-                             {"\"velocity_verlet\"", "\"verlet\"", "6:14",
-                              "write \"symplectic_euler\", \"velocity_verlet\", \"backward_euler\" or \"auto\""},
-                             {"step_ms = 0.25", "step_ms = 0", "7:11", "is 0; write a number above 0"},
-                             {"step_ms = 0.25", "step = 0.25", "7:8", "write \"auto\", or step_ms = "},
-                             {"step_ms = 0.25", "step = \"auto\"\nstep_ms = 1", "8:11",
-                              "both \"step\" and \"step_ms\" are given; keep one"},
-                             {"safety = 0.5", "safety = 1.5", "8:10", "write a number above 0 and at most 1"},
-                             {"precision = \"double\"", "precision = \"half\"", "9:13",
-                              "write \"single\" or \"double\""},
-                             {"threads = 2", "threads = 257", "10:11", "write a whole number from 0 to 256"},
-                             {"frame_Hz = 500", "frame_Hz = 5", "11:12", "write a number from 20 to 20000"},
-                             {"frame_Hz = 500", "frame = 500", "11:1",
-                              "unknown key \"frame\" in [physics]; did you mean \"frame_Hz\"?"},
-                         }));
+INSTANTIATE_TEST_SUITE_P(
+    Physics, SceneMistakes,
+    testing::ValuesIn(std::vector<Mistake>{
+        {"\"velocity_verlet\"", "\"verlet\"", "6:14",
+         "write \"symplectic_euler\", \"velocity_verlet\", \"backward_euler\" or \"auto\""},
+        {"step_ms = 0.25", "step_ms = 0", "7:11", "is 0; write a number above 0"},
+        {"step_ms = 0.25", "step = 0.25", "7:8", "write \"auto\", or step_ms = "},
+        {"step_ms = 0.25", "step = \"auto\"\nstep_ms = 1", "8:11",
+         "both \"step\" and \"step_ms\" are given; keep one"},
+        {"safety = 0.5", "safety = 1.5", "8:10", "write a number above 0 and at most 1"},
+        {"precision = \"double\"", "precision = \"half\"", "9:13", "write \"single\" or \"double\""},
+        {"threads = 2", "threads = 257", "10:11", "write a whole number from 0 to 256"},
+        {"frame_Hz = 500", "frame_Hz = 5", "11:12", "write a number from 20 to 20000"},
+        {"frame_Hz = 500", "frame = 500", "11:1",
+         "unknown key \"frame\" in [physics]; did you mean \"frame_Hz\"?"},
+    }));
 
 INSTANTIATE_TEST_SUITE_P(
     Materials, SceneMistakes,

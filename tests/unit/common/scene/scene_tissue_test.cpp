@@ -167,8 +167,8 @@ TEST(Physics, SleepsUnlessToldNotTo) {
   EXPECT_TRUE(parsed(scene_with("", ball)).physics->sleep);
   EXPECT_FALSE(parsed(scene_with("", ball), {"physics.sleep=false"}).physics->sleep);
   EXPECT_THAT(one_complaint(scene_with("", ball), {"physics.sleep=deep"}), HasSubstr("write true or false"));
-  EXPECT_TRUE(parsed(scene_with("", ball)).physics->subcycle);
-  EXPECT_FALSE(parsed(scene_with("", ball), {"physics.subcycle=false"}).physics->subcycle);
+  EXPECT_FALSE(parsed(scene_with("", ball)).physics->subcycle);
+  EXPECT_TRUE(parsed(scene_with("", ball), {"physics.subcycle=true"}).physics->subcycle);
 }
 
 TEST(Record, KeepsTheEnergyUnlessAListLeavesItOut) {
@@ -313,13 +313,6 @@ TEST(Elements, ReadTheirLaw) {
   springs.replace(springs.find("fem"), 3, "springs");
   EXPECT_THAT(complaints_about(springs),
               ElementsAre(HasSubstr("has a law, which only finite elements follow")));
-}
-
-TEST(Elements, AloneHaveThePoissonRatioThatIsStated) {
-  std::string springs = elements("density_kg_per_m3 = 1000\nmodulus_kPa = 10\npoisson_ratio = 0.45");
-  springs.replace(springs.find("fem"), 3, "springs");
-  EXPECT_THAT(complaints_about(springs),
-              ElementsAre(HasSubstr("has poisson_ratio, which only finite elements follow")));
 }
 
 TEST(Elements, ReadAModulusByIntensity) {
