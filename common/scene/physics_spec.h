@@ -16,7 +16,7 @@ struct PhysicsSpec {
   int threads = 0;         // 0: as many as pay
   double frame_Hz = 1000;  // one take of the tools and one patch per frame
   bool sleep = true;       // regions at rest are skipped until something moves them
-  bool subcycle = true;    // few cells that are much stiffer than the rest take smaller steps of their own
+  bool subcycle = false;   // few cells that are much stiffer than the rest take smaller steps of their own
   Place place;
 };
 

@@ -146,7 +146,7 @@ double settle_step(const BodySpec& spec, Body& body, const Scene& scene, bool to
   }
   remarks.push_back(fmt::format(
       "{}: {} stiff cells of {} take {:g} steps in each of {:g} steps a frame, which would be {:g} "
-      "for all; subcycle = false in [physics] forbids it",
+      "for all",
       who, choice->cells.size(), choice->n_cells, choice->substeps, choice->steps, uniform));
   body.solid->fast = {choice->cells, choice->own};
   return choice->rest;
