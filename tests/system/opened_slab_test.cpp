@@ -205,7 +205,9 @@ class OpenedSlab : public CommandRun, public testing::WithParamInterface<const c
       if (!begins) continue;
       ++touches;
       deepest_new = std::min(deepest_new, sample.p.z());
-      EXPECT_LT(nearest, half_a_cell)
+      // A force that is reported has been low-passed twice at 20 Hz and is 16 ms late. Where physics is late, too, the hand goes far meanwhile.
+      const auto then = std::ranges::lower_bound(trace, sample.t - 0.02, {}, &Sample::t);
+      EXPECT_LT(nearest, half_a_cell + (sample.p - then->p).norm())
           << "touches at " << sample.t << " s, " << 1e3 * sample.p.transpose() << " mm";
     }
     EXPECT_TRUE(floor) << "goes down and meets nothing";
