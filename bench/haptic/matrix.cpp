@@ -94,6 +94,25 @@ std::vector<Case> matrix(const DeviceModel& device, const MatrixSize& size, Rend
   return over_links(bases, size);
 }
 
+std::vector<Case> all_devices(const MatrixSize& size, RenderMode mode) {
+  std::vector<Case> cases;
+  for (const DeviceModel& device : device_models) {
+    const std::vector<Case> more = matrix(device, size, mode);
+    cases.insert(cases.end(), more.begin(), more.end());
+  }
+  return cases;
+}
+
+std::vector<Case> without_a_hand(const MatrixSize& size, RenderMode mode) {
+  std::vector<Case> cases;
+  for (Case c : all_devices(size, mode))
+    if (c.hand.name == hand_springs[0].name) {
+      c.hand = hand_springs[3];
+      cases.push_back(c);
+    }
+  return cases;
+}
+
 std::vector<Case> chosen(std::vector<Case> cases, Effort effort, std::size_t wanted) {
   if (effort == Effort::full || cases.size() <= wanted) return cases;
   const std::size_t stride =

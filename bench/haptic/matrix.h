@@ -47,6 +47,10 @@ std::vector<Case> over_links(const std::vector<Case>& bases, const MatrixSize& s
 
 /// Every hand but none, every object, for one device.
 std::vector<Case> matrix(const DeviceModel& device, const MatrixSize& size, RenderMode mode);
+/// The same for all devices.
+std::vector<Case> all_devices(const MatrixSize& size, RenderMode mode = RenderMode::local);
+/// Every object, for all devices, with no hand: the handle falls.
+std::vector<Case> without_a_hand(const MatrixSize& size, RenderMode mode = RenderMode::local);
 
 /// full: every case. quick: some of them, for tests.
 enum class Effort { quick, full };

@@ -2,21 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <vector>
 
+#include "bench/haptic/thread_time.h"
 #include "haptic_node/tissue/tissue_touch.h"
 
 namespace palpate::bench {
-namespace {
-
-double cpu_us() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
-}
-
-}  // namespace
 
 ReplayCost measure_replay(int modes, int answers) {
   constexpr std::uint64_t age = 100;
@@ -31,9 +22,9 @@ ReplayCost measure_replay(int modes, int answers) {
     touch.tick(2e-3 + 0.5e-3 * std::sin(0.03 * n), 1.0);
     if (touch.history().newest() <= age) continue;
     answer.stamp = touch.history().newest() - age;
-    const double begin = cpu_us();
+    const double begin = thread_us();
     const bool taken = touch.take(answer);
-    const double took = cpu_us() - begin;
+    const double took = thread_us() - begin;
     if (taken) times.push_back(took);
   }
   std::sort(times.begin(), times.end());

@@ -13,15 +13,6 @@ std::vector<CaseResult> run(Runs& runs, const std::vector<Case>& cases) {
   return results;
 }
 
-std::vector<Case> all_devices(const MatrixSize& size, RenderMode mode = RenderMode::local) {
-  std::vector<Case> cases;
-  for (const DeviceModel& device : device_models) {
-    const std::vector<Case> more = matrix(device, size, mode);
-    cases.insert(cases.end(), more.begin(), more.end());
-  }
-  return cases;
-}
-
 std::string figure_of(const Tally& t) {
   return fmt::format(
       "{} cases: {} above 200 um, {} above 100 um, {} break an energy bound, {} not felt; most {:.0f} um, G "
@@ -115,12 +106,7 @@ Row matrix_is_stable(Runs& runs) {
 Row push_without_a_hand_gains_nothing(Runs& runs) {
   MatrixSize size;
   size.losses = {0};
-  std::vector<Case> cases;
-  for (Case c : all_devices(size))
-    if (c.hand.name == hand_springs[0].name) {
-      c.hand = hand_springs[3];
-      cases.push_back(c);
-    }
+  const std::vector<Case> cases = without_a_hand(size);
   const Tally t = tally(run_cases(chosen(cases, runs.effort, 24), runs.jobs));
   return {"S2", "no hand: the handle falls 20 mm under 1 N and bounces; K 300 and 500",
           "energy bounds in all",

@@ -7,18 +7,10 @@
 #include <numbers>
 
 #include "bench/haptic/rows_touch.h"
+#include "bench/haptic/world_cases.h"
 
 namespace palpate::bench {
 namespace {
-
-std::vector<Case> all_devices(RenderMode mode, const MatrixSize& size = {}) {
-  std::vector<Case> cases;
-  for (const DeviceModel& device : device_models) {
-    const std::vector<Case> more = matrix(device, size, mode);
-    cases.insert(cases.end(), more.begin(), more.end());
-  }
-  return cases;
-}
 
 /// Each error on cases of its own: the k-th of n on every n-th case, and on all of them in a full run.
 std::vector<CaseResult> run_with(Runs& runs, const std::vector<ModelError>& errors, std::size_t wanted,
@@ -26,45 +18,30 @@ std::vector<CaseResult> run_with(Runs& runs, const std::vector<ModelError>& erro
   std::vector<Case> cases;
   const std::size_t each = runs.effort == Effort::full ? full : wanted / errors.size() + 1;
   for (const ModelError& error : errors)
-    for (Case c : chosen(all_devices(RenderMode::copy), Effort::quick, each)) {
+    for (Case c : chosen(all_devices({}, RenderMode::copy), Effort::quick, each)) {
       c.told = error;
       cases.push_back(c);
     }
   return run_cases(cases, runs.jobs);
 }
 
-std::string figure_of(const Tally& t) {
-  return fmt::format(
-      "{} cases: {} above 200 um, {} above 100 um, {} break an energy bound, {} not felt; most {:.0f} um, G "
-      "{:.3f} mJ; "
-      "step {:.3f} N, {:.3f} N beyond K v T",
-      t.cases, t.above_200_um, t.above_100_um, t.energy_broken, t.unfelt, 1e6 * t.swing_most,
-      1e3 * t.surplus_most, t.force_step_most, t.step_beyond_most);
-}
-
-constexpr double most_step = 0.1;  // beyond K v T [N]
 constexpr const char* limit_of_S2 =
     "none above 200 um, <= 1 % above 100 um, energy bounds in all, steps <= K (v T + q) + 0.1 N";
 
 }  // namespace
 
 Row copy_is_stable(Runs& runs) {
-  const auto results = run_cases(chosen(all_devices(RenderMode::copy), runs.effort, 96), runs.jobs);
+  const auto results = run_cases(chosen(all_devices({}, RenderMode::copy), runs.effort, 96), runs.jobs);
   runs.copied = results;
   const Tally t = tally(results);
-  return {"S2", "copy of tissue: the matrix of S2", limit_of_S2, figure_of(t),
-          keeps_S2(t) && t.step_beyond_most <= most_step};
+  return {"S2", "copy of tissue: the matrix of S2", limit_of_S2, world_figure(t),
+          keeps_S2(t) && t.step_beyond_most <= world_step_limit};
 }
 
 Row copy_gains_nothing_without_a_hand(Runs& runs) {
   MatrixSize size;
   size.losses = {0, 0.1};
-  std::vector<Case> cases;
-  for (Case c : all_devices(RenderMode::copy, size))
-    if (c.hand.name == hand_springs[0].name) {
-      c.hand = hand_springs[3];
-      cases.push_back(c);
-    }
+  const std::vector<Case> cases = without_a_hand(size, RenderMode::copy);
   const Tally t = tally(run_cases(chosen(cases, runs.effort, 96), runs.jobs));
   return {"S2", "copy of tissue, no hand: the handle falls 20 mm under 1 N and bounces",
           "energy bounds in all",
@@ -83,7 +60,7 @@ Row copy_bears_wrong_models(Runs& runs) {
   }
   const Tally t = tally(run_with(runs, errors, 96, 420));
   return {"T6", "S2 with mass, damping and stiffness told wrong by 0.75 and 1.33, one and all", limit_of_S2,
-          figure_of(t), keeps_S2(t) && t.step_beyond_most <= most_step};
+          world_figure(t), keeps_S2(t) && t.step_beyond_most <= world_step_limit};
 }
 
 Row copy_bears_a_wrong_first_touch(Runs& runs) {
@@ -92,7 +69,7 @@ Row copy_bears_a_wrong_first_touch(Runs& runs) {
   const Tally t = tally(run_with(runs, errors, 48, 420));
   return {"T6",
           "S2 with a stiffness told wrong by 0.5, 2 and 4 at first touch and right after 0.15 s of contact",
-          limit_of_S2, figure_of(t), keeps_S2(t) && t.step_beyond_most <= most_step};
+          limit_of_S2, world_figure(t), keeps_S2(t) && t.step_beyond_most <= world_step_limit};
 }
 
 Row copy_keeps_energy_with_any_model(Runs& runs) {
@@ -112,9 +89,9 @@ Row copy_keeps_energy_with_any_model(Runs& runs) {
 }
 
 Row extrapolated_force_is_unstable(Runs& runs) {
-  const Tally t = tally(run_cases(
-      chosen(all_devices(RenderMode::extrapolated), Effort::quick, runs.effort == Effort::full ? 1536 : 96),
-      runs.jobs));
+  const Tally t = tally(run_cases(chosen(all_devices({}, RenderMode::extrapolated), Effort::quick,
+                                         runs.effort == Effort::full ? 1536 : 96),
+                                  runs.jobs));
   return {"T8", "negative control: the force that tissue bore, continued with its stiffness, without a tank",
           "more than 5 % of the cases above 200 um",
           fmt::format("{} of {} cases above 200 um, most {:.1f} mm; G {:.0f} mJ", t.above_200_um, t.cases,

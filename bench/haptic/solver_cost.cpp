@@ -1,22 +1,13 @@
 #include "bench/haptic/solver_cost.h"
 
 #include <algorithm>
-#include <ctime>
 #include <random>
 #include <vector>
 
+#include "bench/haptic/thread_time.h"
 #include "haptic_node/contact/plane_projection.h"
 
 namespace palpate::bench {
-namespace {
-
-double cpu_us() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
-}
-
-}  // namespace
 
 SolverCost measure_solver(int sets) {
   std::mt19937_64 random(7);
@@ -27,9 +18,9 @@ SolverCost measure_solver(int sets) {
     std::array<haptic::HalfSpace, haptic::max_planes> planes;
     for (auto& plane : planes) plane = {vector().normalized(), 0.01 * vector()};
     const Vec3 x = 0.01 * vector();
-    const double begin = cpu_us();
+    const double begin = thread_us();
     const bool feasible = haptic::project_out(planes, x).feasible;
-    const double took = cpu_us() - begin;
+    const double took = thread_us() - begin;
     if (feasible) times.push_back(took);
   }
   std::sort(times.begin(), times.end());
