@@ -114,8 +114,7 @@ NodeLists neighbours_of(const TetMesh& mesh) {
     join(nodes);
   }
   std::ranges::sort(pairs);
-  const auto twice = std::ranges::unique(pairs);
-  pairs.erase(twice.begin(), twice.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   return NodeLists(mesh.nodes.size(), pairs);
 }
 

@@ -13,7 +13,7 @@ DihedralAngles dihedral_angles(const TetMesh& mesh) {
     const auto at = [&](std::size_t a) { return mesh.nodes[static_cast<std::size_t>(corners[a])]; };
     for (std::size_t e = 0; e < tet_edges.size(); ++e) {
       // The two faces at an edge hold one of the other corners each, which the opposite edge joins.
-      const auto [a, b] = tet_edges[e];
+      const std::size_t a = tet_edges[e][0], b = tet_edges[e][1];
       std::array<std::size_t, 2> other{};
       for (std::size_t c = 0, n = 0; c < 4; ++c)
         if (c != a && c != b) other[n++] = c;

@@ -186,7 +186,8 @@ inline __attribute__((always_inline)) void pack_forces(const HexContext<Real>& m
   [[maybe_unused]] V whole = P::all(1);
   if constexpr (torn) whole = whole - P::load(m.damage + i);
   const CornersAt<P, torn> w{{here.u[0] + i, here.u[1] + i, here.u[2] + i}, at, stiffness};
-  const CornersAt<P, torn> v{{here.v[0] + i, here.v[1] + i, here.v[2] + i}, at, stiffness};
+  const auto& of_damper = damped ? here.v : here.u;  // where nothing is damped there may be no velocities
+  const CornersAt<P, torn> v{{of_damper[0] + i, of_damper[1] + i, of_damper[2] + i}, at, stiffness};
   std::conditional_t<relaxing, RememberedHere<P>, NothingRemembered> memory;
   if constexpr (relaxing) memory.load(m, i);
   CellsNow<P> now;
