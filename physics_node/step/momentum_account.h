@@ -32,6 +32,17 @@ class MomentumAccount {
     Vec3 mass_moment = Vec3::Zero();  // X [kg m]
     double mass = 0;                  // M [kg]
     double linear = 0, angular = 0;   // sums of |m v|, |x x m v|
+
+    /// A mass at x with velocity v.
+    void add(double m, const Vec3& x, const Vec3& v) noexcept {
+      const Vec3 mv = m * v;
+      momenta.linear += mv;
+      momenta.angular += x.cross(mv);
+      mass_moment += m * x;
+      mass += m;
+      linear += mv.norm();
+      angular += x.cross(mv).norm();
+    }
   };
   void restart(const Start& start) noexcept;
   /// A step of all masses. @param kick  for which the velocities are accelerated, @param dt  for which masses move [s]

@@ -161,16 +161,8 @@ class TetBody final : public BodyModel {
 
   MomentumAccount::Start measured() const noexcept {
     MomentumAccount::Start sum;
-    for (const Index node : body_.nodes()) {
-      const double m = body_.mesh->mass[static_cast<std::size_t>(node)];
-      const Vec3 x = position(node), mv = m * velocity(node);
-      sum.momenta.linear += mv;
-      sum.momenta.angular += x.cross(mv);
-      sum.mass_moment += m * x;
-      sum.mass += m;
-      sum.linear += mv.norm();
-      sum.angular += x.cross(mv).norm();
-    }
+    for (const Index node : body_.nodes())
+      sum.add(body_.mesh->mass[static_cast<std::size_t>(node)], position(node), velocity(node));
     return sum;
   }
 

@@ -155,17 +155,8 @@ template <class Real>
 MomentumAccount::Start measure_momenta(const Body& body, const Three<Real>& u,
                                        const Three<Real>& v) noexcept {
   MomentumAccount::Start sum;
-  for (const Index i : body.lattice.masses) {
-    const double m = node_mass(body, i);
-    const Vec3 x = body.lattice.rest_position(i) + vector_of(u, i);
-    const Vec3 mv = m * vector_of(v, i);
-    sum.momenta.linear += mv;
-    sum.momenta.angular += x.cross(mv);
-    sum.mass_moment += m * x;
-    sum.mass += m;
-    sum.linear += mv.norm();
-    sum.angular += x.cross(mv).norm();
-  }
+  for (const Index i : body.lattice.masses)
+    sum.add(node_mass(body, i), body.lattice.rest_position(i) + vector_of(u, i), vector_of(v, i));
   return sum;
 }
 
