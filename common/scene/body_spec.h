@@ -71,4 +71,7 @@ struct BodySpec {
   Place place;
 };
 
+/// Is the body, or a region of it, of this material?
+bool has_material(const BodySpec& body, const std::string& material);
+
 }  // namespace palpate

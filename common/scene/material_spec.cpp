@@ -2,7 +2,7 @@
 
 namespace palpate {
 
-std::string beyond_backward_euler(const MaterialSpec& material) {
+std::string beyond_elastic(const MaterialSpec& material) {
   if (!material.relaxation.empty()) return "relaxes";
   if (material.law == TissueLaw::green) return "has law = \"green\"";
   if (material.yield_ratio) return "yields";

@@ -55,7 +55,8 @@ struct MaterialSpec {
   Place place;
 };
 
-/// What of a material of finite elements backward_euler cannot follow, as a verb with its object; empty: nothing.
-std::string beyond_backward_euler(const MaterialSpec& material);
+/// What a material of finite elements does besides being elastic by the default law, and damped: backward_euler and tetrahedra do not
+/// follow that. As a verb with its object; empty: nothing.
+std::string beyond_elastic(const MaterialSpec& material);
 
 }  // namespace palpate

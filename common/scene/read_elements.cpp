@@ -40,25 +40,9 @@ std::string hindrance(const MaterialSpec& material, const BodySpec& spec) {
   return {};
 }
 
-/// What of a material tetrahedra cannot follow though cells do; empty: nothing.
-std::string beyond_tetrahedra(const MaterialSpec& material) {
-  if (material.yield_ratio) return "yields";
-  if (material.break_ratio) return "breaks";
-  if (!material.relaxation.empty()) return "relaxes";
-  if (material.law == TissueLaw::green) return "has law = \"green\"";
-  return {};
-}
-
-/// Is the body, or a region of it, of this material?
-bool is_in(const BodySpec& spec, const MaterialSpec& material) {
-  return spec.material == material.name ||
-         std::any_of(spec.regions.begin(), spec.regions.end(),
-                     [&](const RegionSpec& region) { return region.material == material.name; });
-}
-
 void refuse_materials(TableReader& reader, const ReadContext& context, const BodySpec& spec) {
   for (const MaterialSpec& material : context.scene.materials) {
-    if (!is_in(spec, material)) continue;
+    if (!has_material(spec, material.name)) continue;
     if (const std::string what = hindrance(material, spec); !what.empty())
       reader.complain("model", fmt::format("model = \"fem\" in {}, but [material.{}] {}", reader.title(),
                                            material.name, what));
@@ -77,8 +61,8 @@ void read_tetrahedra(TableReader& reader, const ReadContext& context, BodySpec& 
                     "a mesh is stepped by \"symplectic_euler\" only; leave \"integrator\" in [physics] "
                     "out");
   for (const MaterialSpec& material : context.scene.materials) {
-    if (!is_in(spec, material)) continue;
-    const std::string beyond = beyond_tetrahedra(material);
+    if (!has_material(spec, material.name)) continue;
+    const std::string beyond = beyond_elastic(material);
     const std::string what = beyond.empty()
                                  ? hindrance(material, spec)
                                  : beyond +
@@ -95,7 +79,7 @@ void refuse_isotropic(TableReader& reader, const ReadContext& context, const Bod
   if (spec.hourglass != HourglassKind::isotropic) return;
   for (const MaterialSpec& material : context.scene.materials) {
     const bool relaxes = material.name == spec.material && !material.relaxation.empty();
-    if (relaxes || (material.yield_ratio && is_in(spec, material)))
+    if (relaxes || (material.yield_ratio && has_material(spec, material.name)))
       reader.complain("hourglass",
                       fmt::format("hourglass = \"isotropic\" in {}, but [material.{}] {}; write "
                                   "\"physical\"",
@@ -106,8 +90,8 @@ void refuse_isotropic(TableReader& reader, const ReadContext& context, const Bod
 void refuse_implicit(TableReader& reader, const ReadContext& context, const BodySpec& spec) {
   if (context.scene.physics->integrator != Integrator::backward_euler) return;
   for (const MaterialSpec& material : context.scene.materials) {
-    const std::string what = beyond_backward_euler(material);
-    if (is_in(spec, material) && !what.empty())
+    const std::string what = beyond_elastic(material);
+    if (has_material(spec, material.name) && !what.empty())
       reader.complain("material",
                       fmt::format("[material.{}] of {} {}, which \"backward_euler\" does not follow; "
                                   "leave \"integrator\" in [physics] out, or that",
@@ -129,7 +113,7 @@ std::string beyond_springs(const MaterialSpec& material, const ReadContext& cont
 void refuse_balanced(TableReader& reader, const ReadContext& context, const BodySpec& spec) {
   if (spec.start != StartKind::balanced) return;
   for (const MaterialSpec& material : context.scene.materials) {
-    if (material.yield_ratio && is_in(spec, material))
+    if (material.yield_ratio && has_material(spec, material.name))
       reader.complain(
           "start", fmt::format("start = \"balanced\" in {}, but [material.{}] yields; the balance is found "
                                "of what does not; leave \"start\" or yield_ratio out",
@@ -162,7 +146,7 @@ void refuse_filled(TableReader& reader, const BodySpec& spec) {
 
 void refuse_springs(TableReader& reader, const ReadContext& context, const BodySpec& spec) {
   for (const MaterialSpec& material : context.scene.materials) {
-    if (!is_in(spec, material)) continue;
+    if (!has_material(spec, material.name)) continue;
     if (const std::string what = beyond_springs(material, context); !what.empty())
       reader.complain("material", fmt::format("{} is of springs, but [material.{}] has {}, which only finite "
                                               "elements follow; write model = \"fem\", or leave it out",

@@ -41,4 +41,11 @@ struct ToolSpec {
 /// Does it meet the facets of bodies? One that is a body has masses of its own, which collide.
 inline bool meets_facets(const ToolSpec& tool) { return tool.shape != ToolShape::body; }
 
+/// Does a point press the faces of a body, as far as the scene says? Finite elements have a surface, whose faces bear; a spring's masses are
+/// all that there is of it, as the papers have them.
+inline bool asks_for_faces(const ToolSpec& tool, bool of_finite_elements) noexcept {
+  return tool.contact.value_or(of_finite_elements ? PointContact::faces : PointContact::nodes) ==
+         PointContact::faces;
+}
+
 }  // namespace palpate

@@ -15,13 +15,10 @@ constexpr double force_cutoff_Hz = 5.0;    // of the hand's force on its way int
 constexpr double negligible_force = 1e-6;  // [N]; below this the tissue is let go
 constexpr double all_moves = 0.999;        // of a force, borne by masses: hardly any scenery under the tip
 
-/// Finite elements have a surface, whose faces bear; a spring's masses are all that there is of it, as the papers have them.
-/// Of cells too large for the tip the masses bear, too: a remark says so.
+/// Of cells too large for the tip the masses bear: a remark says so.
 bool presses_faces(const ToolSpec& tool, const Body& body, Integrator integrator) {
-  if (integrator == Integrator::backward_euler || !FacePress::is_resolved(tool.radius, body.spacing()))
-    return false;
-  return tool.contact.value_or(is_of_finite_elements(body) ? PointContact::faces : PointContact::nodes) ==
-         PointContact::faces;
+  return integrator != Integrator::backward_euler && FacePress::is_resolved(tool.radius, body.spacing()) &&
+         asks_for_faces(tool, is_of_finite_elements(body));
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include "common/scene/material_spec.h"
 #include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
-#include "common/scene/shape_spec.h"
 #include "common/scene/tool_spec.h"
 
 namespace palpate::physics {
@@ -20,27 +19,18 @@ bool any_cells(const Scene& scene) {
                              [](const BodySpec& body) { return body.model == ElementModel::fem; });
 }
 
-bool is_used(const MaterialSpec& material, const Scene& scene) {
-  return std::ranges::any_of(scene.bodies, [&](const BodySpec& body) {
-    return body.material == material.name || std::ranges::any_of(body.regions, [&](const RegionSpec& region) {
-             return region.material == material.name;
-           });
-  });
-}
-
 /// What of the scene needs explicit steps, with what would not; empty: nothing.
 std::string what_needs_steps(const Scene& scene) {
-  for (const BodySpec& body : scene.bodies)
-    if (std::holds_alternative<MeshShape>(body.shape))
-      return fmt::format("body \"{}\" is a mesh of tetrahedra, which is not solved yet", body.name);
-  for (const MaterialSpec& material : scene.materials)
-    if (const std::string what = beyond_backward_euler(material); !what.empty() && is_used(material, scene))
+  for (const MaterialSpec& material : scene.materials) {
+    const std::string what = beyond_elastic(material);
+    const auto has_it = [&](const BodySpec& body) { return has_material(body, material.name); };
+    if (!what.empty() && std::ranges::any_of(scene.bodies, has_it))
       return fmt::format("[material.{}] {}", material.name, what);
+  }
   for (const ToolSpec& tool : scene.tools) {
     if (tool.shape == ToolShape::stick)
       return fmt::format("tool \"{}\" is a stick, which moves masses step by step", tool.name);
-    const bool presses_faces = tool.contact ? *tool.contact == PointContact::faces : any_cells(scene);
-    if (tool.shape == ToolShape::point && presses_faces)
+    if (tool.shape == ToolShape::point && asks_for_faces(tool, any_cells(scene)))
       return fmt::format("tool \"{}\" presses faces step by step; contact = \"nodes\" would do without",
                          tool.name);
   }

@@ -170,9 +170,9 @@ void add_tiny(const Scene& scene, const Bodies& bodies, const ToolSpec& tool, Re
   if (tool.shape != ToolShape::point || scene.physics->integrator == Integrator::backward_euler) return;
   for (const auto& body : bodies) {
     const double spacing = body->body().spacing();
-    const bool faces =
-        tool.contact ? *tool.contact == PointContact::faces : is_of_finite_elements(body->body());
-    if (!faces || FacePress::is_resolved(tool.radius, spacing)) continue;
+    if (!asks_for_faces(tool, is_of_finite_elements(body->body())) ||
+        FacePress::is_resolved(tool.radius, spacing))
+      continue;
     found.push_back(fmt::format(
         "{}: tool \"{}\", a tip of {:.3g} mm, presses cells of {:.3g} mm of body \"{}\" at their corners, "
         "as if it were two of them wide; cells of at most {:.3g} mm bear it by their faces",
