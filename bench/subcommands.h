@@ -17,6 +17,7 @@ void add_shots(CLI::App& app, int& exit_code);
 void add_skips(CLI::App& app, int& exit_code);
 void add_stress(CLI::App& app, int& exit_code);
 void add_team(CLI::App& app, int& exit_code);
+void add_touch(CLI::App& app, int& exit_code);
 void add_wire(CLI::App& app, int& exit_code);
 void add_peers(CLI::App& app, int& exit_code);  // only where PALPATE_BENCH_PEERS is defined
 

@@ -1,0 +1,129 @@
+#include "bench/touch/reduced_rows.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <string>
+
+#include "bench/problems/stopwatch.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/material_spec.h"
+#include "physics_node/reduced/driving_point.h"
+
+namespace palpate::bench {
+namespace {
+
+constexpr double shift = 100;                           // [1/s^2]
+constexpr double beta = 1e-3;                           // viscosity over modulus [s]
+constexpr std::array swings = {5.0, 10.0, 20.0, 30.0};  // [Hz]
+constexpr int of_truth = 60;
+
+physics::Body block(double edge) {
+  MaterialSpec tissue;
+  tissue.name = "tissue";
+  tissue.modulus = 10e3;
+  tissue.density = 1000;
+  tissue.poisson_ratio = 0.45;
+  tissue.viscosity = beta * *tissue.modulus;
+  BodySpec spec;
+  spec.name = "block";
+  spec.lattice = LatticeKind::voxel;
+  spec.model = ElementModel::fem;
+  spec.spacing = edge;
+  spec.material = "tissue";
+  spec.shape = BoxShape{{0.06, 0.06, 0.03}};
+  spec.fixed_faces[4] = true;  // -z
+  return physics::build_body(spec, tissue);
+}
+
+/// Nodes of the upper face within 5 mm of its middle, all alike.
+std::vector<physics::ContactShare> patch(const physics::Body& body) {
+  std::vector<physics::ContactShare> found;
+  for (const physics::Index node : body.nodes())
+    if (const Vec3 x = body.rest_position(node); x.z() > 0.015 - 1e-6 && x.head<2>().norm() < 0.005)
+      found.push_back({node, 1});
+  for (auto& one : found) one.share /= static_cast<double>(found.size());
+  return found;
+}
+
+/// Error of the compliance at each swing.
+struct Off {
+  std::array<double, swings.size()> whole{}, without_inertia{}, without_residual{};
+};
+
+Off off(const physics::DrivingPoint& point, const physics::VibrationModes& modes,
+        const physics::DrivingPoint& truth, const physics::VibrationModes& all) {
+  physics::DrivingPoint bare = point, still = point;
+  bare.residual.setZero();
+  still.residual_inertia.setZero();
+  Off found;
+  for (std::size_t f = 0; f < swings.size(); ++f) {
+    const double w = 2 * std::numbers::pi * swings[f];
+    const Eigen::Matrix3cd exact = truth.compliance(all, beta, w);
+    const auto error = [&](const physics::DrivingPoint& told) {
+      return (told.compliance(modes, beta, w) - exact).norm() / exact.norm();
+    };
+    found.whole[f] = error(point);
+    found.without_inertia[f] = error(still);
+    found.without_residual[f] = error(bare);
+  }
+  return found;
+}
+
+std::string percent(const std::array<double, swings.size()>& errors) {
+  std::string text;
+  for (const double error : errors) text += fmt::format("{:5.1f}", 100 * error);
+  return text;
+}
+
+}  // namespace
+
+nlohmann::json reduced_rows() {
+  fmt::print(
+      "a block of 60 x 60 x 30 mm, 10 kPa, as a few modes; the compliance under a patch of 5 mm: error in % "
+      "at 5, 10, 20, 30 Hz "
+      "against {} modes, then that without the residual's inertia, and without the residual\n",
+      of_truth);
+  nlohmann::json json = nlohmann::json::array();
+  for (const double edge : {0.0025, 0.00125}) {
+    const physics::Body body = block(edge);
+    const auto contact = patch(body);
+    physics::LinearAnswer answer(body, shift);
+    const physics::VibrationModes all =
+        physics::lowest_modes(answer, {.n = of_truth, .tolerance = 1e-2, .most_solves = 240});
+    const physics::DrivingPoint truth = physics::driving_point(answer, all, contact);
+    for (const int n : {0, 3, 9, 20}) {
+      const Stopwatch of_modes;
+      const physics::VibrationModes modes = physics::lowest_modes(answer, {.n = n});
+      const double modes_s = of_modes.cpu_s();
+      const Stopwatch of_point;
+      const physics::DrivingPoint point = physics::driving_point(answer, modes, contact);
+      const double point_s = of_point.cpu_s();
+      const Off errors = off(point, modes, truth, all);
+      fmt::print(
+          "  cells of {:.2f} mm ({} nodes)  {:2} modes  {:.2f} s, {} solves{}  a contact {:.0f} ms  {}  |{}  "
+          "|{}\n",
+          1e3 * edge, body.n_nodes(), n, modes_s, modes.solves, modes.converged ? "" : " (not converged)",
+          1e3 * point_s, percent(errors.whole), percent(errors.without_inertia),
+          percent(errors.without_residual));
+      std::fflush(stdout);
+      json.push_back({{"edge_m", edge},
+                      {"nodes", body.n_nodes()},
+                      {"modes", n},
+                      {"solves", modes.solves},
+                      {"converged", modes.converged},
+                      {"modes_cpu_s", modes_s},
+                      {"contact_cpu_s", point_s},
+                      {"swings_Hz", swings},
+                      {"error", errors.whole},
+                      {"error_without_inertia", errors.without_inertia},
+                      {"error_without_residual", errors.without_residual}});
+    }
+  }
+  return json;
+}
+
+}  // namespace palpate::bench
