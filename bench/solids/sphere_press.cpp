@@ -117,7 +117,8 @@ Pressed press(const SpherePress& how) {
       sphere.depth = (n + t / seconds) * SpherePress::stage;
       return Vec3(Vec3::Zero());
     });
-    result.at_rest = block.settle(n + 1 < stages ? 1e-6 : 1e-7, 4000) && result.at_rest;
+    const int most_steps = static_cast<int>(10 / how.edge);  // a wave takes as many more as cells are smaller
+    result.at_rest = block.settle(n + 1 < stages ? 1e-6 : 1e-7, most_steps) && result.at_rest;
     result.force.push_back(4 * sphere.force);
   }
   result.cpu_s = watch.cpu_s();

@@ -14,22 +14,22 @@ struct ContactShare {
 
 /// The place of a contact, z = sum of share_j x_j, under a force F that is shared out alike:
 ///
-///   z = Psi q + S_res p,   q_i'' + beta omega_i^2 q_i' + omega_i^2 q_i = (Psi^T F)_i,   Psi = sum of share_j Phi_j
-///   M_res p'' + beta K_res p' + K_res p = S_res F
+///   z = Psi q,   q_i'' + beta omega_i^2 q_i' + omega_i^2 q_i = (Psi^T F)_i,   Psi = sum of share_j Phi_j
 ///
-/// beta the viscosity over the modulus [s]. The second line is what the modes that were left out do, as far as the body's own answer to a
-/// steady force there, x = (K + s M)^-1 (b - M Phi Psi^T), can tell:  S_res = b^T x,  M_res = x^T M x,  K_res = S_res - s M_res.
-/// A residual without inertia and damper (MacNeal) is 4 to 20 times as far off at 20 Hz: bench touch.
-/// Source: Rubin 1975, residual inertia; MacNeal 1971; the damper of the residual: ours.
+/// beta the viscosity over the modulus [s]. To the modes of the body come up to three that only this contact wakes: the best (Rayleigh, Ritz) in
+/// the body's own answers to a steady force there, less what the modes do, x = (K + s M)^-1 (b - M Phi Psi^T). With them a steady force is
+/// answered by the whole body's compliance, and what is left out of a slow one falls with the fourth power of its frequency.
+/// What the lowest modes leave, given as a compliance that answers at once, is 4 to 15 times as far off at 20 Hz: bench touch.
+/// Source: Rubin 1975 (residual inertia), MacNeal 1971 (residual compliance); as modes, damped as the body is: ours.
 struct DrivingPoint {
-  Eigen::Matrix3Xd psi;                                        // (3, n) [kg^-1/2]
-  Eigen::Matrix3d residual = Eigen::Matrix3d::Zero();          // S_res, symmetric, not below 0 [m/N]
-  Eigen::Matrix3d residual_inertia = Eigen::Matrix3d::Zero();  // M_res, the same [m s^2/N]
-  double shift = 0;                                            // s [1/s^2]
-  bool converged = false;
+  Eigen::Matrix3Xd psi;    // (3, n + added), those of the body first [kg^-1/2]
+  Eigen::VectorXd omega2;  // of all [1/s^2]
+  Eigen::MatrixXd
+      added;  // shape of those that came to the body's, M-orthonormal (3 n_rows, 0 to 3) [kg^-1/2]
+  bool converged = false;  // all solves
 
   /// z / F of a force that swings with w [rad/s]. [m/N]
-  Eigen::Matrix3cd compliance(const VibrationModes& modes, double beta, double w) const;
+  Eigen::Matrix3cd compliance(double beta, double w) const;
 };
 
 /// Three solves. @param contact  nodes that are held bear their share and do not move
