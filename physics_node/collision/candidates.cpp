@@ -72,14 +72,14 @@ void Candidates::follow(const TopologyEvents& events) noexcept {
     }
 }
 
-bool Candidates::refresh(double dt, std::span<const std::uint32_t> which) noexcept {
+bool Candidates::refresh(double dt, std::span<const std::uint32_t> which, const Vec3& shift) noexcept {
   for (const std::uint32_t n : which) last_x_[n] = x_[n];
   moving_->read(which, cell_, rest_, dt, x_, v_, v_move_);
   double sum = 0, farthest = 0;
   for (const std::uint32_t n : which) {
     if (inverse_mass_[n] == 0) v_[n] = v_move_[n];  // a hand leads it, whatever the elements do
     sum += 0.0 * (x_[n].sum() + v_[n].sum());
-    farthest = std::max(farthest, (x_[n] - last_x_[n]).squaredNorm());
+    farthest = std::max(farthest, (x_[n] - last_x_[n] - shift).squaredNorm());
   }
   moved_ = std::sqrt(farthest);
   return sum == 0;

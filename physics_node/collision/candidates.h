@@ -24,8 +24,9 @@ class Candidates {
 
   /// Reads where they were when the step of dt just integrated began, and how fast; with dt = 0 where they are now.
   /// @param which  of them; the others stay as they were last read
+  /// @param shift  by which all have moved together since then; moved() tells how far they went from there [m]
   /// @return false: some number is not finite
-  bool refresh(double dt, std::span<const std::uint32_t> which) noexcept;
+  bool refresh(double dt, std::span<const std::uint32_t> which, const Vec3& shift) noexcept;
   std::span<const std::uint32_t> all() const { return {all_.data(), cell_.size()}; }
   /// How far one of them moved at most between the last two readings [m].
   double moved() const { return moved_; }

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "common/scene/surroundings_spec.h"
+#include "physics_node/collision/common_motion.h"
 #include "physics_node/collision/passages.h"
 
 namespace palpate::physics {
@@ -27,6 +28,9 @@ std::vector<BodyModel*> pointers(const BodyModels& bodies) {
 
 constexpr int frames_between_looks = 20;  // whether near bodies are still near
 constexpr double speed_margin = 1.25;     // of what a mass may gain within a frame
+constexpr double quarter = 0.25;          // of L, in a step
+// Of L, in a step or frame: what is slower is never looked at for what it has in common, which is found from all candidates.
+constexpr double hardly = 0.02;
 
 }  // namespace
 
@@ -59,7 +63,12 @@ std::size_t Collisions::n_candidates() const noexcept {
 
 /// No mass of it moves faster in the coming frame.
 double Collisions::fastest(std::uint32_t b) const noexcept {
-  return speed_margin * std::max(bodies_[b].speed(), moving_[b]->watch().speed);
+  return speed_margin * std::max(bodies_[b].speed() + common_.norm(), moving_[b]->watch().speed);
+}
+
+/// The same against the common velocity, as candidates were when all were read last.
+double Collisions::fastest_apart(std::uint32_t b) const noexcept {
+  return go_together() ? speed_margin * bodies_[b].speed() : fastest(b);
 }
 
 bool Collisions::are_near(std::uint32_t a, std::uint32_t b, double frame_seconds) noexcept {
@@ -90,12 +99,38 @@ bool Collisions::begin_frame(double frame_seconds) noexcept {
       if (!near) continue;
       any_near = true;
       bodies_near_ = bodies_near_ || a != b;
-      fastest_ = std::max({fastest_, fastest(a), fastest(b)});
+      fastest_ = std::max({fastest_, fastest_apart(a), fastest_apart(b)});
     }
+  if (!any_near)
+    go_with(Vec3::Zero());
+  else if (fastest_ * frame_seconds > quarter * smallest_L_)
+    read_all(0, frame_seconds);
   wanted_step_ =
-      swept_ && fastest_ > 0 ? 0.25 * smallest_L_ / fastest_ : std::numeric_limits<double>::infinity();
+      swept_ && fastest_ > 0 ? quarter * smallest_L_ / fastest_ : std::numeric_limits<double>::infinity();
   if (!any_near && joint_contact_) joint_contact_->restart();
   return any_near;
+}
+
+void Collisions::go_with(const Vec3& velocity) noexcept {
+  if (velocity.isZero(0) && !go_together()) return;
+  common_ = velocity;
+  fastest_ = 0;
+  for (auto& body : bodies_) {
+    body.go_with(common_);
+    fastest_ = std::max(fastest_, speed_margin * body.speed());
+  }
+}
+
+/// And finds what they have in common, if that is worth it in a time. @return false: some number is not finite
+bool Collisions::read_all(double dt, double seconds) noexcept {
+  bool finite = true;
+  for (auto& body : bodies_) finite = body.refresh(dt) && finite;
+  if (finite) go_with(common_velocity(bodies_, hardly * smallest_L_ / seconds));
+  return finite;
+}
+
+void Collisions::end_step(double dt) noexcept {
+  for (auto& body : bodies_) body.end_step(dt);
 }
 
 bool Collisions::read_where_they_are(double dt) noexcept {
@@ -103,8 +138,9 @@ bool Collisions::read_where_they_are(double dt) noexcept {
   // Those that were read tell when something has become faster than the frame began with.
   for (std::uint32_t b = 0; b < bodies_.size(); ++b)
     fastest_ = std::max(fastest_, speed_margin * bodies_[b].speed());
-  if (near_.needs_all(bodies_, fastest_, dt)) {
-    for (auto& body : bodies_) finite = body.refresh(dt) && finite;
+  // Why all where they go together: what stops for something outside leaves the others at once.
+  if (go_together() || near_.needs_all(bodies_, fastest_, dt)) {
+    finite = read_all(dt, dt);
     if (finite) near_.update(bodies_, dt);
   } else {
     for (auto& body : bodies_) finite = body.refresh_listed(dt) && finite;
@@ -119,6 +155,7 @@ void Collisions::follow_breaks() noexcept {
 
 void Collisions::step(double dt) noexcept {
   if (!read_where_they_are(dt)) return;  // not finite: the guard's
+  end_step(dt);
   tally_.rebuilds = near_.rebuilds();
   tally_.overflows = near_.overflows() + active_overflows_;
   if (near_.size() == 0) return;
@@ -163,6 +200,7 @@ bool Collisions::solve(const ExplicitStep& step, std::span<const std::vector<Nod
   }
   impulses_.begin_step();
   const JointReport report = joint_contact_->end(bodies_, step.dt, impulses_);
+  end_step(step.dt);
   tally_.collisions += report.touching;
   active_overflows_ += report.overflows;
   tally_.overflows = near_.overflows() + active_overflows_;
@@ -179,6 +217,7 @@ void Collisions::give_impulses(double dt) noexcept {
 
 void Collisions::restart() noexcept {
   for (auto& body : bodies_) body.restart();
+  go_with(Vec3::Zero());
   if (joint_contact_) joint_contact_->restart();
   if (swept_contact_) swept_contact_->restart();
   std::fill(apart_.begin(), apart_.end(), 0.0);

@@ -68,6 +68,11 @@ class Collisions {
  private:
   bool are_near(std::uint32_t a, std::uint32_t b, double frame_seconds) noexcept;
   double fastest(std::uint32_t b) const noexcept;
+  double fastest_apart(std::uint32_t b) const noexcept;
+  bool read_all(double dt, double seconds) noexcept;
+  bool go_together() const noexcept { return !common_.isZero(0); }
+  void go_with(const Vec3& velocity) noexcept;
+  void end_step(double dt) noexcept;
   bool read_where_they_are(double dt) noexcept;
   void give_impulses(double dt) noexcept;
 
@@ -88,7 +93,8 @@ class Collisions {
   double smallest_L_ = 0;
   double wanted_step_ = 0;
   bool bodies_near_ = false;
-  double fastest_ = 0;  // no mass of what is near moves faster in this frame [m/s]
+  double fastest_ = 0;  // no mass of what is near moves faster in this frame, against what is common [m/s]
+  Vec3 common_ = Vec3::Zero();  // velocity (common_motion.h) [m/s]
 };
 
 }  // namespace palpate::physics

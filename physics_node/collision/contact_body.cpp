@@ -44,12 +44,24 @@ bool ContactBody::may_meet_itself(std::size_t candidate) const noexcept {
 }
 
 bool ContactBody::read(double dt, std::span<const std::uint32_t> which) noexcept {
-  const bool finite = candidates_.refresh(dt, which);
-  double most = 0;
-  for (const std::uint32_t n : which) most = std::max(most, candidates_.v_move()[n].squaredNorm());
-  speed_ = std::sqrt(most);
+  const bool finite = candidates_.refresh(dt, which, shift_);
+  shift_.setZero();
+  measure_speed(which);
   moved_ += candidates_.moved();
   return finite;
+}
+
+void ContactBody::measure_speed(std::span<const std::uint32_t> which) noexcept {
+  double most = 0;
+  for (const std::uint32_t n : which)
+    most = std::max(most, (candidates_.v_move()[n] - common_).squaredNorm());
+  speed_ = std::sqrt(most);
+}
+
+void ContactBody::go_with(const Vec3& velocity) noexcept {
+  common_ = velocity;
+  shift_.setZero();
+  measure_speed(candidates_.all());
 }
 
 void ContactBody::clear_listed() noexcept {

@@ -54,7 +54,7 @@ void SweptContact::find_active(const std::vector<ContactBody>& bodies, std::span
 bool SweptContact::outran(const std::vector<ContactBody>& bodies, const ContactImpulses& impulses) noexcept {
   bool any = false;
   impulses.for_each([&](PairEnd at, const Vec3&) {
-    const double speed = impulses.v_move(bodies, at).norm();
+    const double speed = (impulses.v_move(bodies, at) - bodies[at.body].common_velocity()).norm();
     if (!(speed > speed_[at.body])) return;
     speed_[at.body] = 2 * speed;
     any = true;
