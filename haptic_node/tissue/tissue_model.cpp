@@ -1,23 +1,10 @@
 #include "haptic_node/tissue/tissue_model.h"
 
-#include <algorithm>
 #include <cmath>
 
-#include "common/message/messages.h"
+#include "haptic_node/tissue/tissue_bounds.h"
 
 namespace palpate::haptic {
-namespace {
-
-// Why: a tenth of a gram on what stands for "does not give", 1e9 N/m; what is beyond is no tissue.
-constexpr double largest_stiffness = 1e13;  // omega^2 [1/s^2]
-constexpr double largest_damping = 1e7;     // [1/s]
-constexpr double largest_phi = 1e3;         // of a microgram [1 / sqrt(kg)]
-constexpr double largest_state = 1e6;       // of q [m sqrt(kg)] and of w
-
-bool within(double value, double low, double high) noexcept { return value >= low && value <= high; }
-bool within(double value, double most) noexcept { return within(value, -most, most); }
-
-}  // namespace
 
 bool is_sound(const TissueAnswer& answer, std::uint32_t tool) noexcept {
   const TissueModel& m = answer.model;
