@@ -11,15 +11,11 @@
 
 #include "haptic_node/tissue/contact_spring.h"
 #include "haptic_node/tissue/mode_response.h"
+#include "haptic_node/tissue/motion_history.h"
 #include "haptic_node/tissue/tissue_step.h"
 #include "haptic_node/tissue/tissue_surface.h"
 
 namespace palpate::haptic {
-
-struct TipSample {
-  Vec3 x = Vec3::Zero();  // [m]
-  Vec3 v = Vec3::Zero();  // smoothed [m/s]
-};
 
 class SurfaceStep {
  public:

@@ -76,7 +76,7 @@ double TissueTouch::tick(double x, double gain) noexcept {
   tank_.pass(settings_.period, touching() || put_in > 0);
 
   const double F = began_ ? felt_.state.force : 0.0;
-  LeakStep step{way, hand.v, work.given, work.dissipated, gain * F, 0, 0};
+  LeakStep step = LeakStep::along(way, hand.v, work.given, work.dissipated, gain * F, 0, 0);
   if (began_) {
     step.spring_energy = felt_.step.spring_energy(felt_.state, hand.x);
     step.whole_energy = felt_.step.energy(felt_.state, hand.x);

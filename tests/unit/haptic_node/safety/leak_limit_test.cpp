@@ -9,13 +9,8 @@ constexpr double T = 1e-3, K = 500;
 
 /// A wall as the copy sees it: pressed `e` deep after a way of `way`, with a force held for a tick and a tick late.
 LeakStep on_a_wall(double e, double way, double force_before) {
-  LeakStep step;
-  step.way = way;
-  step.speed = way / T;
-  step.force = K * e;
-  step.given = 0.5 * (force_before + K * e) * way;
-  step.spring_energy = step.whole_energy = 0.5 * K * e * e;
-  return step;
+  const double energy = 0.5 * K * e * e;
+  return LeakStep::along(way, way / T, 0.5 * (force_before + K * e) * way, 0, K * e, energy, energy);
 }
 
 /// Presses from 0.2 to 2.2 mm and back, again and again. @return most that the hand has got out of it [J]
@@ -49,7 +44,8 @@ TEST(LeakLimit, KnowsWhatTheCopyDissipates) {
     for (int n = 0; n < 5000; ++n) {
       // The hand goes back and forth against 0.5 N of pure drag: it gives work both ways.
       const double way = n % 100 < 50 ? 2e-5 : -2e-5, force = way > 0 ? 0.75 : 0.25;
-      LeakStep step{way, way / T, force * way, told ? 0.25 * std::abs(way) : 0.0, force, 1e-4, 3e-4};
+      const LeakStep step =
+          LeakStep::along(way, way / T, force * way, told ? 0.25 * std::abs(way) : 0.0, force, 1e-4, 3e-4);
       least = std::min(least, limit.share(step));
       limit.sent(0.5);
     }
@@ -62,7 +58,7 @@ TEST(LeakLimit, KnowsWhatTheCopyDissipates) {
 TEST(LeakLimit, CountsTheSpringAloneOnTheWayOut) {
   const auto share = [](double speed) {
     LeakLimit limit(0, T);
-    LeakStep step{0, speed, 0.2e-3, 0, 1.0, 0.3e-3, 10e-3};
+    const LeakStep step = LeakStep::along(0, speed, 0.2e-3, 0, 1.0, 0.3e-3, 10e-3);
     return limit.share(step);
   };
   EXPECT_EQ(share(0), 1);
@@ -72,7 +68,7 @@ TEST(LeakLimit, CountsTheSpringAloneOnTheWayOut) {
 /// A surface never stays away: without contact half the slack is there again, once the copy has come to rest.
 TEST(LeakLimit, ForgetsOutsideWhatTheCopyHasNoMore) {
   LeakLimit limit(0, T);
-  LeakStep leak{0, 0, 5e-3, 0, 1.0, 0.3e-3, 0.3e-3};
+  const LeakStep leak = LeakStep::along(0, 0, 5e-3, 0, 1.0, 0.3e-3, 0.3e-3);
   EXPECT_EQ(limit.share(leak), 0);
   EXPECT_EQ(limit.left(), 0);
   limit.sent(0);
