@@ -7,6 +7,7 @@
 
 #include "bench/haptic/proxy_oracle.h"
 #include "bench/haptic/rows.h"
+#include "bench/haptic/rows_surface.h"
 #include "bench/haptic/rows_touch.h"
 #include "bench/haptic/rubbish.h"
 #include "common/scene/device_spec.h"
@@ -131,7 +132,13 @@ std::vector<Row> all_rows(Runs& runs) {
           copy_bears_a_wrong_first_touch(runs),
           copy_keeps_energy_with_any_model(runs),
           extrapolated_force_is_unstable(runs),
-          pulse_is_felt_by_copy(runs)};
+          pulse_is_felt_by_copy(runs),
+          surface_taps_are_felt_as_borne(runs),
+          slides_are_felt_as_borne(runs),
+          frozen_surface_is_seen_through(runs),
+          modes_alone_are_seen_through(runs),
+          hold_after_a_slide_is_still(runs),
+          surface_gives_nothing_to_a_handle(runs)};
 }
 
 }  // namespace palpate::bench

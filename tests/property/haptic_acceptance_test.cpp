@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "bench/haptic/rows_surface.h"
 #include "bench/haptic/rows_touch.h"
 
 namespace palpate::bench {
@@ -59,6 +60,15 @@ INSTANTIATE_TEST_SUITE_P(CopyOfTissue, InAMatrix,
                                            std::pair{"AnyModel", &copy_keeps_energy_with_any_model},
                                            std::pair{"ExtrapolatedForce", &extrapolated_force_is_unstable},
                                            std::pair{"Pulse", &pulse_is_felt_by_copy}),
+                         [](const auto& which) { return std::string(which.param.first); });
+
+INSTANTIATE_TEST_SUITE_P(CopyOfASurface, InAMatrix,
+                         ::testing::Values(std::pair{"Taps", &surface_taps_are_felt_as_borne},
+                                           std::pair{"Slides", &slides_are_felt_as_borne},
+                                           std::pair{"Frozen", &frozen_surface_is_seen_through},
+                                           std::pair{"ModesAlone", &modes_alone_are_seen_through},
+                                           std::pair{"Hold", &hold_after_a_slide_is_still},
+                                           std::pair{"NoHand", &surface_gives_nothing_to_a_handle}),
                          [](const auto& which) { return std::string(which.param.first); });
 
 TEST(HapticLoop, PushesGentlyWhenPlanesTeleport) { expect(teleports_push_gently()); }
