@@ -16,12 +16,13 @@ std::shared_ptr<const HandSamples> newest_samples(const haptic::MotionHistory& h
 
 double PressedTissue::press(double x, double v) const noexcept {
   const double e = x - specimen_.surface();
-  return gain_ * spring_.force(0, step, e, v - specimen_.speed(), 0);
+  return gain_ * spring_.force(0, specimen_.step(), e, v - specimen_.speed(), 0);
 }
 
 /// The force is that of hand and tissue at the beginning of a step: taken from two times it is wrong by 6 % at 10 Hz.
 void PressedTissue::play(const haptic::HandSample& a, const haptic::HandSample& b, double time,
                          const std::function<void(double)>& each) {
+  const double step = specimen_.step();
   const int steps = static_cast<int>(std::lround(time / step));
   for (int i = 0; i < steps; ++i) {
     const double s = static_cast<double>(i) / steps;

@@ -1,6 +1,6 @@
 #pragma once
 // The physics side of a true touch: tissue pressed by the hand's recorded motion, in the hand's own time, through the spring and
-// damper that the hand feels. Between two samples the hand goes straight; the tissue's steps are 20 us.
+// damper that the hand feels. Between two samples the hand goes straight; the tissue's steps are 20 us, of elements 50 us.
 // A message brings the last 128 samples, so that lost ones lose nothing. When none has come for 50 ms, the tissue goes on under a
 // hand that stands still, whose spring fades in 200 ms; it comes back as fast.
 
@@ -23,8 +23,8 @@ std::shared_ptr<const HandSamples> newest_samples(const haptic::MotionHistory& h
 
 class PressedTissue {
  public:
-  static constexpr double step = 2e-5, sample_time = 1e-3;  // [s]
-  static constexpr double silence = 50e-3, fade = 0.2;      // [s]
+  static constexpr double sample_time = 1e-3;           // [s]
+  static constexpr double silence = 50e-3, fade = 0.2;  // [s]
 
   PressedTissue(const SpecimenModel& model, const ModelError& error, const haptic::ContactSpring& spring)
       : specimen_(model, error), spring_(spring) {}

@@ -17,6 +17,11 @@ Row relaxation_is_felt(Runs& runs);               // T3
 Row clear_tip_bears_nothing(Runs& runs);          // T4
 Row cuts_are_felt(Runs& runs);                    // T5
 
+// rows_touch_solid.cpp: the same on the product's own elements
+Row sines_on_elements_are_felt_as_borne(Runs& runs);   // T1
+Row one_mode_of_elements_is_seen_through(Runs& runs);  // T1, negative control
+Row taps_on_elements_are_felt_as_borne(Runs& runs);    // T2
+
 // rows_touch_matrix.cpp: hands that give
 Row copy_is_stable(Runs& runs);                     // S2 with it
 Row copy_gains_nothing_without_a_hand(Runs& runs);  // S2

@@ -18,6 +18,7 @@ const SpecimenModel chain_of_ten{"chain", 10, 0.01, 2.0, 2000.0, 0.1};
 const SpecimenModel relaxing_solid{"SLS", 1, 0.1, 2.0, 200.0, 0, false, 0, 200.0, 0.1};
 const SpecimenModel slow_solid{"slow SLS", 1, 0.1, 2.0, 200.0, 0, false, 0, 200.0, 1.0};
 const SpecimenModel hertz_ball{"Hertz", 1, 0.019, 1.0, 4472.0, 0, true};
+const SpecimenModel solid_block{.name = "block of elements", .solid = true};
 const SpecimenModel yielding_lump{"yield", 1, 0.1, 2.0, 200.0, 0, false, 0.5};
 
 SpecimenModel specimen_of(const ObjectModel& object) noexcept {
@@ -27,6 +28,7 @@ SpecimenModel specimen_of(const ObjectModel& object) noexcept {
 Specimen::Specimen(const SpecimenModel& model, const ModelError& error) : model_(model), error_(error) {
   u_.assign(static_cast<std::size_t>(model.masses), 0.0);
   v_ = u_;
+  if (model.solid) solid_ = std::make_unique<SolidSpecimen>(error.modes);
   if (model.masses > 1) find_modes();
 }
 
@@ -74,6 +76,7 @@ double Specimen::link_force(std::size_t i) noexcept {
 void Specimen::advance(double force, double dt) {
   pressed_for_ = force > 0 ? pressed_for_ + dt : 0.0;
   since_told_ += dt;
+  if (solid_) return solid_->advance(force);
   if (u_.empty()) return;
   double above = force - model_.branch_stiffness * (u_[0] - branch_);
   for (std::size_t i = 0; i < u_.size(); ++i) {
@@ -148,7 +151,10 @@ void Specimen::tell_modes(double force, haptic::TissueAnswer& answer) {
 
 void Specimen::tell(double force, haptic::TissueAnswer& answer) {
   answer.state.force = force;
-  if (u_.empty())
+  if (solid_) {
+    solid_->tell(force, answer);
+    answer.state.rest = smooth_rest(answer.state.rest);
+  } else if (u_.empty())
     answer.state.rest = smooth_rest(base_);
   else if (u_.size() == 1)
     tell_lump(force, answer);

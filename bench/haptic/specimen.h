@@ -5,9 +5,11 @@
 //
 // What it tells of itself is a TissueModel and the state of the real masses in it.
 
+#include <memory>
 #include <vector>
 
 #include "bench/haptic/models.h"
+#include "bench/haptic/solid_specimen.h"
 #include "haptic_node/tissue/tissue_model.h"
 
 namespace palpate::bench {
@@ -22,6 +24,7 @@ struct SpecimenModel {
   bool hertz = false;      // of a single mass
   double yield_force = 0;  // of a single mass: its link gives way beyond it; 0: never [N]
   double branch_stiffness = 0, branch_time = 1;  // at the top, to the base [N/m], [s]
+  bool solid = false;                            // a block of finite elements instead of masses in a row
 };
 
 SpecimenModel specimen_of(const ObjectModel& object) noexcept;
@@ -31,6 +34,8 @@ extern const SpecimenModel chain_of_ten;
 extern const SpecimenModel relaxing_solid, slow_solid;
 /// 300 N/m and 20 Hz at 2 mm.
 extern const SpecimenModel hertz_ball;
+/// The product's own elements, see SolidSpecimen.
+extern const SpecimenModel solid_block;
 /// O1 that yields at 0.5 N.
 extern const SpecimenModel yielding_lump;
 
@@ -46,6 +51,8 @@ class Specimen {
  public:
   Specimen(const SpecimenModel& model, const ModelError& error);
 
+  /// That it is stepped by [s].
+  double step() const noexcept { return solid_ ? SolidSpecimen::step : 2e-5; }
   /// One step. @param force  on the top [N]
   void advance(double force, double dt);
   /// Moves the base [m], depth.
@@ -53,8 +60,8 @@ class Specimen {
   /// A cut: links keep this share of their stiffness.
   void weaken(double share) noexcept { kept_ = share; }
 
-  double surface() const noexcept { return u_.empty() ? base_ : u_[0]; }
-  double speed() const noexcept { return v_.empty() ? 0.0 : v_[0]; }
+  double surface() const noexcept { return solid_ ? solid_->surface() : u_.empty() ? base_ : u_[0]; }
+  double speed() const noexcept { return solid_ ? solid_->speed() : v_.empty() ? 0.0 : v_[0]; }
   /// @param force  on the top now [N]
   void tell(double force, haptic::TissueAnswer& answer);
 
@@ -69,6 +76,7 @@ class Specimen {
 
   SpecimenModel model_;
   ModelError error_;
+  std::unique_ptr<SolidSpecimen> solid_;
   std::vector<double> u_, v_;  // from the top [m], [m/s]
   double base_ = 0, kept_ = 1;
   double plastic_ = 0;                       // [m]

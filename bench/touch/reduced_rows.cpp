@@ -27,7 +27,7 @@ physics::Body block(double edge) {
   tissue.modulus = 10e3;
   tissue.density = 1000;
   tissue.poisson_ratio = 0.45;
-  tissue.viscosity = beta * *tissue.modulus;
+  tissue.viscosity_bulk = beta * *tissue.modulus;
   BodySpec spec;
   spec.name = "block";
   spec.lattice = LatticeKind::voxel;

@@ -1,0 +1,116 @@
+#include "bench/haptic/solid_specimen.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "common/scene/body_spec.h"
+#include "common/scene/material_spec.h"
+
+namespace palpate::bench {
+namespace {
+
+constexpr double modulus = 15e3, poisson_ratio = 0.45, beta = 5e-4;  // [Pa], [1], viscosity over modulus [s]
+constexpr double edge = 0.005, breadth = 0.04, height = 0.02;        // [m]
+constexpr double patch_radius = 0.008;                               // [m]
+constexpr double shift = 100;                                        // [1/s^2]
+constexpr int body_modes = 20;
+
+physics::Body block() {
+  MaterialSpec tissue;
+  tissue.name = "tissue";
+  tissue.modulus = modulus;
+  tissue.density = 1000;
+  tissue.poisson_ratio = poisson_ratio;
+  tissue.viscosity_bulk = beta * modulus;
+  BodySpec spec;
+  spec.name = "block";
+  spec.lattice = LatticeKind::voxel;
+  spec.model = ElementModel::fem;
+  spec.spacing = edge;
+  spec.material = "tissue";
+  spec.shape = BoxShape{{breadth, breadth, height}};
+  spec.fixed_faces[4] = true;  // -z
+  return physics::build_body(spec, tissue);
+}
+
+}  // namespace
+
+SolidSpecimen::SolidSpecimen(int modes)
+    : model_(physics::make_body_model(block(), Precision::double_, Integrator::symplectic_euler)) {
+  const physics::Body& body = model_->body();
+  for (const physics::Index node : body.nodes())
+    if (const Vec3 x = body.rest_position(node);
+        x.z() > height / 2 - 1e-6 && x.head<2>().norm() < patch_radius)
+      patch_.push_back({node, 1});
+  for (auto& part : patch_) part.share /= static_cast<double>(patch_.size());
+  for (const auto& part : patch_) push_.push_back({part.node, Vec3::Zero()});
+  physics::LinearAnswer answer(body, shift);
+  const physics::VibrationModes all = physics::lowest_modes(answer, {.n = body_modes});
+  choose(physics::driving_point(answer, all, patch_), all, answer, modes);
+}
+
+/// Those whose steady answer along z is largest; the others only answer at once.
+void SolidSpecimen::choose(const physics::DrivingPoint& point, const physics::VibrationModes& modes,
+                           const physics::LinearAnswer& answer, int count) {
+  const Eigen::Index of_body = modes.omega2.size();
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(point.omega2.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  const auto compliance = [&](Eigen::Index i) { return point.psi(2, i) * point.psi(2, i) / point.omega2[i]; };
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return compliance(a) > compliance(b); });
+  const physics::Body& body = model_->body();
+  for (const Eigen::Index i : order) {
+    if (static_cast<int>(told_.size()) == count) {
+      residual_ += compliance(i);
+      continue;
+    }
+    const double down = point.psi(2, i) > 0 ? -1 : 1;  // phi is above 0, and depth goes down
+    Told told{{std::abs(point.psi(2, i)), point.omega2[i], beta * point.omega2[i]}, {}};
+    for (const physics::Index node : body.nodes()) {
+      const Eigen::Index row = answer.row_of(node);
+      for (Eigen::Index a = 0; a < 3; ++a) {
+        const double shape =
+            i < of_body ? modes.shape(3 * row + a, i) : point.added(3 * row + a, i - of_body);
+        told.moment.push_back(down * answer.mass()[row] * shape);
+      }
+    }
+    told_.push_back(std::move(told));
+  }
+}
+
+void SolidSpecimen::advance(double force) {
+  for (std::size_t n = 0; n < push_.size(); ++n) push_[n].force = Vec3(0, 0, -force * patch_[n].share);
+  model_->advance({.dt = step}, push_);
+  measure();
+}
+
+void SolidSpecimen::measure() noexcept {
+  depth_ = speed_ = 0;
+  for (const auto& part : patch_) {
+    depth_ -= part.share * model_->displacement(part.node).z();
+    speed_ -= part.share * model_->velocity(part.node).z();
+  }
+}
+
+void SolidSpecimen::tell(double force, haptic::TissueAnswer& answer) const {
+  answer.model.n_modes = static_cast<std::uint32_t>(told_.size());
+  answer.model.residual = residual_;
+  answer.state.force = force;
+  double known = residual_ * force;
+  const auto nodes = model_->body().nodes();
+  for (std::size_t i = 0; i < told_.size(); ++i) {
+    double q = 0, w = 0;
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+      const Eigen::Map<const Vec3> moment(&told_[i].moment[3 * n]);
+      q += moment.dot(model_->displacement(nodes[n]));
+      w += moment.dot(model_->velocity(nodes[n]));
+    }
+    answer.model.modes[i] = told_[i].mode;
+    answer.state.q[i] = q;
+    answer.state.w[i] = w;
+    known += told_[i].mode.phi * q;
+  }
+  answer.state.rest = depth_ - known;
+}
+
+}  // namespace palpate::bench
