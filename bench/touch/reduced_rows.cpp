@@ -81,7 +81,8 @@ std::string percent(const std::array<double, swings.size()>& errors) {
 
 nlohmann::json reduced_rows() {
   fmt::print(
-      "a block of 60 x 60 x 30 mm, 10 kPa, as a few modes; the compliance under a patch of 5 mm: error in % at "
+      "a block of 60 x 60 x 30 mm, 10 kPa, as a few modes; the compliance under a patch of 5 mm: error in % "
+      "at "
       "5, 10, 20, 30 Hz against {} modes; with what comes to them as a compliance; without that\n",
       of_truth);
   nlohmann::json json = nlohmann::json::array();
