@@ -4,34 +4,18 @@
 #include <cmath>
 #include <numeric>
 
-#include "common/scene/body_spec.h"
-#include "common/scene/material_spec.h"
+#include "bench/problems/held_block.h"
 
 namespace palpate::bench {
 namespace {
 
-constexpr double modulus = 15e3, poisson_ratio = 0.45, beta = 5e-4;  // [Pa], [1], viscosity over modulus [s]
-constexpr double edge = 0.005, breadth = 0.04, height = 0.02;        // [m]
-constexpr double patch_radius = 0.008;                               // [m]
-constexpr double shift = 100;                                        // [1/s^2]
+constexpr double beta = 5e-4;           // viscosity over modulus [s]
+constexpr double patch_radius = 0.008;  // [m]
+constexpr double shift = 100;           // [1/s^2]
 constexpr int body_modes = 20;
 
 physics::Body block() {
-  MaterialSpec tissue;
-  tissue.name = "tissue";
-  tissue.modulus = modulus;
-  tissue.density = 1000;
-  tissue.poisson_ratio = poisson_ratio;
-  tissue.viscosity_bulk = beta * modulus;
-  BodySpec spec;
-  spec.name = "block";
-  spec.lattice = LatticeKind::voxel;
-  spec.model = ElementModel::fem;
-  spec.spacing = edge;
-  spec.material = "tissue";
-  spec.shape = BoxShape{{breadth, breadth, height}};
-  spec.fixed_faces[4] = true;  // -z
-  return physics::build_body(spec, tissue);
+  return held_block({.size = Vec3(0.04, 0.04, 0.02), .edge = 0.005, .modulus = 15e3, .viscosity_time = beta});
 }
 
 }  // namespace
@@ -39,12 +23,8 @@ physics::Body block() {
 SolidSpecimen::SolidSpecimen(int modes)
     : model_(physics::make_body_model(block(), Precision::double_, Integrator::symplectic_euler)) {
   const physics::Body& body = model_->body();
-  for (const physics::Index node : body.nodes())
-    if (const Vec3 x = body.rest_position(node);
-        x.z() > height / 2 - 1e-6 && x.head<2>().norm() < patch_radius)
-      patch_.push_back({node, 1});
-  for (auto& part : patch_) part.share /= static_cast<double>(patch_.size());
-  for (const auto& part : patch_) push_.push_back({part.node, Vec3::Zero()});
+  patch_ = patch_on_top(body, patch_radius);
+  for (const auto& part : patch_) push_.push_back({part.cell, Vec3::Zero()});
   physics::LinearAnswer answer(body, shift);
   const physics::VibrationModes all = physics::lowest_modes(answer, {.n = body_modes});
   choose(physics::driving_point(answer, all, patch_), all, answer, modes);
@@ -71,7 +51,7 @@ void SolidSpecimen::choose(const physics::DrivingPoint& point, const physics::Vi
       for (Eigen::Index a = 0; a < 3; ++a) {
         const double shape =
             i < of_body ? modes.shape(3 * row + a, i) : point.added(3 * row + a, i - of_body);
-        told.moment.push_back(down * answer.mass()[row] * shape);
+        told.moment.push_back(down * answer.mass()[3 * row] * shape);
       }
     }
     told_.push_back(std::move(told));
@@ -87,8 +67,8 @@ void SolidSpecimen::advance(double force) {
 void SolidSpecimen::measure() noexcept {
   depth_ = speed_ = 0;
   for (const auto& part : patch_) {
-    depth_ -= part.share * model_->displacement(part.node).z();
-    speed_ -= part.share * model_->velocity(part.node).z();
+    depth_ -= part.share * model_->displacement(part.cell).z();
+    speed_ -= part.share * model_->velocity(part.cell).z();
   }
 }
 

@@ -35,7 +35,7 @@ class SolidSpecimen {
   void measure() noexcept;
 
   std::unique_ptr<physics::BodyModel> model_;
-  std::vector<physics::ContactShare> patch_;
+  std::vector<physics::MassShare> patch_;
   std::vector<physics::NodalForce> push_;
   std::vector<Told> told_;
   double residual_ = 0;  // [m/N]

@@ -2,31 +2,22 @@
 
 #include <cmath>
 
+#include "bench/problems/held_block.h"
 #include "bench/problems/stopwatch.h"
 #include "bench/solids/driven_body.h"
-#include "common/scene/body_spec.h"
-#include "common/scene/material_spec.h"
 #include "physics_node/contact/face_press.h"
 
 namespace palpate::bench {
 namespace {
 
 physics::Body quarter_of(const ShapePress& how) {
-  MaterialSpec tissue;
-  tissue.name = "tissue";
-  tissue.modulus = ShapePress::modulus;
-  tissue.density = ShapePress::density;
-  if (how.model == ElementModel::fem) tissue.poisson_ratio = how.poisson_ratio;
-  BodySpec spec;
-  spec.name = "block";
-  spec.lattice = LatticeKind::voxel;
-  spec.model = how.model;
-  spec.spacing = how.edge;
-  spec.material = "tissue";
-  spec.shape = BoxShape{{how.breadth / 2, how.breadth / 2, how.height}};
-  spec.at = {how.breadth / 4, how.breadth / 4, -how.height / 2};
-  spec.fixed_faces[4] = true;  // -z
-  return physics::build_body(spec, tissue);
+  return held_block({.size = Vec3(how.breadth / 2, how.breadth / 2, how.height),
+                     .at = Vec3(how.breadth / 4, how.breadth / 4, -how.height / 2),
+                     .edge = how.edge,
+                     .modulus = ShapePress::modulus,
+                     .density = ShapePress::density,
+                     .poisson_ratio = how.poisson_ratio,
+                     .model = how.model});
 }
 
 }  // namespace

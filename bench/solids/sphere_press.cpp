@@ -4,10 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "bench/problems/held_block.h"
 #include "bench/problems/stopwatch.h"
 #include "bench/solids/driven_body.h"
-#include "common/scene/body_spec.h"
-#include "common/scene/material_spec.h"
 #include "physics_node/boundary/boundary.h"
 
 namespace palpate::bench {
@@ -16,22 +15,14 @@ namespace {
 using physics::Index;
 
 physics::Body quarter_block(const SpherePress& how) {
-  MaterialSpec tissue;
-  tissue.name = "tissue";
-  tissue.modulus = SpherePress::modulus;
-  tissue.density = SpherePress::density;
-  if (how.model == ElementModel::fem) tissue.poisson_ratio = how.poisson_ratio;
-  BodySpec spec;
-  spec.name = "block";
-  spec.lattice = LatticeKind::voxel;
-  spec.model = how.model;
-  spec.hourglass = how.hourglass;
-  spec.spacing = how.edge;
-  spec.material = "tissue";
-  spec.shape = BoxShape{{SpherePress::breadth / 2, SpherePress::breadth / 2, SpherePress::height}};
-  spec.at = {SpherePress::breadth / 4, SpherePress::breadth / 4, -SpherePress::height / 2};
-  spec.fixed_faces[4] = true;  // -z
-  return physics::build_body(spec, tissue);
+  return held_block({.size = Vec3(SpherePress::breadth / 2, SpherePress::breadth / 2, SpherePress::height),
+                     .at = Vec3(SpherePress::breadth / 4, SpherePress::breadth / 4, -SpherePress::height / 2),
+                     .edge = how.edge,
+                     .modulus = SpherePress::modulus,
+                     .density = SpherePress::density,
+                     .poisson_ratio = how.poisson_ratio,
+                     .model = how.model,
+                     .hourglass = how.hourglass});
 }
 
 /// The faces of the upper side that the sphere may meet, and what it did in the last step.

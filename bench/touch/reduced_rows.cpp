@@ -8,9 +8,8 @@
 #include <numbers>
 #include <string>
 
+#include "bench/problems/held_block.h"
 #include "bench/problems/stopwatch.h"
-#include "common/scene/body_spec.h"
-#include "common/scene/material_spec.h"
 #include "physics_node/reduced/driving_point.h"
 
 namespace palpate::bench {
@@ -20,34 +19,6 @@ constexpr double shift = 100;                           // [1/s^2]
 constexpr double beta = 1e-3;                           // viscosity over modulus [s]
 constexpr std::array swings = {5.0, 10.0, 20.0, 30.0};  // [Hz]
 constexpr int of_truth = 60;
-
-physics::Body block(double edge) {
-  MaterialSpec tissue;
-  tissue.name = "tissue";
-  tissue.modulus = 10e3;
-  tissue.density = 1000;
-  tissue.poisson_ratio = 0.45;
-  tissue.viscosity_bulk = beta * *tissue.modulus;
-  BodySpec spec;
-  spec.name = "block";
-  spec.lattice = LatticeKind::voxel;
-  spec.model = ElementModel::fem;
-  spec.spacing = edge;
-  spec.material = "tissue";
-  spec.shape = BoxShape{{0.06, 0.06, 0.03}};
-  spec.fixed_faces[4] = true;  // -z
-  return physics::build_body(spec, tissue);
-}
-
-/// Nodes of the upper face within 5 mm of its middle, all alike.
-std::vector<physics::ContactShare> patch(const physics::Body& body) {
-  std::vector<physics::ContactShare> found;
-  for (const physics::Index node : body.nodes())
-    if (const Vec3 x = body.rest_position(node); x.z() > 0.015 - 1e-6 && x.head<2>().norm() < 0.005)
-      found.push_back({node, 1});
-  for (auto& one : found) one.share /= static_cast<double>(found.size());
-  return found;
-}
 
 /// Error of the compliance at each swing: as it is told, with what comes to the body's modes as a compliance, and without that.
 struct Off {
@@ -87,8 +58,9 @@ nlohmann::json reduced_rows() {
       of_truth);
   nlohmann::json json = nlohmann::json::array();
   for (const double edge : {0.0025, 0.00125}) {
-    const physics::Body body = block(edge);
-    const auto contact = patch(body);
+    const physics::Body body =
+        held_block({.size = Vec3(0.06, 0.06, 0.03), .edge = edge, .viscosity_time = beta});
+    const auto contact = patch_on_top(body, 0.005);
     physics::LinearAnswer answer(body, shift);
     const physics::VibrationModes all =
         physics::lowest_modes(answer, {.n = of_truth, .tolerance = 1e-2, .most_solves = 240});

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/message/messages.h"
+#include "physics_node/body/mass_share.h"
 #include "physics_node/boundary/boundary.h"
 
 namespace palpate::physics {
@@ -16,12 +17,6 @@ struct LocalPlane {
   // The same weights over the facets at rest, where they were before any force:
   Vec3 rest = Vec3::Zero();         // point [m]
   Vec3 rest_normal = Vec3::Zero();  // unit, or 0 where they face all ways
-};
-
-/// The part of a force on a plane that one mass behind it takes.
-struct MassShare {
-  Index cell = 0;
-  double share = 0;
 };
 
 class ToolContact {
@@ -42,7 +37,8 @@ class ToolContact {
   /// Finds the masses that carry the plane under q and their shares: the weights of the plane's point, so that a force
   /// does the same work on the point as its shares do on the masses. What is missing to 1 lies on scenery.
   void find_shares(const Vec3& q) noexcept;
-  const std::vector<MassShare>& shares() const { return shares_; }  // in storage order
+  /// Of a force on the plane, what the masses behind it take, in storage order.
+  const std::vector<MassShare>& shares() const { return shares_; }
 
   /// Distance from p to the nearest facet's centroid; infinite where none is near [m].
   double nearest_distance(const Vec3& p) const noexcept;

@@ -38,14 +38,12 @@ Eigen::Matrix3cd DrivingPoint::compliance(double beta, double w) const {
 }
 
 DrivingPoint driving_point(LinearAnswer& body, const VibrationModes& modes,
-                           std::span<const ContactShare> contact, const Crew& crew) {
-  const Eigen::Index rows = 3 * body.n_rows(), n = modes.omega2.size();
-  Eigen::VectorXd mass(rows);
-  for (Eigen::Index row = 0; row < body.n_rows(); ++row)
-    mass.segment<3>(3 * row).setConstant(body.mass()[row]);
+                           std::span<const MassShare> contact, const Crew& crew) {
+  const Eigen::VectorXd& mass = body.mass();
+  const Eigen::Index rows = mass.size(), n = modes.omega2.size();
   Eigen::MatrixXd b = Eigen::MatrixXd::Zero(rows, 3), x(rows, 3);
-  for (const ContactShare& part : contact)
-    if (const Eigen::Index row = body.row_of(part.node); row >= 0 && body.mass()[row] > 0)
+  for (const MassShare& part : contact)
+    if (const Eigen::Index row = body.row_of(part.cell); row >= 0 && mass[3 * row] > 0)
       b.middleRows<3>(3 * row) += part.share * Eigen::Matrix3d::Identity();
   const Eigen::Matrix3Xd psi = b.transpose() * modes.shape;
   // Without what drives the modes the answer is that of all others. Taken off afterwards it would be lost in the digits of theirs.

@@ -3,14 +3,10 @@
 
 #include <span>
 
+#include "physics_node/body/mass_share.h"
 #include "physics_node/reduced/lowest_modes.h"
 
 namespace palpate::physics {
-
-struct ContactShare {
-  Index node = 0;
-  double share = 0;  // of the force, and of the place
-};
 
 /// The place of a contact, z = sum of share_j x_j, under a force F that is shared out alike:
 ///
@@ -34,6 +30,6 @@ struct DrivingPoint {
 
 /// Three solves. @param contact  nodes that are held bear their share and do not move
 DrivingPoint driving_point(LinearAnswer& body, const VibrationModes& modes,
-                           std::span<const ContactShare> contact, const Crew& crew = {});
+                           std::span<const MassShare> contact, const Crew& crew = {});
 
 }  // namespace palpate::physics

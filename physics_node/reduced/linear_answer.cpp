@@ -14,7 +14,7 @@ LinearAnswer::LinearAnswer(const Body& body, double shift, const Crew& crew)
     : hierarchy_(body),
       gradients_(hierarchy_),
       shift_(shift),
-      mass_(Eigen::VectorXd::Zero(hierarchy_.fine().n_nodes())),
+      mass_(Eigen::VectorXd::Zero(3 * hierarchy_.fine().n_nodes())),
       row_of_(static_cast<std::size_t>(body.capacity()), -1) {
   hierarchy_.set_step(1 / std::sqrt(shift));
   hierarchy_.linearise(crew, 1);
@@ -24,7 +24,7 @@ LinearAnswer::LinearAnswer(const Body& body, double shift, const Crew& crew)
     if (node < 0) continue;
     row_of_[static_cast<std::size_t>(node)] = row;
     if (body.inverse_mass[static_cast<std::size_t>(node)] > 0)
-      mass_[row] = node_mass(body, node);
+      mass_.segment<3>(3 * row).setConstant(node_mass(body, node));
     else
       held = true;
   }
@@ -39,11 +39,11 @@ void LinearAnswer::find_rigid(const Body& body) {
   rigid_ = Eigen::MatrixXd::Zero(3 * n_rows(), 6);
   Vec3 moment = Vec3::Zero();
   for (Eigen::Index row = 0; row < n_rows(); ++row)
-    if (mass_[row] > 0)
-      moment += mass_[row] * body.rest_position(hierarchy_.storage()[static_cast<std::size_t>(row)]);
-  const Vec3 centre = moment / mass_.sum();
+    if (mass_[3 * row] > 0)
+      moment += mass_[3 * row] * body.rest_position(hierarchy_.storage()[static_cast<std::size_t>(row)]);
+  const Vec3 centre = 3 * moment / mass_.sum();
   for (Eigen::Index row = 0; row < n_rows(); ++row) {
-    if (!(mass_[row] > 0)) continue;
+    if (!(mass_[3 * row] > 0)) continue;
     const Vec3 arm = body.rest_position(hierarchy_.storage()[static_cast<std::size_t>(row)]) - centre;
     for (Eigen::Index a = 0; a < 3; ++a) {
       rigid_.block<3, 1>(3 * row, a) = Vec3::Unit(a);
@@ -51,10 +51,7 @@ void LinearAnswer::find_rigid(const Body& body) {
     }
   }
   const auto product = [&](Eigen::Index i, Eigen::Index j) {
-    double sum = 0;
-    for (Eigen::Index row = 0; row < n_rows(); ++row)
-      sum += mass_[row] * rigid_.block<3, 1>(3 * row, i).dot(rigid_.block<3, 1>(3 * row, j));
-    return sum;
+    return rigid_.col(i).dot(mass_.cwiseProduct(rigid_.col(j)));
   };
   for (Eigen::Index i = 0; i < 6; ++i) {
     for (Eigen::Index j = 0; j < i; ++j) rigid_.col(i) -= product(i, j) * rigid_.col(j);
@@ -71,11 +68,11 @@ bool LinearAnswer::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, double to
   for (Eigen::Index row = 0; row < n_rows(); ++row)
     for (Eigen::Index a = 0; a < 3; ++a)
       gradients_.b[static_cast<std::size_t>(a)][static_cast<std::size_t>(row)] =
-          mass_[row] > 0 ? static_cast<float>(b[3 * row + a] / scale) : 0.0F;
+          mass_[3 * row] > 0 ? static_cast<float>(b[3 * row + a] / scale) : 0.0F;
   const GradientReport report = gradients_.solve(hierarchy_, crew, tolerance, most_cycles);
   for (Eigen::Index row = 0; row < n_rows(); ++row)
     for (Eigen::Index a = 0; a < 3; ++a)
-      if (mass_[row] > 0)
+      if (mass_[3 * row] > 0)
         x[3 * row + a] =
             scale *
             static_cast<double>(gradients_.x[static_cast<std::size_t>(a)][static_cast<std::size_t>(row)]);

@@ -22,9 +22,9 @@ class LinearAnswer {
   /// @return did it converge to `tolerance` of |b|? Else x is the nearest that was found.
   bool solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance, const Crew& crew) noexcept;
 
-  Eigen::Index n_rows() const noexcept { return mass_.size(); }
+  Eigen::Index n_rows() const noexcept { return mass_.size() / 3; }
   double shift() const noexcept { return shift_; }
-  const Eigen::VectorXd& mass() const noexcept { return mass_; }  // of each row; 0: held [kg]
+  const Eigen::VectorXd& mass() const noexcept { return mass_; }  // of each component; 0: held [kg]
   /// Six M-orthonormal motions that nothing resists (3 n_rows, 6); none where a node is held. Of a body of one piece.
   const Eigen::MatrixXd& rigid() const noexcept { return rigid_; }
   /// Row of a node of the body; -1: no cell has it.

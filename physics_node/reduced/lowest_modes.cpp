@@ -23,9 +23,7 @@ double scattered(std::uint64_t n) {
 class Basis {
  public:
   Basis(LinearAnswer& body, int most)
-      : body_(body), mass_(3 * body.n_rows()), v_(mass_.size(), most), answer_(mass_.size(), most) {
-    for (Eigen::Index row = 0; row < body.n_rows(); ++row)
-      mass_.segment<3>(3 * row).setConstant(body.mass()[row]);
+      : body_(body), mass_(body.mass()), v_(mass_.size(), most), answer_(mass_.size(), most) {
     // What nothing resists is known, and answers by 1 / s.
     for (Eigen::Index i = 0; i < std::min<Eigen::Index>(body.rigid().cols(), most); ++i) {
       v_.col(size_++) = body.rigid().col(i);
@@ -35,7 +33,6 @@ class Basis {
   int size() const { return size_; }
   int answered() const { return answered_; }
   bool is_full() const { return size_ == v_.cols(); }
-  Eigen::Index most_free() const { return (mass_.array() > 0).count(); }
   auto answers() const { return answer_.leftCols(answered_); }
   auto vectors() const { return v_.leftCols(size_); }
 
@@ -65,7 +62,7 @@ class Basis {
 
  private:
   LinearAnswer& body_;
-  Eigen::VectorXd mass_;  // of each component
+  const Eigen::VectorXd& mass_;
   Eigen::MatrixXd v_, answer_;
   int size_ = 0, answered_ = 0;
 };
@@ -77,7 +74,7 @@ VibrationModes lowest_modes(LinearAnswer& body, const ModeTask& task, const Crew
   for (int n = 0; n < block; ++n) {
     Eigen::VectorXd x(3 * body.n_rows());
     for (Eigen::Index i = 0; i < x.size(); ++i)
-      x[i] = body.mass()[i / 3] > 0 ? scattered(static_cast<std::uint64_t>(block * i + n)) : 0;
+      x[i] = body.mass()[i] > 0 ? scattered(static_cast<std::uint64_t>(block * i + n)) : 0;
     basis.add(std::move(x));
   }
   VibrationModes modes;

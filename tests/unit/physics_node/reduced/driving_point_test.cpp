@@ -26,8 +26,8 @@ constexpr HexMaterial tissue{.modulus = 100e3, .poisson_ratio = 0.45};
 constexpr double beta = 1e-3;  // [s]
 
 /// Nine nodes of the upper face round a place, by shares that fall with their distance.
-std::vector<ContactShare> patch(const Body& body, double x, double y) {
-  std::vector<ContactShare> found;
+std::vector<MassShare> patch(const Body& body, double x, double y) {
+  std::vector<MassShare> found;
   double top = -1e9, sum = 0;
   for (const Index node : body.nodes()) top = std::max(top, body.rest_position(node).z());
   for (const Index node : body.nodes()) {
@@ -37,16 +37,16 @@ std::vector<ContactShare> patch(const Body& body, double x, double y) {
     found.push_back({node, 1 / (1 + away)});
     sum += found.back().share;
   }
-  for (ContactShare& one : found) one.share /= sum;
+  for (MassShare& one : found) one.share /= sum;
   return found;
 }
 
-Eigen::Matrix3cd exact(const DenseSolid& dense, std::span<const ContactShare> contact, double w) {
+Eigen::Matrix3cd exact(const DenseSolid& dense, std::span<const MassShare> contact, double w) {
   Eigen::MatrixXcd A = dense.K.cast<std::complex<double>>() * std::complex<double>(1, w * beta);
   A.diagonal() -= (w * w * dense.M).cast<std::complex<double>>();
   Eigen::MatrixXd B = Eigen::MatrixXd::Zero(A.rows(), 3);
-  for (const ContactShare& one : contact)
-    B.middleRows<3>(dense.at[static_cast<std::size_t>(one.node)]) += one.share * Eigen::Matrix3d::Identity();
+  for (const MassShare& one : contact)
+    B.middleRows<3>(dense.at[static_cast<std::size_t>(one.cell)]) += one.share * Eigen::Matrix3d::Identity();
   return B.transpose() * A.partialPivLu().solve(B.cast<std::complex<double>>());
 }
 
@@ -130,8 +130,7 @@ TEST(DrivingPoint, OfAFreeBodySwingsAsTheWholeBody) {
 TEST(DrivingPoint, AddsModesLikeTheOthers) {
   const Body body = solid_block({.cells = 7}, [](int i, int, int) { return i > 3 ? 30.0 : 1.0; });
   Reduced reduced(body);
-  Eigen::VectorXd mass(3 * reduced.answer.n_rows());
-  for (Eigen::Index i = 0; i < mass.size(); ++i) mass[i] = reduced.answer.mass()[i / 3];
+  const Eigen::VectorXd& mass = reduced.answer.mass();
   for (const double x : {-0.008, 0.0, 0.008}) {
     const DrivingPoint point = driving_point(reduced.answer, reduced.modes, patch(body, x, -0.008));
     ASSERT_EQ(point.added.cols(), 3);
@@ -146,7 +145,7 @@ TEST(DrivingPoint, AddsModesLikeTheOthers) {
 TEST(DrivingPoint, OfWhatIsHeldGivesNothing) {
   const Body body = solid_block({.cells = 4});
   Reduced reduced(body, 3);
-  std::vector<ContactShare> contact;
+  std::vector<MassShare> contact;
   for (const Index node : body.nodes())
     if (body.inverse_mass[static_cast<std::size_t>(node)] == 0) contact.push_back({node, 0.04});
   ASSERT_FALSE(contact.empty());
@@ -175,7 +174,7 @@ TEST(DrivingPoint, TellsWhatTheSteppedBodyDoes) {
       std::ceil(1 / f / (0.5 * stable_step(stiffest_mode(body), Integrator::symplectic_euler))));
   const double dt = 1 / f / steps_a_turn;
   std::vector<NodalForce> push;
-  for (const ContactShare& one : contact) push.push_back({one.node, Vec3::Zero()});
+  for (const MassShare& one : contact) push.push_back({one.cell, Vec3::Zero()});
   std::complex<double> answered = 0;
   constexpr int turns = 6;
   for (int n = 0; n < turns * steps_a_turn; ++n) {
@@ -185,7 +184,7 @@ TEST(DrivingPoint, TellsWhatTheSteppedBodyDoes) {
     model->advance({.dt = dt}, push);
     if (n < (turns - 1) * steps_a_turn) continue;
     double z = 0;
-    for (const ContactShare& one : contact) z += one.share * model->displacement(one.node).z();
+    for (const MassShare& one : contact) z += one.share * model->displacement(one.cell).z();
     answered += 2.0 / steps_a_turn * z * std::exp(std::complex<double>(0, -w * (t + dt)));
   }
   const std::complex<double> told = F * point.compliance(beta, w)(2, 2);
