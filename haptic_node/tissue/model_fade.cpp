@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "haptic_node/tissue/largest_share.h"
+
 namespace palpate::haptic {
 namespace {
 
@@ -102,12 +104,8 @@ double ModelFade::pass(TissueCopy& felt, const TissueCopy& shadow, double x, dou
   }
   Tried t = tried(felt, shadow, x, v, before, beta);
   if (!fits(t)) {
-    double low = 0, high = beta;
-    for (int i = 0; i < halvings; ++i) {
-      beta = 0.5 * (low + high);
-      (fits(tried(felt, shadow, x, v, before, beta)) ? low : high) = beta;
-    }
-    beta = low;
+    beta = largest_share(beta, halvings,
+                         [&](double share) { return fits(tried(felt, shadow, x, v, before, share)); });
     if (beta <= 0) return 0;
     t = tried(felt, shadow, x, v, before, beta);
   }

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "haptic_node/tissue/largest_share.h"
+
 namespace palpate::haptic {
 namespace {
 
@@ -35,12 +37,7 @@ double SurfaceFade::pass(const SurfaceModel& model, const SurfaceStep& step, Sur
   double beta = -std::expm1(-step.h() / tau);
   HeldSurface after = tried(beta);
   if (!fits(after)) {
-    double low = 0, high = beta;
-    for (int i = 0; i < rounds; ++i) {
-      beta = 0.5 * (low + high);
-      (fits(tried(beta)) ? low : high) = beta;
-    }
-    beta = low;
+    beta = largest_share(beta, rounds, [&](double share) { return fits(tried(share)); });
     if (beta <= 0) return 0;
     after = tried(beta);
   }
