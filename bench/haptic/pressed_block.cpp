@@ -8,15 +8,6 @@ namespace palpate::bench {
 using haptic::SurfacePlace;
 using haptic::SurfaceStep;
 
-std::shared_ptr<const TipSamples> newest_samples(const haptic::TipHistory& history) {
-  auto told = std::make_shared<TipSamples>();
-  told->newest = history.newest();
-  const std::uint64_t told_most = haptic::TipHistory::told;
-  for (std::uint64_t n = told->newest > told_most ? told->newest - told_most + 1 : 1; n <= told->newest; ++n)
-    told->samples.push_back(history.at(n));
-  return told;
-}
-
 /// Spring and damper on the real surface, as it is now; what slides moves xi.
 Vec3 PressedBlock::press(const haptic::TipSample& tip) {
   constexpr double last = BlockModel::side - 2.0;

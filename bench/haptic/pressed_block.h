@@ -6,16 +6,10 @@
 #include <vector>
 
 #include "bench/haptic/tissue_block.h"
+#include "bench/haptic/told_samples.h"
 #include "haptic_node/tissue/surface_step.h"
 
 namespace palpate::bench {
-
-/// What the hand sends: its newest samples, oldest first.
-struct TipSamples {
-  std::uint64_t newest = 0;
-  std::vector<haptic::TipSample> samples;
-};
-std::shared_ptr<const TipSamples> newest_samples(const haptic::TipHistory& history);
 
 /// How the hand is told wrong, for negative controls.
 struct SurfaceError {

@@ -5,15 +5,6 @@
 
 namespace palpate::bench {
 
-std::shared_ptr<const HandSamples> newest_samples(const haptic::MotionHistory& history) {
-  auto told = std::make_shared<HandSamples>();
-  told->newest = history.newest();
-  const std::uint64_t first =
-      told->newest > haptic::MotionHistory::told ? told->newest - haptic::MotionHistory::told + 1 : 1;
-  for (std::uint64_t n = first; n <= told->newest; ++n) told->samples.push_back(history.at(n));
-  return told;
-}
-
 double PressedTissue::press(double x, double v) const noexcept {
   const double e = x - specimen_.surface();
   return gain_ * spring_.force(0, specimen_.step(), e, v - specimen_.speed(), 0);

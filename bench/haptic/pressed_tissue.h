@@ -9,17 +9,10 @@
 #include <vector>
 
 #include "bench/haptic/specimen.h"
+#include "bench/haptic/told_samples.h"
 #include "haptic_node/tissue/contact_spring.h"
-#include "haptic_node/tissue/motion_history.h"
 
 namespace palpate::bench {
-
-/// What the hand sends: its newest samples, oldest first.
-struct HandSamples {
-  std::uint64_t newest = 0;
-  std::vector<haptic::HandSample> samples;
-};
-std::shared_ptr<const HandSamples> newest_samples(const haptic::MotionHistory& history);
 
 class PressedTissue {
  public:

@@ -11,21 +11,6 @@
 namespace palpate::bench {
 namespace {
 
-/// 0 before t = 0, 1 after `time`, without a jump of speed.
-double smooth(double t, double time) {
-  return 0.5 - 0.5 * std::cos(std::numbers::pi * std::clamp(t / time, 0.0, 1.0));
-}
-
-Path path_of(std::function<Vec3(double)> place) {
-  return [place = std::move(place)](double t) {
-    constexpr double dt = 1e-6;
-    Aim aim;
-    aim.q = place(t);
-    if (t > dt) aim.q_dot = (place(t + dt) - place(t - dt)) / (2 * dt);
-    return aim;
-  };
-}
-
 /// 2 mm deep after 0.2 s, slides aside from 0.4 s on, for 16 mm, or a second.
 struct Slide {
   double speed;  // [m/s]
@@ -39,7 +24,7 @@ struct Slide {
       const double way = speed * (s < 0      ? 0.0
                                   : s < ramp ? 0.5 * s * s / ramp
                                              : std::min(s, all) - 0.5 * ramp);
-      return Vec3(13.3e-3 + way, 21.1e-3, 1e-3 - (1e-3 + depth) * smooth(t, 0.2));
+      return Vec3(13.3e-3 + way, 21.1e-3, 1e-3 - (1e-3 + depth) * haversine(t, 0.2));
     });
   }
 };

@@ -5,26 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
+
+#include "bench/haptic/ratio_off.h"
 
 namespace palpate::bench {
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
-
-/// Largest distances of a ratio from 1, in amplitude and phase [deg].
-struct Off {
-  double amplitude = 0, phase = 0;
-  void add(const std::complex<double>& ratio) {
-    amplitude = std::max(amplitude, std::abs(std::abs(ratio) - 1));
-    phase = std::max(phase, std::abs(std::arg(ratio)) * degrees);
-  }
-  bool within(double most_amplitude, double most_phase) const {
-    return amplitude <= most_amplitude && phase <= most_phase;
-  }
-  std::string text() const { return fmt::format("{:.2f} %, {:.1f} deg", 100 * amplitude, phase); }
-};
 
 std::vector<const SpecimenModel*> linear_specimens() {
   static const SpecimenModel O1 = specimen_of(object_models[1]), O2 = specimen_of(object_models[2]),
@@ -40,7 +25,7 @@ std::vector<double> touch_frequencies(Effort effort) {
 }
 
 Row sines_are_felt_as_borne(Runs& runs) {
-  Off felt, borne, motor, ball;
+  RatioOff felt, borne, motor, ball;
   double made = 0;
   for (const SpecimenModel* specimen : linear_specimens())
     for (const LinkAge& age : link_ages)
@@ -75,7 +60,7 @@ Row sines_are_felt_as_borne(Runs& runs) {
 Row lump_of_a_chain_is_seen_through(Runs&) {
   Case c = led_case(chain_of_ten, link_ages[1]);
   c.told.modes = 1;
-  Off one, three;
+  RatioOff one, three;
   for (const double frequency : {5.0, 10.0, 20.0}) {
     one.add(feel_sine(c, frequency).felt_by_borne);
     three.add(feel_sine(led_case(chain_of_ten, link_ages[1]), frequency).felt_by_borne);
@@ -88,20 +73,17 @@ Row lump_of_a_chain_is_seen_through(Runs&) {
 
 Row taps_are_felt_as_borne(Runs&) {
   double peak = 0, impulse = 0, surplus = 0, ball_peak = 0, ball_impulse = 0;
-  const auto off = [](const TouchRun& run, auto&& measure) {
-    return std::abs(measure(run, &Touched::felt) / measure(run, &Touched::borne) - 1);
-  };
   for (const LinkAge& age : link_ages)
     for (const auto& [time, clear] : {std::pair{0.1, 0.2e-3}, std::pair{0.1, 3e-3}}) {
       for (const SpecimenModel* specimen : linear_specimens()) {
         const TouchRun run = tap(led_case(*specimen, age), time, clear);
-        peak = std::max(peak, off(run, peak_of));
-        impulse = std::max(impulse, off(run, impulse_of));
+        peak = std::max(peak, felt_off(run, peak_of));
+        impulse = std::max(impulse, felt_off(run, impulse_of));
         surplus = std::max(surplus, run.surplus);
       }
       const TouchRun run = tap(led_case(hertz_ball, age), time, clear);
-      ball_peak = std::max(ball_peak, off(run, peak_of));
-      ball_impulse = std::max(ball_impulse, off(run, impulse_of));
+      ball_peak = std::max(ball_peak, felt_off(run, peak_of));
+      ball_impulse = std::max(ball_impulse, felt_off(run, impulse_of));
     }
   return {"T2", "a tap of 0.1 s, 2 mm deep, from 0.2 and 3 mm above, all ages",
           "felt / borne: peak within 2 %, impulse within 1 %; G <= 0.1 mJ",

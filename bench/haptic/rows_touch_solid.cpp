@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <numbers>
+#include <algorithm>
 
+#include "bench/haptic/ratio_off.h"
 #include "bench/haptic/rows_touch.h"
 
 namespace palpate::bench {
@@ -19,19 +19,10 @@ Case elements_case(const LinkAge& age, int modes) {
   return c;
 }
 
-struct Off {
-  double amplitude = 0, phase = 0;  // [1], [deg]
-  void add(const std::complex<double>& ratio) {
-    amplitude = std::max(amplitude, std::abs(std::abs(ratio) - 1));
-    phase = std::max(phase, std::abs(std::arg(ratio)) * 180 / std::numbers::pi);
-  }
-  std::string text() const { return fmt::format("{:.2f} %, {:.1f} deg", 100 * amplitude, phase); }
-};
-
 }  // namespace
 
 Row sines_on_elements_are_felt_as_borne(Runs& runs) {
-  Off felt, borne;
+  RatioOff felt, borne;
   for (const LinkAge& age : link_ages)
     for (const double frequency : touch_frequencies(runs.effort)) {
       const SineResult r = feel_sine(elements_case(age, all_told), frequency);
@@ -42,11 +33,11 @@ Row sines_on_elements_are_felt_as_borne(Runs& runs) {
   return {"T1", "the same on a block of the product's elements (15 kPa, a tenth of its height deep)",
           "felt / borne within 2 %, 3 deg; borne / ideal within 5 %, 5 deg",
           fmt::format("felt off by {}; borne by {}", felt.text(), borne.text()),
-          felt.amplitude <= 0.02 && felt.phase <= 3 && borne.amplitude <= 0.05 && borne.phase <= 5};
+          felt.within(0.02, 3) && borne.within(0.05, 5)};
 }
 
 Row one_mode_of_elements_is_seen_through(Runs&) {
-  Off one, nine;
+  RatioOff one, nine;
   for (const double frequency : {10.0, 20.0}) {
     one.add(feel_sine(elements_case(link_ages[2], 1), frequency).felt_by_borne);
     nine.add(feel_sine(elements_case(link_ages[2], all_told), frequency).felt_by_borne);
@@ -55,18 +46,15 @@ Row one_mode_of_elements_is_seen_through(Runs&) {
           "negative control: the block told by the mode that the contact feels most, 10 and 20 Hz at 100 ms",
           "felt / borne off by more than 2 % or 3 deg; nine within",
           fmt::format("one mode off by {}; nine by {}", one.text(), nine.text()),
-          (one.amplitude > 0.02 || one.phase > 3) && nine.amplitude <= 0.02 && nine.phase <= 3};
+          !one.within(0.02, 3) && nine.within(0.02, 3)};
 }
 
 Row taps_on_elements_are_felt_as_borne(Runs&) {
   double peak = 0, impulse = 0, surplus = 0;
-  const auto off = [](const TouchRun& run, auto&& measure) {
-    return std::abs(measure(run, &Touched::felt) / measure(run, &Touched::borne) - 1);
-  };
   for (const LinkAge& age : link_ages) {
     const TouchRun run = tap(elements_case(age, all_told), 0.1, 3e-3);
-    peak = std::max(peak, off(run, peak_of));
-    impulse = std::max(impulse, off(run, impulse_of));
+    peak = std::max(peak, felt_off(run, peak_of));
+    impulse = std::max(impulse, felt_off(run, impulse_of));
     surplus = std::max(surplus, run.surplus);
   }
   return {"T2", "a tap of 0.1 s, 2 mm deep, from 3 mm above, on the block of elements, all ages",

@@ -19,9 +19,6 @@ void fill_ideal(const Case& c, const std::vector<haptic::HandSample>& truth, std
   for (std::size_t i = 0; i < samples.size(); ++i) samples[i].ideal = ideal.borne(first + i);
 }
 
-/// 0 before t = 0, 1 after `time`, without a jump of speed.
-double haversine(double t, double time) { return 0.5 - 0.5 * std::cos(pi * std::clamp(t / time, 0.0, 1.0)); }
-
 std::complex<double> amplitude(const std::vector<Touched>& samples, std::size_t begin, double frequency_Hz,
                                const std::function<double(std::size_t)>& force) {
   std::complex<double> sum = 0;
@@ -51,14 +48,22 @@ Case todays_case(const ObjectModel& object, const LinkAge& age) {
   return c;
 }
 
-Path straight_down(std::function<double(double)> depth) {
-  return [depth = std::move(depth)](double t) {
+double haversine(double t, double time) noexcept {
+  return 0.5 - 0.5 * std::cos(pi * std::clamp(t / time, 0.0, 1.0));
+}
+
+Path path_of(std::function<Vec3(double)> place) {
+  return [place = std::move(place)](double t) {
     constexpr double dt = 1e-6;
     Aim aim;
-    aim.q.z() = -depth(t);
-    if (t > dt) aim.q_dot.z() = -(depth(t + dt) - depth(t - dt)) / (2 * dt);
+    aim.q = place(t);
+    if (t > dt) aim.q_dot = (place(t + dt) - place(t - dt)) / (2 * dt);
     return aim;
   };
+}
+
+Path straight_down(std::function<double(double)> depth) {
+  return path_of([depth = std::move(depth)](double t) { return Vec3(0, 0, -depth(t)); });
 }
 
 TouchRun lead_hand(const Case& c, const Path& path, double until) {

@@ -52,6 +52,10 @@ struct TouchRun {
 /// A led hand on `c.specimen`, which today's coupling takes as `c.object`.
 TouchRun lead_hand(const Case& c, const Path& path, double until);
 
+/// 0 before t = 0, 1 after `time`, without a jump of speed.
+double haversine(double t, double time) noexcept;
+/// A place at t [m], as a path.
+Path path_of(std::function<Vec3(double t)> place);
 /// Depth at t [m], as a path straight down.
 Path straight_down(std::function<double(double t)> depth);
 
