@@ -189,6 +189,36 @@ TEST(Failure, TakesWhatItsCellsHoldWhereThatIsMore) {
   EXPECT_LT(by_area[0], 2.0 * 0.5 * 10e3 * 0.15 * 0.15 * 2.5e-3);
 }
 
+/// Drawn far beyond its ratio within one step, a layer breaks before it pulls at anything: what it would hold was never there.
+TEST(Failure, CountsNothingThatBreaksBeforeItActs) {
+  for (const bool has_begun : {false, true}) {
+    const Body body = body_of(weak_bar(2.5, 1.1, has_begun ? 2 : 0));
+    LatticeState<double> state(body);
+    Hexahedra<double> elements(body, state);
+    const double dt = 0.05e-3;
+    const auto draw = [&](double by) {
+      for (const Index node : body.nodes())
+        write(state.v, node, Vec3(body.rest_position(node).x() > 1e-3 ? by / dt : 0.0, 0, 0));
+      elements.step(body, state, {.dt = dt, .watch = true});
+    };
+    if (has_begun) {
+      draw(0.5e-3);
+      draw(0);
+      ASSERT_EQ(measure_losses(state).breaks, 0);
+    }
+    draw(25e-3);
+
+    const Energies before = elements.energies(body, state, Vec3::Zero());
+    EXPECT_LT(before.elastic, 1e-6 * measure_hexahedra(body, make_hex_grid(body), state).elastic);
+    const double due = elements.due(body, state).broken;
+    const double already = measure_losses(state).broken;
+    EXPECT_EQ(elements.step(body, state, {.dt = 1e-12, .watch = true}).broken, 16);
+    EXPECT_DOUBLE_EQ(measure_losses(state).broken - already, due);
+    EXPECT_EQ(elements.due(body, state).broken, 0);
+    EXPECT_NEAR(elements.energies(body, state, Vec3::Zero()).kinetic, before.kinetic, 1e-9 * before.kinetic);
+  }
+}
+
 /// A free bar that is let go stretched and turning tears, and keeps its momenta and its energy.
 TEST(Failure, KeepsMomentaAndEnergy) {
   Recipe recipe = weak_bar(2.5, 1.1, 1.5);

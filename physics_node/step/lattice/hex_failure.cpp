@@ -154,12 +154,9 @@ bool HexFailure<Real>::is_pulled(const Cell& now, const TensionLimit<double>& li
   return least_minor<One>(breaking_stretch<One>(limit, of_volume, now.h), stretching<One>(now.h)) <= 0;
 }
 
-/// Does this cell begin? Then by how much of its own energy it is outlived.
+/// r of a cell that begins now.
 template <class Real>
-void HexFailure<Real>::begin(LatticeState<Real>& state, Index cell, std::size_t run) noexcept {
-  const auto c = static_cast<std::size_t>(cell);
-  const Cell now = look_at(state, cell);
-  if (!is_pulled(now, limit_of(cell)) || !(now.energy > 0)) return;
+double HexFailure<Real>::ductility_of(const Cell& now, Index cell) const noexcept {
   const Tensor<double> strain = stretching<One>(now.h);
   Eigen::Matrix3d c_i;
   for (int i = 0; i < 3; ++i)
@@ -167,13 +164,56 @@ void HexFailure<Real>::begin(LatticeState<Real>& state, Index cell, std::size_t 
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solved;
   solved.computeDirect(c_i);
   const double width = solved.eigenvectors().col(2).cwiseAbs().dot(body_.lattice.step);
-  const double crack =
-      body_.solid->failures[body_.solid->failure_of[c]].energy * body_.lattice.step.prod() / width;
+  const double crack = body_.solid->failures[body_.solid->failure_of[static_cast<std::size_t>(cell)]].energy *
+                       body_.lattice.step.prod() / width;
+  return crack > now.energy ? crack / now.energy : 0.0;
+}
+
+/// Does this cell begin? Then by how much of its own energy it is outlived.
+template <class Real>
+void HexFailure<Real>::begin(LatticeState<Real>& state, Index cell, std::size_t run) noexcept {
+  const auto c = static_cast<std::size_t>(cell);
+  const Cell now = look_at(state, cell);
+  if (!is_pulled(now, limit_of(cell)) || !(now.energy > 0)) return;
   state.failed.begun[c] = static_cast<Real>(now.energy);
-  state.failed.ductility[c] = static_cast<Real>(crack > now.energy ? crack / now.energy : 0.0);
+  state.failed.ductility[c] = static_cast<Real>(ductility_of(now, cell));
   stretch_[c] = 0;
   torn_[run] = 1;
   breaking_.push_back(cell);
+}
+
+/// s of a cell that has begun, as it is now.
+template <class Real>
+double HexFailure<Real>::stiffness_left(const LatticeState<Real>& state, Index cell,
+                                        const Cell& now) const noexcept {
+  const auto c = static_cast<std::size_t>(cell);
+  const double s = 1 - static_cast<double>(state.failed.damage[c]);
+  const auto r = static_cast<double>(state.failed.ductility[c]);
+  if (!(r > 0)) return 0;
+  const double e = std::sqrt(now.energy / static_cast<double>(state.failed.begun[c]));
+  // Only what is pulled opens.
+  const TensionLimit<double> pulled{.stretch = 0, .tension = limit_of(cell).tension};
+  if (e <= 1 || !is_pulled(now, pulled)) return s;
+  return std::clamp((r - e) / (e * (r - 1)), 0.0, s);
+}
+
+template <class Real>
+typename HexFailure<Real>::Due HexFailure<Real>::due(const LatticeState<Real>& state) const {
+  Due due{std::vector<double>(state.failed.damage.size(), 0.0), 0};
+  for (const HexRun& run : grid_.runs)
+    for (Index cell = run.first; cell < run.first + run.count; ++cell) {
+      const auto c = static_cast<std::size_t>(cell);
+      const double s = 1 - static_cast<double>(state.failed.damage[c]);
+      if (body_.solid->stiffness[c] <= 0 || s <= 0) continue;
+      const Cell now = look_at(state, cell);
+      if (state.failed.begun[c] > 0)
+        due.loss[c] = s - stiffness_left(state, cell, now);
+      else if (limit_of(cell).stretch > 0 && is_pulled(now, limit_of(cell)) && now.energy > 0 &&
+               ductility_of(now, cell) == 0)
+        due.loss[c] = s;
+      due.energy += due.loss[c] * now.middle;
+    }
+  return due;
 }
 
 /// @return it is gone
@@ -182,14 +222,7 @@ bool HexFailure<Real>::go_on(LatticeState<Real>& state, Index cell, ZeroedArray<
   const auto c = static_cast<std::size_t>(cell);
   const double s = 1 - static_cast<double>(state.failed.damage[c]);
   const Cell now = look_at(state, cell);
-  double target = 0;
-  if (const auto r = static_cast<double>(state.failed.ductility[c]); r > 0) {
-    const double e = std::sqrt(now.energy / static_cast<double>(state.failed.begun[c]));
-    // Only what is pulled opens.
-    const TensionLimit<double> pulled{.stretch = 0, .tension = limit_of(cell).tension};
-    if (!is_pulled(now, pulled) || e <= 1) return false;
-    target = std::max(0.0, (r - e) / (e * (r - 1)));
-  }
+  const double target = stiffness_left(state, cell, now);
   if (target >= s) return false;
   const Real damage = static_cast<Real>(1 - target);
   const double lost = static_cast<double>(damage) - (1 - s);

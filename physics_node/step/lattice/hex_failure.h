@@ -41,6 +41,13 @@ class HexFailure {
   std::int64_t begin_step(LatticeState<Real>& state, const HexActing& acting, const ExplicitStep& step,
                           ZeroedArray<Real>& stiffness) noexcept;
 
+  /// What the next step will break before anything acts.
+  struct Due {
+    std::vector<double> loss;  // of stiffness, in units of that of a whole cell  (n_cells)
+    double energy = 0;         // that is booked for it [J]
+  };
+  Due due(const LatticeState<Real>& state) const;
+
   /// Of each run: 1 where a cell has lost anything.
   const std::uint8_t* torn() const noexcept { return torn_.data(); }
 
@@ -52,6 +59,8 @@ class HexFailure {
   bool go_on(LatticeState<Real>& state, Index cell, ZeroedArray<Real>& stiffness) noexcept;
   void take_away(LatticeState<Real>& state, Index cell) noexcept;
   Cell look_at(const LatticeState<Real>& state, Index cell) const noexcept;
+  double ductility_of(const Cell& now, Index cell) const noexcept;
+  double stiffness_left(const LatticeState<Real>& state, Index cell, const Cell& now) const noexcept;
   TensionLimit<double> limit_of(Index cell) const noexcept;
   bool is_pulled(const Cell& now, const TensionLimit<double>& limit) const noexcept;
 

@@ -88,16 +88,20 @@ double hex_bound_at_rest(const Body& body) {
 
 template <class Real>
 MeasuredHexahedra measure_hexahedra(const Body& body, const HexGrid& grid, const LatticeState<Real>& state,
-                                    CellsOf which, const Three<Real>& v) {
+                                    CellsOf which, const Three<Real>& v,
+                                    std::span<const double> broken_soon) {
   MeasuredHexahedra sum;
   sum.force.assign(static_cast<std::size_t>(body.capacity()), Vec3::Zero());
   sum.force_of_rate.assign(sum.force.size(), Vec3::Zero());
   sum.power.assign(grid.runs.size(), 0);
   const HexCellMeter<Real> meter(body, state, v);
   for_each_cell(body, grid, state,
-                [&](double stiffness, const std::array<Index, 8>& corner, std::size_t run) {
+                [&](double now_stiff, const std::array<Index, 8>& corner, std::size_t run) {
                   const bool is_fast = state.fast.has_cell(corner[0]);
                   if (is_fast != (which == CellsOf::fast)) return;
+                  const auto c = static_cast<std::size_t>(corner[0]);
+                  const double soon = broken_soon.empty() ? 0 : broken_soon[c];
+                  const double stiffness = now_stiff - soon * static_cast<double>(body.solid->stiffness[c]);
                   const MeasuredCell now = meter.at(corner);
                   const auto& out = now.forces;
                   sum.elastic += stiffness * out.energy;
@@ -115,8 +119,8 @@ MeasuredHexahedra measure_hexahedra(const Body& body, const HexGrid& grid, const
 }
 
 template MeasuredHexahedra measure_hexahedra(const Body&, const HexGrid&, const LatticeState<float>&, CellsOf,
-                                             const Three<float>&);
+                                             const Three<float>&, std::span<const double>);
 template MeasuredHexahedra measure_hexahedra(const Body&, const HexGrid&, const LatticeState<double>&,
-                                             CellsOf, const Three<double>&);
+                                             CellsOf, const Three<double>&, std::span<const double>);
 
 }  // namespace palpate::physics

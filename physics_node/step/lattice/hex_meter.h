@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "physics_node/step/fem/hex_constants.h"
@@ -76,9 +77,11 @@ struct MeasuredHexahedra {
   std::vector<Vec3> force_of_rate;    // of dampers alone  (n_cells)
 };
 /// @param v  velocities of the nodes [m/s]
+/// @param broken_soon  stiffness that each cell is about to lose before it acts again, in units of a whole one; empty: none
 template <class Real>
 MeasuredHexahedra measure_hexahedra(const Body& body, const HexGrid& grid, const LatticeState<Real>& state,
-                                    CellsOf which, const Three<Real>& v);
+                                    CellsOf which, const Three<Real>& v,
+                                    std::span<const double> broken_soon = {});
 /// Of a body without fast cells, with the velocities of the state.
 template <class Real>
 MeasuredHexahedra measure_hexahedra(const Body& body, const HexGrid& grid, const LatticeState<Real>& state) {

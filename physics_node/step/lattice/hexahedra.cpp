@@ -164,10 +164,17 @@ StepOutcome Hexahedra<Real>::step(const Body& body, LatticeState<Real>& state,
   return {.broken = broken, .stiffening = stiffest / at_rest_, .least_corner_J = least_corner_J_};
 }
 
+/// As the next step finds it: what a cell breaks by first never acts, however far a light mass has flown in the last step.
+template <class Real>
+MeasuredHexahedra Hexahedra<Real>::measure(const Body& body, const LatticeState<Real>& state) const {
+  const std::vector<double> soon = failure_ ? failure_->due(state).loss : std::vector<double>{};
+  return measure_hexahedra(body, grid_, state, CellsOf::rest, state.v, soon);
+}
+
 template <class Real>
 Energies Hexahedra<Real>::energies(const Body& body, const LatticeState<Real>& state,
                                    const Vec3& gravity) const {
-  const MeasuredHexahedra now = measure_hexahedra(body, grid_, state, CellsOf::rest, state.v);
+  const MeasuredHexahedra now = measure(body, state);
   Energies e;
   e.elastic = now.elastic;
   double power = 0;
@@ -188,8 +195,9 @@ Energies Hexahedra<Real>::energies(const Body& body, const LatticeState<Real>& s
 template <class Real>
 Losses Hexahedra<Real>::due(const Body& body, const LatticeState<Real>& state) const {
   Losses due;
+  if (failure_) due.broken = failure_->due(state).energy;
   if ((body.solid->beta == 0 && body.solid->relaxation.empty()) || state.dt_before == 0) return due;
-  const MeasuredHexahedra now = measure_hexahedra(body, grid_, state, CellsOf::rest, state.v);
+  const MeasuredHexahedra now = measure(body, state);
   if (fast_) due.viscous = fast_->due(body, grid_, state, now);
   due.viscous += now.lost_before + std::accumulate(lost_after_.begin(), lost_after_.end(), 0.0);
   if (rate_known_)
