@@ -105,10 +105,15 @@ bool Collisions::begin_frame(double frame_seconds) noexcept {
     go_with(Vec3::Zero());
   else if (fastest_ * frame_seconds > quarter * smallest_L_)
     read_all(0, frame_seconds);
-  wanted_step_ =
-      swept_ && fastest_ > 0 ? quarter * smallest_L_ / fastest_ : std::numeric_limits<double>::infinity();
+  plan_for(fastest_);
   if (!any_near && joint_contact_) joint_contact_->restart();
   return any_near;
+}
+
+void Collisions::plan_for(double speed) noexcept {
+  planned_for_ = speed;
+  wanted_step_ =
+      swept_ && speed > 0 ? quarter * smallest_L_ / speed : std::numeric_limits<double>::infinity();
 }
 
 void Collisions::go_with(const Vec3& velocity) noexcept {
@@ -138,6 +143,10 @@ bool Collisions::read_where_they_are(double dt) noexcept {
   // Those that were read tell when something has become faster than the frame began with.
   for (std::uint32_t b = 0; b < bodies_.size(); ++b)
     fastest_ = std::max(fastest_, speed_margin * bodies_[b].speed());
+  for (const Link& link : near_.links()) {
+    const double speed = std::max(bodies_[link.a].speed(), bodies_[link.b].speed());
+    if (link.near && speed > planned_for_) plan_for(speed_margin * speed);
+  }
   // Why all where they go together: what stops for something outside leaves the others at once.
   if (go_together() || near_.needs_all(bodies_, fastest_, dt)) {
     finite = read_all(dt, dt);

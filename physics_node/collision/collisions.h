@@ -50,6 +50,7 @@ class Collisions {
   }
 
   /// The longest step in which nothing near moves farther than a quarter of the smallest L; only swept contact asks for one.
+  /// Shorter within a frame, too, once something there is faster than the frame was planned for.
   double wanted_step() const noexcept { return wanted_step_; }
 
   /// A hand feels this body.
@@ -69,6 +70,7 @@ class Collisions {
   bool are_near(std::uint32_t a, std::uint32_t b, double frame_seconds) noexcept;
   double fastest(std::uint32_t b) const noexcept;
   double fastest_apart(std::uint32_t b) const noexcept;
+  void plan_for(double speed) noexcept;
   bool read_all(double dt, double seconds) noexcept;
   bool go_together() const noexcept { return !common_.isZero(0); }
   void go_with(const Vec3& velocity) noexcept;
@@ -92,6 +94,7 @@ class Collisions {
   std::int64_t active_overflows_ = 0;
   double smallest_L_ = 0;
   double wanted_step_ = 0;
+  double planned_for_ = 0;  // this speed [m/s]
   bool bodies_near_ = false;
   double fastest_ = 0;  // no mass of what is near moves faster in this frame, against what is common [m/s]
   Vec3 common_ = Vec3::Zero();  // velocity (common_motion.h) [m/s]
