@@ -42,6 +42,7 @@ FacePress::FacePress(const Boundary& surface, const NodeMotion& moving, const Ri
   nodes_.reserve(4 * most_facets);
   order_.reserve(4 * most_facets);
   samples_.reserve(most_samples);
+  near_.reserve(most_samples);
   forces_.reserve(4 * most_facets);
   bears_.reserve(4 * most_facets);
 }

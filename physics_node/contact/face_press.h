@@ -84,6 +84,7 @@ class FacePress {
     Vec3 x = Vec3::Zero(),
          f = Vec3::Zero();      // before contact, and by contact, in the frame of the pose [m], [N]
     Vec3 moved = Vec3::Zero();  // x + dt^2 f / m [m]
+    Vec3 seen = Vec3::Zero();   // the same when all samples were looked at last [m]
     Vec3 v = Vec3::Zero();      // see note_velocities() [m/s]
     double theta = 0;           // dt^2 K / m
   };
@@ -99,6 +100,7 @@ class FacePress {
     std::uint32_t face = 0;
     std::array<double, 4> w{};
     double k = 0;            // of its area [N/m]
+    double clear = 0;        // distance from the shape when all were looked at last [m]
     double part = 1;         // 1 / (1 + sum w theta)
     double p = 0;            // of the last sweep [N]
     Vec3 x = Vec3::Zero();   // as of the last sweep [m]
@@ -115,6 +117,9 @@ class FacePress {
   void find_depth(const ShapePose& pose) noexcept;
   void read_nodes(const ShapePose& pose) noexcept;
   void collect() noexcept;
+  double part(const Sample& sample) const noexcept;
+  void keep_near(double within) noexcept;
+  void look_at_all(double z) noexcept;
   Balance look(double z) noexcept;
   double nearest() const noexcept;
   enum class Found {
@@ -138,6 +143,10 @@ class FacePress {
   std::vector<Node> nodes_;
   std::vector<std::pair<Index, std::uint32_t>> order_;  // of corners, to find equal nodes
   std::vector<Sample> samples_;
+  // Of the samples: those that press or are no clearer than near_within_. No node has moved by more than moved_by_ since all were looked
+  // at, at the depth seen_z_. [m]
+  std::vector<std::uint32_t> near_;
+  double near_within_ = 0, seen_z_ = 0, moved_by_ = 0;
   std::vector<NodalForce> forces_;
   std::vector<std::uint32_t> bears_;                    // the node of each force
   Vec3 borne_ = Vec3::Zero(), normal_ = Vec3::UnitZ();  // of the last press, scenery's part included

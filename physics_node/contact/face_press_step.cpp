@@ -11,6 +11,7 @@ constexpr double lets_go_by = 2;         // of -o . N: samples bear fully up to 
 constexpr double balance_within = 1e-4;  // of the force; what is left is made up by a factor
 constexpr int most_starts = 20;  // of the sweeps, while the depth leaves the samples that were collected
 constexpr int most_looks = 60;   // Why: a first touch from far takes some twenty, later steps two or three
+constexpr double near_in_margin = 0.25;  // Why: a first sweep moves nodes by more, the others by less
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -18,8 +19,9 @@ constexpr double unbounded = std::numeric_limits<double>::infinity();
 void FacePress::read_nodes(const ShapePose& pose) noexcept {
   for (Node& node : nodes_) {
     const Vec3 x = node.cell < 0 ? node.place : moving_.position(node.cell);
-    node.moved = node.x = pose.axes.transpose() * (x - pose.tip);
+    node.moved = node.seen = node.x = pose.axes.transpose() * (x - pose.tip);
     node.f.setZero();
+    node.theta = 0;
   }
 }
 
@@ -40,19 +42,55 @@ void FacePress::collect() noexcept {
       const Weights w = weights(face, static_cast<std::uint32_t>(at_n));
       Sample sample{.face = f, .w = w};
       sample.x = w[0] * a + w[1] * b + w[2] * c + w[3] * d;
-      if (shape_.distance(sample.x + z_ * Vec3::UnitZ()).distance > 2 * margin_) continue;
+      sample.clear = shape_.distance(sample.x + z_ * Vec3::UnitZ()).distance;
+      if (sample.clear > 2 * margin_) continue;
       // The map of a square on a triangle, whose last corners are one.
       const double density = face.triangle ? 2 * (w[0] + w[1]) : 1;
       sample.k = k_ * density * face.area / n;
       samples_.push_back(sample);
     }
   }
+  seen_z_ = z_, moved_by_ = 0;
+  keep_near(touching_ ? near_in_margin * margin_ : unbounded);
+}
+
+double FacePress::part(const Sample& sample) const noexcept {
+  const Face& face = faces_[sample.face];
+  double theta = 0;
+  for (std::size_t k = 0; k < 4; ++k) theta += sample.w[k] * nodes_[face.node[k]].theta;
+  return 1 / (1 + theta);
+}
+
+/// Only these are looked at until something has moved that far: a distance changes by no more than what has moved, so what is not near
+/// stays outside, and does not press.
+void FacePress::keep_near(double within) noexcept {
+  near_within_ = within;
+  near_.clear();
+  for (std::uint32_t s = 0; s < samples_.size(); ++s) {
+    if (samples_[s].clear <= within || samples_[s].p > 0)
+      near_.push_back(s);
+    else
+      samples_[s].next = 0;
+  }
+}
+
+void FacePress::look_at_all(double z) noexcept {
+  for (Node& node : nodes_) node.seen = node.moved;
+  for (Sample& sample : samples_) {
+    sample.x = at(faces_[sample.face], sample.w);
+    sample.part = part(sample);
+    sample.clear = shape_.distance(sample.x + z * Vec3::UnitZ()).distance;
+  }
+  seen_z_ = z, moved_by_ = 0;
+  keep_near(near_in_margin * margin_);
 }
 
 /// At a depth: what samples press with, and how that changes with depth.
 FacePress::Balance FacePress::look(double z) noexcept {
+  if (std::abs(z - seen_z_) + moved_by_ >= near_within_) look_at_all(z);
   Balance sum;
-  for (Sample& sample : samples_) {
+  for (const std::uint32_t s : near_) {
+    Sample& sample = samples_[s];
     const RigidShape::Distance d = shape_.distance(sample.x + z * Vec3::UnitZ());
     sample.o = d.outward;
     sample.c = std::clamp(-lets_go_by * d.outward.dot(faces_[sample.face].normal), 0.0, 1.0);
@@ -107,7 +145,8 @@ FacePress::Found FacePress::balance(double force) noexcept {
 /// dt^2 K_i / m_i, and the parts by it. @param all  of all samples, rather than of what presses now
 void FacePress::lump(double dt, bool all) noexcept {
   for (Node& node : nodes_) node.theta = 0;
-  for (const Sample& sample : samples_) {
+  for (const std::uint32_t s : near_) {
+    const Sample& sample = samples_[s];
     if (!all && sample.next <= 0) continue;
     const Face& face = faces_[sample.face];
     const Weights& w = sample.w;
@@ -116,20 +155,11 @@ void FacePress::lump(double dt, bool all) noexcept {
       node.theta += dt * dt * node.inverse_mass * w[k] * sample.k * sample.c;
     }
   }
-  for (Sample& sample : samples_) {
-    const Face& face = faces_[sample.face];
-    const Weights& w = sample.w;
-    double theta = 0;
-    for (std::size_t k = 0; k < 4; ++k) theta += w[k] * nodes_[face.node[k]].theta;
-    sample.part = 1 / (1 + theta);
-  }
+  for (const std::uint32_t s : near_) samples_[s].part = part(samples_[s]);
 }
 
 void FacePress::place_samples() noexcept {
-  for (Sample& sample : samples_) {
-    const Face& face = faces_[sample.face];
-    sample.x = at(face, sample.w);
-  }
+  for (const std::uint32_t s : near_) samples_[s].x = at(faces_[samples_[s].face], samples_[s].w);
 }
 
 FacePress::Found FacePress::sweep(double force, double dt, bool first) noexcept {
@@ -143,17 +173,22 @@ FacePress::Found FacePress::sweep(double force, double dt, bool first) noexcept 
     if (const Found found = balance(force); found != Found::here) return found;
   }
   double pressed = 0;
-  for (const Sample& sample : samples_) pressed -= sample.next * sample.o.z();
+  for (const std::uint32_t s : near_) pressed -= samples_[s].next * samples_[s].o.z();
   if (!(pressed > 0)) return Found::nothing;
   for (Node& node : nodes_) node.f.setZero();
-  for (Sample& sample : samples_) {
+  for (const std::uint32_t s : near_) {
+    Sample& sample = samples_[s];
     sample.p = force / pressed * sample.next;
     if (sample.p <= 0) continue;
     const Face& face = faces_[sample.face];
     const Weights& w = sample.w;
     for (std::size_t k = 0; k < 4; ++k) nodes_[face.node[k]].f += w[k] * sample.p * sample.o;
   }
-  for (Node& node : nodes_) node.moved = node.x + dt * dt * node.inverse_mass * node.f;
+  moved_by_ = 0;
+  for (Node& node : nodes_) {
+    node.moved = node.x + dt * dt * node.inverse_mass * node.f;
+    moved_by_ = std::max(moved_by_, (node.moved - node.seen).norm());
+  }
   return Found::here;
 }
 
@@ -170,7 +205,8 @@ void FacePress::share_out(const ShapePose& pose) noexcept {
     bears_.push_back(n);
   }
   double sum = 0;
-  for (const Sample& sample : samples_) {
+  for (const std::uint32_t s : near_) {
+    const Sample& sample = samples_[s];
     if (sample.p <= 0) continue;
     area_ += sample.k / k_;
     sum += sample.p;
