@@ -129,7 +129,7 @@ StepOutcome Hexahedra<Real>::step(const Body& body, LatticeState<Real>& state,
   m.dt_before = state.dt_before;
   m.books = state.dt_before > 0;
   m.rate_known = m.books && rate_known_;
-  rate_known_ = step.struck;
+  rate_known_ = step.struck && body.solid->beta != 0;  // else it has none
   m.k = constants_;
   const HexKernel<Real>& kernel = step.struck ? exact_kernel_ : kernel_;
   const auto forces = [&](const HexLayer& l) { kernel.forces(m, l.first_run, l.last_run); };
