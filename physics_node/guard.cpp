@@ -36,7 +36,6 @@ Guard::Verdict Guard::look(const BodyModels& bodies, EnergyAccount& account, con
     energy += watch.energy();
     fallen += watch.fallen;
   }
-  account.note(fallen);
   const double put_in = account.put_in(fallen, report);
   // The kernels saw elastic energy before the last step; what grows fast is looked at once more, as it is now.
   if (!(energy <= suspicious_growth * put_in + negligible_energy)) {
@@ -48,6 +47,7 @@ Guard::Verdict Guard::look(const BodyModels& bodies, EnergyAccount& account, con
     culprit_ = fastest_of(bodies);
     return Verdict::go_back;
   }
+  account.note(fallen);
   sound_ = sound_ && energy <= sound_growth * put_in + negligible_energy;
   return report.frames % frames_between_saves == frames_between_saves - 1 ? Verdict::save : Verdict::sound;
 }

@@ -73,7 +73,7 @@ EnergyLedger EnergyAccount::book(const Energies& now, const Losses& lost,
 
 double EnergyAccount::put_in(double fallen, const StepReport& report) const noexcept {
   return start_.kinetic + start_.elastic + (report.tool_exchange - booked_.tool_exchange) +
-         std::abs(fallen + start_.gravitational);
+         std::max(most_fallen_, std::abs(fallen + start_.gravitational));
 }
 
 }  // namespace palpate::physics

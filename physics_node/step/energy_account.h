@@ -31,11 +31,11 @@ class EnergyAccount {
   /// The ledger of a moment, from energies and losses then and what tools and contact had done by then.
   EnergyLedger book(const Energies& now, const Losses& lost, const Booked& booked) const noexcept;
 
-  /// Remembers the most that gravity has done so far. @param fallen  sum of m g . u
+  /// Remembers the most that gravity has done so far; of a state that stays. @param fallen  sum of m g . u
   void note(double fallen) noexcept;
 
-  /// All that was ever put in: what there was at the start, the magnitude of the tools' work, and what gravity has given
-  /// since rest. [J] @param fallen  sum of m g . u
+  /// All that was ever put in: what there was at the start, the magnitude of the tools' work, and the most that gravity has given: what
+  /// swings back to its start has taken all of it back, and holds only what its steps err by. [J] @param fallen  sum of m g . u
   double put_in(double fallen, const StepReport& report) const noexcept;
 
   /// Counts what is missing from this ledger as taken out by the guard.

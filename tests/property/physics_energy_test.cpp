@@ -1,10 +1,12 @@
 // Where energy goes is booked, for every law, damper and integrator; what differs in name only moves alike.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "physics_node/world.h"
 #include "tests/support/physics/small_worlds.h"
+#include "tests/support/physics/solid_box.h"
 
 namespace palpate::physics::test {
 namespace {
@@ -135,6 +137,46 @@ TEST(TwoMaterials, KeepMomentum) {
   EXPECT_GT(world.report().broken, 0);
   EXPECT_LT((after.linear - before.linear).norm(), 1e-12 * world.body(0).body().lattice.n_masses());
   EXPECT_LT((after.angular - before.angular).norm(), 1e-12 * world.body(0).body().lattice.n_masses());
+}
+
+/// A bar that hangs, let go undamped, is back at its start every 4 L / c: gravity has taken back all that it gave, and what little the bar
+/// holds then is no growth.
+TEST(Guard, LeavesAloneWhatSwingsBackToItsStart) {
+  Recipe recipe = solid_box(10, 10, 80, 5);
+  recipe.material = "density_kg_per_m3 = 1000\nmodulus_kPa = 10\npoisson_ratio = 0";
+  recipe.body += "\nfixed = [\"+z\"]";
+  recipe.gravity = "[0, 0, -1]";
+  World world(scene_of(recipe));
+  const Index tip = world.body(0).body().lattice.masses.front();
+  const double rest = world.body(0).position(tip).z(), c = std::sqrt(10e3 / 1000);
+  double lowest = 0, fastest = 0, before = rest;
+  while (world.t() < 4 * 4 * 0.08 / c) {
+    world.frame({});
+    const double now = world.body(0).position(tip).z();
+    lowest = std::min(lowest, now - rest);
+    fastest = std::max(fastest, std::abs(now - before));
+    before = now;
+  }
+  EXPECT_EQ(world.report().restored + world.report().grown, 0);
+  EXPECT_EQ(world.ledger().guard, 0);
+  const double sag = 1000 * 0.08 * 0.08 / (2 * 10e3);  // rho g L^2 / 2 E, twice that at most
+  EXPECT_NEAR(lowest, -2 * sag, 0.03 * sag);
+  EXPECT_LT(fastest, 1.1e-3 * 0.08 / c);  // g L / c
+}
+
+/// Tissue that relaxes and has no damper falls onto a floor: its books close with the square of the step.
+TEST(Relaxation, OfUndampedTissueThatStrikesAFloorIsBooked) {
+  Recipe recipe = solid_box(20, 20, 20, 5);
+  recipe.material += "\nrelaxation = [[0.3, 0.05], [0.2, 1]]";
+  recipe.body += "\nat_mm = [0, 0, 15]";
+  recipe.gravity = "[0, 0, -9.81]";
+  recipe.physics = "step_ms = 0.2";
+  recipe.world = floor_at(0);
+  World world(scene_of(recipe));
+  run(world, 0.2);
+  const EnergyLedger ledger = world.ledger();
+  EXPECT_GT(ledger.dissipated, 0.01 * ledger.exchanged);
+  EXPECT_LT(std::abs(ledger.missing()), 0.01 * ledger.exchanged);
 }
 
 /// Speed of a body that flies without spin, over that at its start, after n steps of dt.
