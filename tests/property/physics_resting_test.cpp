@@ -191,6 +191,26 @@ double bounces_to(const Kind& kind, const std::string& physics, double restituti
   return highest;
 }
 
+/// Dropped, at steps in which it would fall far deeper than it is high over the floor: it lands flat, and rests there. Heights are those
+/// from which it once stayed in the air.
+TEST(ImplicitContact, WhatFallsOntoTheFloorInLongStepsLands) {
+  for (const double frame_Hz : {20.0, 33.0, 50.0, 100.0})
+    for (const double height_mm : {0.5, 2.0, 7.0, 10.0}) {
+      SCOPED_TRACE(fmt::format("{} mm, {} Hz", height_mm, frame_Hz));
+      Recipe recipe = block(solid, implicitly(frame_Hz));
+      recipe.material = "density_kg_per_m3 = 1000\nmodulus_kPa = 100\npoisson_ratio = 0.45";
+      recipe.world += "[contact]\nrestitution = 0\n";
+      recipe.body = std::string(solid.body) + fmt::format("at_mm = [0, 0, {}]", 15 + height_mm);
+      World world(scene_of(recipe));
+      run_for(world, 1.5);
+      EXPECT_EQ(world.report().unsolved, 0);
+      const Heights now = heights(world);
+      EXPECT_GT(now.lowest + 1e-3 * height_mm, -1e-8);
+      EXPECT_LT(now.bottom + 1e-3 * height_mm, 20e-6);  // a bottom that bulges stands on its rim
+      EXPECT_LT(std::abs(world.ledger().missing()), 0.02 * world.ledger().exchanged);
+    }
+}
+
 // A thrown block bounces as in explicit steps where steps are short, and the error falls with the step.
 TEST(ImplicitContact, ABlockBouncesAsInShortExplicitSteps) {
   for (const Kind& kind : {solid, voxel_springs}) {

@@ -30,6 +30,7 @@ Newton<Real>::Newton(const Body& body)
     for (auto& axis : *three) axis = ZeroedArray<Real>(n, colour++);
   for (auto& axis : rest_) axis = ZeroedArray<double>(n, colour++);
   at_.assign(n, 0);
+  held_from_.assign(n, 0);
   beyond_.assign(n, 0);
   for (std::size_t i = 0; i < n; ++i)
     if (storage()[i] >= 0 && body.lattice.is_beyond(storage()[i])) beyond_[i] = 1;
@@ -99,6 +100,69 @@ bool Newton<Real>::land(const Crew& crew, std::span<const Plane> planes) noexcep
 }
 
 template <class Real>
+double Newton<Real>::first_touch(const Crew& crew, std::span<const Plane> planes) noexcept {
+  constexpr double none = 2;
+  if (planes.empty()) return none;
+  const LevelContext<Real> m = hierarchy_.fine().context();
+  fine().each_plane(crew, [&](Index p) {
+    const GridPlane& plane = fine().planes()[static_cast<std::size_t>(p)];
+    double first = none;
+    for (Index i = plane.first; i < plane.last; ++i) {
+      const auto n = static_cast<std::size_t>(i);
+      if (!(m.free[i] > 0) || beyond_[n] != 0) continue;
+      const Vec3 x = rest(n) + vector_of(u, i);
+      for (const Plane& wall : planes) {
+        const double room = std::max(0.0, wall.n.dot(x) - wall.height) + wall.n.dot(vector_of(from_, i));
+        const double nearer = -wall.n.dot(vector_of(gradients_.x, i));
+        if (room > lies_on * edge_ && nearer > 0) first = std::min(first, room / nearer);
+      }
+    }
+    by_plane_[static_cast<std::size_t>(p)] = first;
+  });
+  return *std::min_element(by_plane_.begin(), by_plane_.end());
+}
+
+template <class Real>
+bool Newton<Real>::hold_what_is_driven_in(const Crew& crew, std::span<const Plane> planes) noexcept {
+  if (planes.empty()) return false;
+  const LevelContext<Real> m = hierarchy_.fine().context();
+  Three<Real>& b = gradients_.b;
+  fine().each_plane(crew, [&](Index p) {
+    const GridPlane& plane = fine().planes()[static_cast<std::size_t>(p)];
+    double held = 0;
+    for (Index i = plane.first; i < plane.last; ++i) {
+      const auto n = static_cast<std::size_t>(i);
+      if (!(m.free[i] > 0) || beyond_[n] != 0) continue;
+      const PlaneSet before = hierarchy_.supports().of(n);
+      PlaneSet by = before;
+      for (std::size_t k = 0; k < planes.size(); ++k)
+        if ((at_[n] >> k & 1) != 0 && planes[k].n.dot(vector_of(gradients_.x, i)) < 0) by |= PlaneSet{1} << k;
+      if (by == before) continue;
+      hierarchy_.supports().set(n, by);
+      const Vec3 taken = directions_of(by, planes).part_of(vector_of(b, i));
+      for (std::size_t a = 0; a < 3; ++a) b[a][n] -= static_cast<Real>(taken[static_cast<Eigen::Index>(a)]);
+      held = 1;
+    }
+    by_plane_[static_cast<std::size_t>(p)] = held;
+  });
+  return *std::max_element(by_plane_.begin(), by_plane_.end()) > 0;
+}
+
+template <class Real>
+bool Newton<Real>::holds_as_before(const Crew& crew, std::span<const Plane> planes) noexcept {
+  return planes.empty() || sum(crew, [&](std::size_t i) {
+                             return hierarchy_.supports().of(i) != held_from_[i] ? 1.0 : 0.0;
+                           }) == 0;
+}
+
+template <class Real>
+void Newton<Real>::find_step(const Crew& crew, const NewtonTask& task, NewtonReport& report) noexcept {
+  hierarchy_.linearise(crew, task.dt > 0 ? 1 + task.beta / task.dt : 1);
+  report.cycles +=
+      gradients_.solve(hierarchy_, crew, inner_tolerance, task.most_cycles - report.cycles).cycles;
+}
+
+template <class Real>
 void Newton<Real>::begin(const Crew& crew, const NewtonTask& task) noexcept {
   if (task.dt != dt_) hierarchy_.set_step(task.dt);
   dt_ = task.dt;
@@ -154,9 +218,10 @@ bool Newton<Real>::search(const Crew& crew, const NewtonTask& task, double& phi,
   const double before = report.residual, slope = gradients_.dot(hierarchy_, crew, gradients_.b, gradients_.x);
   each_node(crew, [&](std::size_t i) {
     for (std::size_t a = 0; a < 3; ++a) from_[a][i] = D[a][i];
+    held_from_[i] = hierarchy_.supports().of(i);
   });
-  double step = 1;
-  for (int halving = 0;; ++halving, step *= 0.5) {
+  double step = 1, touch = 0;
+  for (int halving = 0;; ++halving, step = halving > most_halvings ? touch : 0.5 * step) {
     const auto s = static_cast<Real>(step);
     each_node(crew, [&](std::size_t i) {
       for (std::size_t a = 0; a < 3; ++a) D[a][i] = from_[a][i] + s * gradients_.x[a][i];
@@ -165,12 +230,15 @@ bool Newton<Real>::search(const Crew& crew, const NewtonTask& task, double& phi,
     const double next = look(crew, task, report);
     // In float the slope along x is seen when what Phi falls by no longer is.
     const double left = gradients_.dot(hierarchy_, crew, gradients_.b, gradients_.x);
-    if (next <= phi - armijo * step * slope || report.residual < 0.9 * before ||
-        std::abs(left) < 0.5 * slope) {
+    const bool falls = next <= phi - armijo * step * slope;
+    // Why not where planes hold others than before: both are of what is free, and only Phi tells of all.
+    if (falls || ((report.residual < 0.9 * before || std::abs(left) < 0.5 * slope) &&
+                  holds_as_before(crew, task.planes))) {
       phi = next;
       return true;
     }
-    if (halving == most_halvings) break;
+    if (halving == most_halvings) touch = first_touch(crew, task.planes);
+    if (halving >= most_halvings && !(touch < step)) break;
     ++report.halvings;
   }
   each_node(crew, [&](std::size_t i) {
@@ -214,13 +282,17 @@ NewtonReport Newton<Real>::solve(const Crew& crew, const NewtonTask& task) noexc
   }));
   report.scale = std::max(outside, report.residual);
   double enough = task.tolerance * report.scale;
-  while (report.residual > enough && report.iterations < task.most_iterations &&
+  // Which nodes planes hold is found one set after the other.
+  const int most_iterations = task.planes.empty() ? task.most_iterations : 3 * task.most_iterations;
+  while (report.residual > enough && report.iterations < most_iterations &&
          report.cycles < task.most_cycles) {
-    hierarchy_.linearise(crew, task.dt > 0 ? 1 + task.beta / task.dt : 1);
+    find_step(crew, task, report);
     enough = std::max(enough, rounding(crew));
-    report.cycles +=
-        gradients_.solve(hierarchy_, crew, inner_tolerance, task.most_cycles - report.cycles).cycles;
     ++report.iterations;
+    if (search(crew, task, phi, report)) continue;
+    if (!hold_what_is_driven_in(crew, task.planes)) break;
+    find_step(crew, task, report);
+    report.residual = std::sqrt(gradients_.dot(hierarchy_, crew, gradients_.b, gradients_.b));
     if (!search(crew, task, phi, report)) break;
   }
   report.converged = report.residual <= enough;

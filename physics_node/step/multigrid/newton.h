@@ -33,7 +33,8 @@ struct NewtonReport {
 /// of its residual, with the positive tangent on all levels of the hierarchy, so that every step leads downhill; a step is halved
 /// until Phi falls (Armijo), or the residual does, or half of its part along the step is gone (Matthies & Strang 1979).
 /// No node passes a plane: D is projected out of them, and what lies on a plane and is pressed into it is solved for in the other
-/// directions only, while the plane takes the part of -g that presses (Bertsekas 1982: projected Newton). The planes that hold a node
+/// directions only, while the plane takes the part of -g that presses (Bertsekas 1982: projected Newton). Where even a small step would
+/// press a face into a plane that the whole body falls onto, it ends where the first node meets the plane. The planes that hold a node
 /// are found anew in every iteration, from the sign of what they would take; what begins within a thousandth of a cell counts as lying there.
 /// Cost: bench/fem. Contract: allocates and throws nothing after construction; the same bits on any number of threads.
 template <class Real>
@@ -87,6 +88,15 @@ class Newton {
   /// Sets on the planes what hovers over them and is driven into them. Why: unheld it would be solved for as if it were to fall, and the
   /// line search, which soon meets the plane, gives up. @return whether any did
   bool land(const Crew& crew, std::span<const Plane> planes) noexcept;
+  /// The share of the step x at which the first node that is not on a plane yet meets one; more than 1: none does.
+  double first_touch(const Crew& crew, std::span<const Plane> planes) noexcept;
+  /// Of what lies on planes: holds also what they let go and the step x presses into them all the same, as the rest of the body takes it
+  /// along. @return whether there is any
+  bool hold_what_is_driven_in(const Crew& crew, std::span<const Plane> planes) noexcept;
+  /// As where the search began?
+  bool holds_as_before(const Crew& crew, std::span<const Plane> planes) noexcept;
+  /// x of gradients_, for the right side and the supports of now.
+  void find_step(const Crew& crew, const NewtonTask& task, NewtonReport& report) noexcept;
   /// Takes from the right side of a node what planes hold, and notes it.
   void find_reaction(std::size_t node, std::span<const Plane> planes) noexcept;
   void begin(const Crew& crew, const NewtonTask& task) noexcept;
@@ -97,6 +107,7 @@ class Newton {
   Three<Real> from_;
   Three<double> rest_;                // places at rest
   std::vector<PlaneSet> at_;          // planes on which a node lies; none without planes
+  std::vector<PlaneSet> held_from_;   // which of them hold it where a search begins
   std::vector<std::uint8_t> beyond_;  // the body's shape: no plane meets it
   double edge_ = 0;                   // of a cell, the shortest [m]
   std::vector<double> by_plane_;
