@@ -9,7 +9,7 @@
 //   load             0 to 1000 g; floor; held face; a tool at up to 100 m/s that presses with up to 1 kN
 //   step             0.1 to 1.0 of the stable step; backward Euler at 1 to 100 times that
 //   precision, threads, all integrators
-// Of finite elements: voxels of Poisson's ratio 0 to 0.495 that do not yield, of either law and hourglass, some of which relax;
+// Of finite elements: voxels of Poisson's ratio 0 to 0.495, of either law and hourglass; some yield, some break, some relax;
 // symplectic Euler, and backward Euler where it follows them.
 
 #include <cstdint>

@@ -90,6 +90,7 @@ StressResult run_stress(std::uint64_t seed, ElementModel model,
           frame, world.t(), now.held, now.fallen - first.fallen, tools, growth, world.report().restored));
     if (!result.finite) break;
   }
+  result.finite = result.finite && std::isfinite(world.ledger().missing());
   result.steps = world.report().steps;
   result.restored = world.report().restored;
   result.diagnosis = world.stopped().value_or("none");

@@ -58,6 +58,8 @@ void read_stiffness(TableReader& reader, MaterialSpec& spec) {
   spec.k1 = reader.read_number("k1_N_per_m", positive);
   if (const auto modulus_kPa = reader.read_number("modulus_kPa", positive))
     spec.modulus = Pa_from_kPa(*modulus_kPa);
+  else if (reader.has("modulus_kPa"))
+    spec.modulus = 1;  // Why: it was refused; that there is none would be a second complaint, and untrue
   spec.lambda = reader.read_number("lambda_N", positive);
   read_modulus_by_intensity(reader, spec);
   check_group(reader, {"k1_N_per_m", "modulus_kPa", "lambda_N", "modulus_by_intensity"}, true);

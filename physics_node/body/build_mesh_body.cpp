@@ -99,7 +99,12 @@ void build_mesh_body(Body& body, const BodySpec& spec, const std::vector<Materia
   const auto& shape = std::get<MeshShape>(spec.shape);
   const MaterialTable table(spec, materials);
   MshContent content = read_msh(shape.file, shape.metres);
-  if (const std::size_t of_more = outer_faces(content.mesh).of_more; of_more > 0)
+  const OuterFaces outer = outer_faces(content.mesh);
+  if (outer.triangles.empty())
+    throw InputError(fmt::format(
+        "{}: no face in {} is of one tetrahedron, so the body has no surface; mesh it anew, each place once",
+        spec.place.text(), shape.file));
+  if (const std::size_t of_more = outer.of_more; of_more > 0)
     throw InputError(
         fmt::format("{}: {} faces in {} are of more than two tetrahedra, so the mesh goes through itself; "
                     "mesh it anew, each "

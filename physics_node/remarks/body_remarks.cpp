@@ -52,7 +52,30 @@ void add_holds(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
   }
 }
 
-/// What the reader of a mesh had to mend.
+/// Groups of nodes that no tetrahedron joins.
+int n_parts(const MeshBody& mesh) {
+  std::vector<std::uint8_t> seen(mesh.nodes.size(), 0);
+  std::vector<Index> open;
+  int parts = 0;
+  for (const Index first : mesh.nodes) {
+    if (seen[static_cast<std::size_t>(first)] != 0) continue;
+    ++parts;
+    open.push_back(first);
+    seen[static_cast<std::size_t>(first)] = 1;
+    while (!open.empty()) {
+      const Index node = open.back();
+      open.pop_back();
+      for (const Index other : mesh.neighbours.of(node)) {
+        if (seen[static_cast<std::size_t>(other)] != 0) continue;
+        seen[static_cast<std::size_t>(other)] = 1;
+        open.push_back(other);
+      }
+    }
+  }
+  return parts;
+}
+
+/// What the reader of a mesh had to mend, and what it cannot.
 void add_mended(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     if (!bodies[b]->body().mesh) continue;
@@ -63,6 +86,12 @@ void add_mended(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
     if (tidied.unused > 0)
       remarks.push_back(fmt::format("{}: {} nodes of its file are of no tetrahedron, and are left out",
                                     who(scene, b), tidied.unused));
+    if (const int parts = n_parts(*bodies[b]->body().mesh); parts > 1)
+      remarks.push_back(
+          fmt::format("{}: its mesh is {} parts that share no nodes, so nothing joins them; merge nodes that "
+                      "lie in one place "
+                      "in the mesher",
+                      who(scene, b), parts));
   }
 }
 

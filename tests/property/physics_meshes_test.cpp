@@ -288,6 +288,34 @@ TEST(Mesh, SaysWhatItsFileHadToBeMended) {
   EXPECT_EQ(world.body(0).body().n_nodes(), 8);
 }
 
+TEST(Mesh, OfPartsThatNothingJoinsIsRemarkedOn) {
+  TetMesh mesh = make_tet_box({.edge = 0.02});
+  const auto n = static_cast<Index>(mesh.nodes.size());
+  for (Index node = 0; node < n; ++node)
+    mesh.nodes.push_back(mesh.nodes[static_cast<std::size_t>(node)] + Vec3(0, 0, 0.02));
+  for (std::size_t t = 0; t < 6; ++t) {
+    mesh.tets.push_back(mesh.tets[t]);
+    for (Index& corner : mesh.tets.back()) corner += n;
+  }
+  Recipe recipe = mesh_box({1, 1, 1}, 0.02);
+  recipe.body = "fixed = [\"-z\"]";
+  recipe.shape = "shape = \"mesh\"\nunit = \"mm\"\nfile = \"" + mesh_file(mesh) + "\"";
+  EXPECT_THAT(remarks_about(World(scene_of(recipe))),
+              testing::ElementsAre(testing::HasSubstr("its mesh is 2 parts that share no nodes")));
+}
+
+TEST(Mesh, OfWhichAllIsThereTwiceIsRefused) {
+  TetMesh mesh = make_tet_box({.edge = 0.02});
+  for (std::size_t t = 0; t < 6; ++t) mesh.tets.push_back(mesh.tets[t]);
+  Recipe recipe = mesh_box({1, 1, 1}, 0.02);
+  recipe.shape = "shape = \"mesh\"\nunit = \"mm\"\nfile = \"" + mesh_file(mesh) + "\"";
+  EXPECT_THROW(World(scene_of(recipe)), InputError);
+  mesh.tets.resize(2);
+  mesh.tets[1] = mesh.tets[0];
+  recipe.shape = "shape = \"mesh\"\nunit = \"mm\"\nfile = \"" + mesh_file(mesh) + "\"";
+  EXPECT_THROW(World(scene_of(recipe)), InputError);
+}
+
 TEST(Mesh, IsBalancedOnlyWhereItIsHeld) {
   Recipe recipe = mesh_box({2, 2, 2}, 0.01);
   recipe.gravity = down;

@@ -239,6 +239,14 @@ TEST(Elements, AreReadWithTheirMaterial) {
   EXPECT_EQ(parsed(elements(tissue)).materials[0].poisson_ratio, 0.45);
 }
 
+TEST(Elements, OfAModulusThatIsRefusedAreNotSaidToHaveNone) {
+  for (const char* bad : {"-1", "0", "nan", "\"10\""})
+    EXPECT_THAT(
+        complaints_about(elements("density_kg_per_m3 = 1000\nmodulus_kPa = " + std::string(bad) + "\n")),
+        ElementsAre(HasSubstr("modulus_kPa")))
+        << bad;
+}
+
 TEST(Elements, MayFillTheCellsAtTheirBorder) {
   const std::string tissue = "density_kg_per_m3 = 1000\nmodulus_kPa = 10\n",
                     filled = "border_cells = \"filled\"";

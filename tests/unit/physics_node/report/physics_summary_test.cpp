@@ -104,6 +104,16 @@ TEST(PhysicsSummary, TellsOfYieldAndBreak) {
   EXPECT_LT(summary.at("momentum").at("angular_error").get<double>(), 1e-11);
 }
 
+TEST(PhysicsSummary, DoesNotMakeAnErrorOfTheDigitsOfWhatDoesNotTurn) {
+  Recipe recipe{.shape = Recipe::sphere(20)};
+  recipe.gravity = "[0, 0, -9.81]";
+  recipe.precision = "single";
+  World world(scene_of(recipe));
+  for (int n = 0; n < 100; ++n) world.frame({});
+  const json summary = physics_summary(world, nullptr, 1.0);
+  EXPECT_LT(summary.at("momentum").at("angular_error").get<double>(), 1e-4);
+}
+
 TEST(PhysicsSummary, SaysInWordsWhatIsWrong) {
   Recipe recipe;
   recipe.material = "mass_g = 1\nk1_N_per_m = 20000";
