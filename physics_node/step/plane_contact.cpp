@@ -19,9 +19,7 @@ void for_planes(PlaneSet set, std::span<const Plane> planes, const Visit& visit)
 
 KeptOut keep_out(const Vec3& x, const Vec3& D, std::span<const Plane> planes, double near) noexcept {
   KeptOut kept{.D = D};
-  const auto room = [&](const Plane& plane) {
-    return std::max(0.0, plane.n.dot(x) - plane.height) + plane.n.dot(kept.D);
-  };
+  const auto room = [&](const Plane& plane) { return room_left(plane, x, kept.D); };
   bool moved = true;
   for (int sweep = 0; moved && sweep < most_sweeps; ++sweep) {
     moved = false;

@@ -1,12 +1,18 @@
 #pragma once
 // One mass and the planes that it may not pass, in a step that is solved as a whole: backward_euler, and balances.
 
+#include <algorithm>
 #include <array>
 #include <span>
 
 #include "physics_node/step/plane.h"
 
 namespace palpate::physics {
+
+/// How far a mass that begins a step at x and moves by D is from a plane then; behind it from the start: from where it began. [m]
+inline double room_left(const Plane& plane, const Vec3& x, const Vec3& D) noexcept {
+  return std::max(0.0, plane.n.dot(x) - plane.height) + plane.n.dot(D);
+}
 
 /// What a mass that begins a step at x may move by: n . D >= - gap, gap = n . x - height; and where it is behind the plane from the
 /// start, no deeper: n . D >= 0.

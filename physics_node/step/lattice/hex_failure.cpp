@@ -169,12 +169,18 @@ double HexFailure<Real>::ductility_of(const Cell& now, Index cell) const noexcep
   return crack > now.energy ? crack / now.energy : 0.0;
 }
 
+template <class Real>
+bool HexFailure<Real>::comes_to_its_limit(const Cell& now, Index cell) const noexcept {
+  const TensionLimit<double> limit = limit_of(cell);
+  return limit.stretch > 0 && is_pulled(now, limit) && now.energy > 0;
+}
+
 /// Does this cell begin? Then by how much of its own energy it is outlived.
 template <class Real>
 void HexFailure<Real>::begin(LatticeState<Real>& state, Index cell, std::size_t run) noexcept {
   const auto c = static_cast<std::size_t>(cell);
   const Cell now = look_at(state, cell);
-  if (!is_pulled(now, limit_of(cell)) || !(now.energy > 0)) return;
+  if (!comes_to_its_limit(now, cell)) return;
   state.failed.begun[c] = static_cast<Real>(now.energy);
   state.failed.ductility[c] = static_cast<Real>(ductility_of(now, cell));
   stretch_[c] = 0;
@@ -198,8 +204,8 @@ double HexFailure<Real>::stiffness_left(const LatticeState<Real>& state, Index c
 }
 
 template <class Real>
-typename HexFailure<Real>::Due HexFailure<Real>::due(const LatticeState<Real>& state) const {
-  Due due{std::vector<double>(state.failed.damage.size(), 0.0), 0};
+HexBreaks HexFailure<Real>::due(const LatticeState<Real>& state) const {
+  HexBreaks due{std::vector<double>(state.failed.damage.size(), 0.0), 0};
   for (const HexRun& run : grid_.runs)
     for (Index cell = run.first; cell < run.first + run.count; ++cell) {
       const auto c = static_cast<std::size_t>(cell);
@@ -208,8 +214,7 @@ typename HexFailure<Real>::Due HexFailure<Real>::due(const LatticeState<Real>& s
       const Cell now = look_at(state, cell);
       if (state.failed.begun[c] > 0)
         due.loss[c] = s - stiffness_left(state, cell, now);
-      else if (limit_of(cell).stretch > 0 && is_pulled(now, limit_of(cell)) && now.energy > 0 &&
-               ductility_of(now, cell) == 0)
+      else if (comes_to_its_limit(now, cell) && ductility_of(now, cell) == 0)
         due.loss[c] = s;
       due.energy += due.loss[c] * now.middle;
     }

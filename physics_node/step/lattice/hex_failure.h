@@ -9,7 +9,8 @@
 //
 // Where stress goes with strain, stress falls on a straight line. Each loss of stiffness takes W (- ds), in all
 //   W_c + integral of s dW = r W_c = G_c A,
-// whatever the path: so a crack takes the fracture energy G_c by its area, and not by the size of cells. A = V / sum |N_i| h_i is the
+// whatever the path: so a layer of cells takes the fracture energy G_c by its area, whatever their size; docs/bodies.md has what those beside
+// a crack take. A = V / sum |N_i| h_i is the
 // share of a cell in a crack across N, the direction of the largest stretch at rest.
 // Limit: r <= 1, where a cell holds more at its limit than the crack may take, or no G_c is given: then it takes what the cell holds.
 // Large cells of brittle tissue do: edge > G_c / (energy of tissue at its limit by volume). s is then 0 at once.
@@ -28,6 +29,12 @@
 
 namespace palpate::physics {
 
+/// What the next step will break before anything acts.
+struct HexBreaks {
+  std::vector<double> loss;  // of stiffness, in units of that of a whole cell  (n_cells); empty: none
+  double energy = 0;         // that is booked for it [J]
+};
+
 template <class Real>
 class HexFailure {
  public:
@@ -41,12 +48,7 @@ class HexFailure {
   std::int64_t begin_step(LatticeState<Real>& state, const HexActing& acting, const ExplicitStep& step,
                           ZeroedArray<Real>& stiffness) noexcept;
 
-  /// What the next step will break before anything acts.
-  struct Due {
-    std::vector<double> loss;  // of stiffness, in units of that of a whole cell  (n_cells)
-    double energy = 0;         // that is booked for it [J]
-  };
-  Due due(const LatticeState<Real>& state) const;
+  HexBreaks due(const LatticeState<Real>& state) const;
 
   /// Of each run: 1 where a cell has lost anything.
   const std::uint8_t* torn() const noexcept { return torn_.data(); }
@@ -62,6 +64,7 @@ class HexFailure {
   double ductility_of(const Cell& now, Index cell) const noexcept;
   double stiffness_left(const LatticeState<Real>& state, Index cell, const Cell& now) const noexcept;
   TensionLimit<double> limit_of(Index cell) const noexcept;
+  bool comes_to_its_limit(const Cell& now, Index cell) const noexcept;
   bool is_pulled(const Cell& now, const TensionLimit<double>& limit) const noexcept;
 
   const Body& body_;

@@ -166,15 +166,15 @@ StepOutcome Hexahedra<Real>::step(const Body& body, LatticeState<Real>& state,
 
 /// As the next step finds it: what a cell breaks by first never acts, however far a light mass has flown in the last step.
 template <class Real>
-MeasuredHexahedra Hexahedra<Real>::measure(const Body& body, const LatticeState<Real>& state) const {
-  const std::vector<double> soon = failure_ ? failure_->due(state).loss : std::vector<double>{};
-  return measure_hexahedra(body, grid_, state, CellsOf::rest, state.v, soon);
+HexBreaks Hexahedra<Real>::due_breaks(const LatticeState<Real>& state) const {
+  return failure_ ? failure_->due(state) : HexBreaks{};
 }
 
 template <class Real>
 Energies Hexahedra<Real>::energies(const Body& body, const LatticeState<Real>& state,
                                    const Vec3& gravity) const {
-  const MeasuredHexahedra now = measure(body, state);
+  const MeasuredHexahedra now =
+      measure_hexahedra(body, grid_, state, CellsOf::rest, state.v, due_breaks(state).loss);
   Energies e;
   e.elastic = now.elastic;
   double power = 0;
@@ -195,9 +195,10 @@ Energies Hexahedra<Real>::energies(const Body& body, const LatticeState<Real>& s
 template <class Real>
 Losses Hexahedra<Real>::due(const Body& body, const LatticeState<Real>& state) const {
   Losses due;
-  if (failure_) due.broken = failure_->due(state).energy;
+  const HexBreaks soon = due_breaks(state);
+  due.broken = soon.energy;
   if ((body.solid->beta == 0 && body.solid->relaxation.empty()) || state.dt_before == 0) return due;
-  const MeasuredHexahedra now = measure(body, state);
+  const MeasuredHexahedra now = measure_hexahedra(body, grid_, state, CellsOf::rest, state.v, soon.loss);
   if (fast_) due.viscous = fast_->due(body, grid_, state, now);
   due.viscous += now.lost_before + std::accumulate(lost_after_.begin(), lost_after_.end(), 0.0);
   if (rate_known_)

@@ -31,7 +31,7 @@ class Hexahedra final : public LatticeElements<Real> {
  private:
   /// After rows have fallen asleep or woken: who acts, and which dampers rest.
   void follow_rows(const Body& body, LatticeState<Real>& state) noexcept;
-  MeasuredHexahedra measure(const Body& body, const LatticeState<Real>& state) const;
+  HexBreaks due_breaks(const LatticeState<Real>& state) const;
 
   HexGrid grid_;
   HexActing acting_;

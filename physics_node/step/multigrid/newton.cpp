@@ -87,7 +87,7 @@ bool Newton<Real>::land(const Crew& crew, std::span<const Plane> planes) noexcep
       if (!(m.free[i] > 0) || beyond_[n] != 0) continue;
       const Vec3 x = rest(n) + vector_of(u, i), pressed = vector_of(b, i);
       for (const Plane& wall : planes) {
-        const double room = std::max(0.0, wall.n.dot(x) - wall.height) + wall.n.dot(vector_of(D, i));
+        const double room = room_left(wall, x, vector_of(D, i));
         if (room <= lies_on * edge_ || room > hovers * edge_ || wall.n.dot(pressed) >= 0) continue;
         for (std::size_t a = 0; a < 3; ++a)
           D[a][n] -= static_cast<Real>(room * wall.n[static_cast<Eigen::Index>(a)]);
@@ -112,7 +112,7 @@ double Newton<Real>::first_touch(const Crew& crew, std::span<const Plane> planes
       if (!(m.free[i] > 0) || beyond_[n] != 0) continue;
       const Vec3 x = rest(n) + vector_of(u, i);
       for (const Plane& wall : planes) {
-        const double room = std::max(0.0, wall.n.dot(x) - wall.height) + wall.n.dot(vector_of(from_, i));
+        const double room = room_left(wall, x, vector_of(from_, i));
         const double nearer = -wall.n.dot(vector_of(gradients_.x, i));
         if (room > lies_on * edge_ && nearer > 0) first = std::min(first, room / nearer);
       }

@@ -31,7 +31,8 @@ struct NewtonReport {
 ///
 /// the slope of  Phi = M |D - coast|^2 / (2 dt^2) + W(u + D) - push . D,  f and W with the dampers over the step.  Each system is solved by conjugate gradients to a tenth
 /// of its residual, with the positive tangent on all levels of the hierarchy, so that every step leads downhill; a step is halved
-/// until Phi falls (Armijo), or the residual does, or half of its part along the step is gone (Matthies & Strang 1979).
+/// until Phi falls (Armijo) or, where planes hold the same nodes as before, the residual does or half of its part along the step is gone
+/// (Matthies & Strang 1979).
 /// No node passes a plane: D is projected out of them, and what lies on a plane and is pressed into it is solved for in the other
 /// directions only, while the plane takes the part of -g that presses (Bertsekas 1982: projected Newton). Where even a small step would
 /// press a face into a plane that the whole body falls onto, it ends where the first node meets the plane. The planes that hold a node

@@ -1,5 +1,6 @@
 #include "tests/unit/common/scene/sample_scene.h"
 
+#include <gmock/gmock.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -7,6 +8,7 @@
 
 #include "common/error/error.h"
 #include "common/scene/load_scene.h"
+#include "common/scene/scene.h"
 
 namespace palpate::test {
 namespace fs = std::filesystem;
@@ -170,6 +172,11 @@ std::vector<std::string> complaints_about(const std::string& text, const std::ve
     return lines;
   }
   return {};
+}
+
+Scene parsed(const std::string& text, const std::vector<std::string>& settings) {
+  EXPECT_THAT(complaints_about(text, settings), testing::IsEmpty()) << text;
+  return parse_scene(text, scene_folder() + "/s.toml", settings);
 }
 
 }  // namespace palpate::test

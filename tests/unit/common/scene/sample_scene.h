@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "common/scene/scene_fwd.h"
+
 namespace palpate::test {
 
 /// Most keys of a scene file once. The volume it names lies in scene_folder().
@@ -19,5 +21,8 @@ const std::string& scene_folder();
 /// Empty if the scene is right.
 std::vector<std::string> complaints_about(const std::string& text,
                                           const std::vector<std::string>& settings = {});
+
+/// The scene, which is to be right.
+Scene parsed(const std::string& text, const std::vector<std::string>& settings = {});
 
 }  // namespace palpate::test

@@ -19,6 +19,7 @@ namespace palpate {
 namespace {
 
 using test::complaints_about;
+using test::parsed;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -34,11 +35,6 @@ std::string body(const std::string& keys) {
 
 std::string hand(const std::string& from) {
   return fmt::format("[device.hand]\ndriver = \"simulated\"\nwaypoints = [[0, {}], [1, 0, 0, 0]]\n", from);
-}
-
-Scene parsed(const std::string& text) {
-  EXPECT_THAT(complaints_about(text), IsEmpty()) << text;
-  return parse_scene(text, test::scene_folder() + "/s.toml", {});
 }
 
 struct Mistake {

@@ -13,15 +13,11 @@ namespace palpate {
 namespace {
 
 using test::complaints_about;
+using test::parsed;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Optional;
-
-Scene parsed(const std::string& text) {
-  EXPECT_THAT(complaints_about(text), IsEmpty());
-  return parse_scene(text, test::scene_folder() + "/s.toml");
-}
 
 /// A box of finite elements of one material.
 std::string elements(const std::string& material, const std::string& lattice = "voxel") {

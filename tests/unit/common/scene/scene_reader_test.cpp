@@ -22,15 +22,11 @@ namespace {
 using test::complaints_about;
 using test::full_scene;
 using test::least_scene;
+using test::parsed;
 using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::Optional;
 using testing::Pair;
-
-Scene parsed(const std::string& text, const std::vector<std::string>& settings = {}) {
-  EXPECT_THAT(complaints_about(text, settings), IsEmpty());
-  return parse_scene(text, test::scene_folder() + "/s.toml", settings);
-}
 
 TEST(SceneReader, ReadsTheWorldAndTheStepInSI) {
   const auto scene = parsed(full_scene);

@@ -14,16 +14,12 @@ namespace palpate {
 namespace {
 
 using test::complaints_about;
+using test::parsed;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Optional;
 using testing::StartsWith;
-
-Scene parsed(const std::string& text, const std::vector<std::string>& settings = {}) {
-  EXPECT_THAT(complaints_about(text, settings), IsEmpty());
-  return parse_scene(text, test::scene_folder() + "/s.toml", settings);
-}
 
 /// Materials soft, hard (axial dampers), dragged, stretchy (no damper), and one body of "soft".
 /// Keys of the body stand in line 20.
