@@ -11,6 +11,7 @@ palpate_test(NAME physics_elements_test KIND property SOURCES physics_elements_t
   LIBS palpate_physics_worlds palpate_bench_problems)
 # Few stiff cells that take steps of their own.
 palpate_test(NAME physics_fast_cells_test KIND property SOURCES physics_fast_cells_test.cpp LIBS palpate_physics_worlds)
+palpate_test(NAME physics_cracks_test KIND property SOURCES physics_cracks_test.cpp LIBS palpate_physics_worlds)
 palpate_test(NAME physics_failure_test KIND property SOURCES physics_failure_test.cpp LIBS palpate_physics_worlds)
 palpate_test(NAME physics_yield_test KIND property SOURCES physics_yield_test.cpp LIBS palpate_physics_worlds)
 # Meshes of tetrahedra through the door of a scene: closed forms, laws, contact.

@@ -26,14 +26,26 @@ Mask cells_along(const Vec3i& direction) {
   return cells;
 }
 
+/// N: the direction of the largest stretch, at rest.
+Vec3 stretched_along(const Tensor<double>& h) {
+  const Tensor<double> strain = stretching<One>(h);
+  Eigen::Matrix3d c_i;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) c_i(i, j) = strain[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solved;
+  solved.computeDirect(c_i);
+  return solved.eigenvectors().col(2);
+}
+
 }  // namespace
 
 template <class Real>
 struct HexFailure<Real>::Cell {
-  Tensor<double> h;         // gradient of the displacement at its centre
-  Plastic<double> plastic;  // all zero where nothing yields
-  double energy = 0;        // as if it were whole [J]
-  double middle = 0;        // the same in the middle of the step that led here [J]
+  Index cell = -1;
+  Tensor<double> h{};         // gradient of the displacement at its centre
+  Plastic<double> plastic{};  // all zero where nothing yields
+  double energy = 0;          // as if it were whole [J]
+  double middle = 0;          // the same in the middle of the step that led here [J]
 };
 
 template <class Real>
@@ -45,6 +57,7 @@ HexFailure<Real>::HexFailure(const Body& body, const HexGrid& grid, std::size_t 
       tension_(static_cast<std::size_t>(body.capacity()), colour + 1),
       found_(grid.runs.size(), Strained::far),
       torn_(grid.runs.size(), 0),
+      shares_(body),
       kernel_(hex_strain_kernel_here<Real>()) {
   const SolidElements& solid = *body.solid;
   for (std::size_t m = 0; m < solid.failures.size(); ++m)
@@ -56,6 +69,7 @@ HexFailure<Real>::HexFailure(const Body& body, const HexGrid& grid, std::size_t 
     sharing_[d + half.size()] = cells_along(-half[d]);
   }
   breaking_.reserve(body.lattice.masses.size());
+  losses_.reserve(body.lattice.masses.size());
 }
 
 template <class Real>
@@ -76,7 +90,7 @@ void HexFailure<Real>::follow(const LatticeState<Real>& state, ZeroedArray<Real>
     for (Index cell = run.first; cell < run.first + run.count; ++cell) {
       const auto c = static_cast<std::size_t>(cell);
       if (body_.solid->stiffness[c] <= 0) continue;
-      const bool begun = state.failed.begun[c] > 0;
+      const bool begun = state.failed.reached[c] > 0;
       stretch_[c] = begun ? Real(0) : static_cast<Real>(limit_of(cell).stretch);
       // Of what has yielded tension is less than strain tells there: whoever is pulled at all is looked at.
       tension_[c] = static_cast<Real>(any_cells_yield(body_) ? 0.0 : limit_of(cell).tension);
@@ -131,6 +145,7 @@ typename HexFailure<Real>::Cell HexFailure<Real>::look_at(const LatticeState<Rea
   else
     hex_forces<One, StableNeoHookean, false, true>(k_, w, out);
   Cell now;
+  now.cell = cell;
   now.plastic = plastic_of(state, cell);
   if (any_cells_yield(body_)) add_plastic(k_, w, now.plastic, out);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -154,35 +169,30 @@ bool HexFailure<Real>::is_pulled(const Cell& now, const TensionLimit<double>& li
   return least_minor<One>(breaking_stretch<One>(limit, of_volume, now.h), stretching<One>(now.h)) <= 0;
 }
 
-/// r of a cell that begins now.
 template <class Real>
-double HexFailure<Real>::ductility_of(const Cell& now, Index cell) const noexcept {
-  const Tensor<double> strain = stretching<One>(now.h);
-  Eigen::Matrix3d c_i;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) c_i(i, j) = strain[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solved;
-  solved.computeDirect(c_i);
-  const double width = solved.eigenvectors().col(2).cwiseAbs().dot(body_.lattice.step);
-  const double crack = body_.solid->failures[body_.solid->failure_of[static_cast<std::size_t>(cell)]].energy *
-                       body_.lattice.step.prod() / width;
-  return crack > now.energy ? crack / now.energy : 0.0;
-}
-
-template <class Real>
-bool HexFailure<Real>::comes_to_its_limit(const Cell& now, Index cell) const noexcept {
-  const TensionLimit<double> limit = limit_of(cell);
+bool HexFailure<Real>::comes_to_its_limit(const Cell& now) const noexcept {
+  const TensionLimit<double> limit = limit_of(now.cell);
   return limit.stretch > 0 && is_pulled(now, limit) && now.energy > 0;
 }
 
-/// Does this cell begin? Then by how much of its own energy it is outlived.
+/// Of the crack, of a cell that begins now; 0: it holds more [J].
+template <class Real>
+double HexFailure<Real>::share_to_begin(const Cell& now, const Vec3& normal) const noexcept {
+  const double share = shares_.share_of(now.cell, normal);
+  return share > now.energy ? share : 0.0;
+}
+
+/// Does this cell begin?
 template <class Real>
 void HexFailure<Real>::begin(LatticeState<Real>& state, Index cell, std::size_t run) noexcept {
   const auto c = static_cast<std::size_t>(cell);
   const Cell now = look_at(state, cell);
-  if (!comes_to_its_limit(now, cell)) return;
-  state.failed.begun[c] = static_cast<Real>(now.energy);
-  state.failed.ductility[c] = static_cast<Real>(ductility_of(now, cell));
+  if (!comes_to_its_limit(now)) return;
+  state.failed.reached[c] = static_cast<Real>(now.energy);
+  const Vec3 normal = stretched_along(now.h);
+  state.failed.left[c] = static_cast<Real>(share_to_begin(now, normal));
+  for (int a = 0; a < 3; ++a)
+    state.failed.normal[static_cast<std::size_t>(a)][c] = static_cast<Real>(normal[a]);
   stretch_[c] = 0;
   torn_[run] = 1;
   breaking_.push_back(cell);
@@ -190,17 +200,17 @@ void HexFailure<Real>::begin(LatticeState<Real>& state, Index cell, std::size_t 
 
 /// s of a cell that has begun, as it is now.
 template <class Real>
-double HexFailure<Real>::stiffness_left(const LatticeState<Real>& state, Index cell,
-                                        const Cell& now) const noexcept {
-  const auto c = static_cast<std::size_t>(cell);
+double HexFailure<Real>::stiffness_left(const LatticeState<Real>& state, const Cell& now) const noexcept {
+  const auto c = static_cast<std::size_t>(now.cell);
   const double s = 1 - static_cast<double>(state.failed.damage[c]);
-  const auto r = static_cast<double>(state.failed.ductility[c]);
-  if (!(r > 0)) return 0;
-  const double e = std::sqrt(now.energy / static_cast<double>(state.failed.begun[c]));
+  if (!(state.failed.left[c] > 0)) return 0;
+  const auto reached = static_cast<double>(state.failed.reached[c]);
+  const double e = std::sqrt(now.energy / reached);
   // Only what is pulled opens.
-  const TensionLimit<double> pulled{.stretch = 0, .tension = limit_of(cell).tension};
+  const TensionLimit<double> pulled{.stretch = 0, .tension = limit_of(now.cell).tension};
   if (e <= 1 || !is_pulled(now, pulled)) return s;
-  return std::clamp((r - e) / (e * (r - 1)), 0.0, s);
+  const double r = shares_.left_to(state, now.cell) / (s * reached);
+  return r > e ? s * (r - e) / (e * (r - 1)) : 0.0;
 }
 
 template <class Real>
@@ -212,34 +222,48 @@ HexBreaks HexFailure<Real>::due(const LatticeState<Real>& state) const {
       const double s = 1 - static_cast<double>(state.failed.damage[c]);
       if (body_.solid->stiffness[c] <= 0 || s <= 0) continue;
       const Cell now = look_at(state, cell);
-      if (state.failed.begun[c] > 0)
-        due.loss[c] = s - stiffness_left(state, cell, now);
-      else if (comes_to_its_limit(now, cell) && ductility_of(now, cell) == 0)
+      if (state.failed.reached[c] > 0)
+        due.loss[c] = s - stiffness_left(state, now);
+      else if (comes_to_its_limit(now) && share_to_begin(now, stretched_along(now.h)) == 0)
         due.loss[c] = s;
       due.energy += due.loss[c] * now.middle;
     }
   return due;
 }
 
-/// @return it is gone
+/// @return what it takes [J]
 template <class Real>
-bool HexFailure<Real>::go_on(LatticeState<Real>& state, Index cell, ZeroedArray<Real>& stiffness) noexcept {
-  const auto c = static_cast<std::size_t>(cell);
+double HexFailure<Real>::lose(LatticeState<Real>& state, const Loss& loss,
+                              ZeroedArray<Real>& stiffness) noexcept {
+  const auto c = static_cast<std::size_t>(loss.cell);
   const double s = 1 - static_cast<double>(state.failed.damage[c]);
-  const Cell now = look_at(state, cell);
-  const double target = stiffness_left(state, cell, now);
-  if (target >= s) return false;
-  const Real damage = static_cast<Real>(1 - target);
-  const double lost = static_cast<double>(damage) - (1 - s);
+  const double takes = std::sqrt(static_cast<double>(state.failed.reached[c]) * loss.reached) * (s - loss.to);
+  const auto damage = static_cast<Real>(1 - loss.to);
+  state.failed.reached[c] = static_cast<Real>(loss.reached);
   state.failed.damage[c] = damage;
   ++state.failed.changes;
   stiffness[c] = static_cast<Real>(body_.solid->stiffness[c]) * (1 - damage);
-  RowLedger& ledger = state.ledger[static_cast<std::size_t>(body_.lattice.row_of(cell))];
-  ledger.broken += lost * now.middle;
-  if (damage < 1) return false;
+  RowLedger& ledger = state.ledger[static_cast<std::size_t>(body_.lattice.row_of(loss.cell))];
+  ledger.broken += (static_cast<double>(damage) - (1 - s)) * loss.middle;
+  if (damage < 1) return takes;
   ++ledger.breaks;
-  take_away(state, cell);
-  return true;
+  take_away(state, loss.cell);
+  return takes;
+}
+
+/// All that have begun, each as the others were before: their order makes no difference.
+template <class Real>
+void HexFailure<Real>::go_on(LatticeState<Real>& state, ZeroedArray<Real>& stiffness) noexcept {
+  losses_.clear();
+  for (const Index cell : breaking_) {
+    const Cell now = look_at(state, cell);
+    const double to = stiffness_left(state, now);
+    if (to < 1 - static_cast<double>(state.failed.damage[static_cast<std::size_t>(cell)]))
+      losses_.push_back({cell, to, now.energy, now.middle});
+  }
+  for (Loss& loss : losses_) loss.takes = lose(state, loss, stiffness);
+  for (const Loss& loss : losses_)
+    if (loss.to > 0) shares_.take(state, loss.cell, loss.takes);
 }
 
 /// Its corners lose it, and each other where no other cell joins them.
@@ -273,8 +297,11 @@ std::int64_t HexFailure<Real>::begin_step(LatticeState<Real>& state, const HexAc
       if (stretch_[static_cast<std::size_t>(cell)] > 0) begin(state, cell, r);
     found_[r] = Strained::near;
   }
+  std::ranges::sort(breaking_);
+  go_on(state, stiffness);
   const std::size_t before = breaking_.size();
-  std::erase_if(breaking_, [&](Index cell) { return go_on(state, cell, stiffness); });
+  std::erase_if(breaking_,
+                [&state](Index cell) { return state.failed.damage[static_cast<std::size_t>(cell)] >= 1; });
   const auto gone = static_cast<std::int64_t>(before - breaking_.size());
   state.breaks += gone;
   return gone;

@@ -2,17 +2,16 @@
 // Hexahedra that break.
 //
 // A cell that comes to its limit (step/fem/hex_tension.h) loses stiffness, all of it alike: its forces are s times those of a whole
-// cell, s from 1 to 0, and it never heals. With W its energy as if it were whole, W_c that when it began, and e = sqrt(W / W_c), the
-// largest so far while it was in tension,
+// cell, s from 1 to 0, and it never heals. With W its energy as if it were whole, W_m the most so far while it was in tension, and what
+// is left to it of its share of the crack, from G_c A on (hex_crack.h),
 //
-//   s = (r - e) / (e (r - 1)),   1 <= e <= r,       r = G_c A / W_c
+//   s -> s (r - e) / (e (r - 1)),   e = sqrt(W / W_m) >= 1,   r = left / (s W_m);       e >= r: it is gone
 //
-// Where stress goes with strain, stress falls on a straight line. Each loss of stiffness takes W (- ds), in all
-//   W_c + integral of s dW = r W_c = G_c A,
-// whatever the path: so a layer of cells takes the fracture energy G_c by its area, whatever their size; docs/bodies.md has what those beside
-// a crack take. A = V / sum |N_i| h_i is the
-// share of a cell in a crack across N, the direction of the largest stretch at rest.
-// Limit: r <= 1, where a cell holds more at its limit than the crack may take, or no G_c is given: then it takes what the cell holds.
+// Where stress goes with strain, stress falls on a straight line, to where what is left is used up: each loss of stiffness takes W (- ds), so
+//   left -> left - sqrt(W W_m) (s - s').
+// A cell alone takes G_c A whatever the path: so a layer of cells takes the fracture energy G_c by its area, whatever their size.
+// A = V / sum |N_i| h_i is the share of a cell in a crack across N, the direction of the largest stretch at rest.
+// Limit: where a cell holds more at its limit than the crack may take, or no G_c is given, it takes what it holds.
 // Large cells of brittle tissue do: edge > G_c / (energy of tissue at its limit by volume). s is then 0 at once.
 // Why no ramp over some steps: a cell that lags behind its law is pulled on at full strength, and took up to three times its share.
 //
@@ -24,6 +23,7 @@
 #include "physics_node/step/fem/hex_element.h"
 #include "physics_node/step/fem/hex_tension.h"
 #include "physics_node/step/lattice/hex_acting.h"
+#include "physics_node/step/lattice/hex_crack.h"
 #include "physics_node/step/lattice/hex_strain.h"
 #include "physics_node/step/lattice/state.h"
 
@@ -55,16 +55,25 @@ class HexFailure {
 
  private:
   struct Cell;  // as it is now
+  /// What a cell loses in a step.
+  struct Loss {
+    Index cell = -1;
+    double to = 0;       // s
+    double reached = 0;  // energy as if it were whole [J]
+    double middle = 0;   // the same in the middle of the step [J]
+    double takes = 0;    // [J]
+  };
   void follow(const LatticeState<Real>& state, ZeroedArray<Real>& stiffness) noexcept;
   void look(const LatticeState<Real>& state, const HexActing& acting, const ExplicitStep& step) noexcept;
   void begin(LatticeState<Real>& state, Index cell, std::size_t run) noexcept;
-  bool go_on(LatticeState<Real>& state, Index cell, ZeroedArray<Real>& stiffness) noexcept;
+  void go_on(LatticeState<Real>& state, ZeroedArray<Real>& stiffness) noexcept;
+  double lose(LatticeState<Real>& state, const Loss& loss, ZeroedArray<Real>& stiffness) noexcept;
   void take_away(LatticeState<Real>& state, Index cell) noexcept;
   Cell look_at(const LatticeState<Real>& state, Index cell) const noexcept;
-  double ductility_of(const Cell& now, Index cell) const noexcept;
-  double stiffness_left(const LatticeState<Real>& state, Index cell, const Cell& now) const noexcept;
+  double stiffness_left(const LatticeState<Real>& state, const Cell& now) const noexcept;
   TensionLimit<double> limit_of(Index cell) const noexcept;
-  bool comes_to_its_limit(const Cell& now, Index cell) const noexcept;
+  bool comes_to_its_limit(const Cell& now) const noexcept;
+  double share_to_begin(const Cell& now, const Vec3& normal) const noexcept;
   bool is_pulled(const Cell& now, const TensionLimit<double>& limit) const noexcept;
 
   const Body& body_;
@@ -74,7 +83,9 @@ class HexFailure {
   ZeroedArray<Real> stretch_, tension_;       // as HexStrain has them  (n_cells)
   std::vector<Strained> found_;               // of each run
   std::vector<std::uint8_t> torn_;            // of each run
-  std::vector<Index> breaking_;               // cells that have begun and are not gone
+  std::vector<Index> breaking_;               // cells that have begun and are not gone, in storage order
+  std::vector<Loss> losses_;                  // of this step
+  CrackShares<Real> shares_;
   std::array<Mask, max_directions>
       sharing_{};                   // cells around a mass that hold its element in a direction, as cell_bits
   std::uint64_t replacements_ = 0;  // of the state, when last followed

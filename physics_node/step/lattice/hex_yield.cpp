@@ -64,7 +64,7 @@ void HexYield<Real>::begin_step(LatticeState<Real>& state, const HexActing& acti
     m.high[a] = high[a].data();
   }
   m.stiffness = stiffness.data();
-  m.begun = state.failed.begun.size() > 0 ? state.failed.begun.data() : nullptr;
+  m.begun = state.failed.reached.size() > 0 ? state.failed.reached.data() : nullptr;
   m.limit = limit_.data();
   m.hardening = hardening_.data();
   for (std::size_t n = 0; n < n_plastic; ++n) m.memory[n] = state.plastic.memory[n].data();

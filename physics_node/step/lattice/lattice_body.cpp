@@ -250,7 +250,7 @@ class LatticeBody final : public BodyModel, private PendingStep {
       seed = hash_state(&state_.mask[first], count * sizeof(Mask), seed);
       for (const auto& array : state_.remembered)
         seed = hash_state(&array[first], count * sizeof(Real), seed);
-      for (const auto* array : {&state_.failed.damage, &state_.failed.begun, &state_.failed.ductility})
+      for (const auto* array : state_.failed.arrays())
         if (array->size() > 0) seed = hash_state(&(*array)[first], count * sizeof(Real), seed);
       for (const auto& array : state_.plastic.memory)
         seed = hash_state(&array[first], count * sizeof(Real), seed);

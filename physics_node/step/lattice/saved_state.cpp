@@ -12,12 +12,9 @@ void copy_rows(const Body& body, const ZeroedArray<T>& from, ZeroedArray<T>& to)
     std::copy_n(from.data() + row.first, row.count, to.data() + row.first);
 }
 
-/// Calls visit(of a, of b) for each array of what cells have lost.
-template <class Cells, class Others, class Visit>
-void each_array(Cells& a, Others& b, const Visit& visit) noexcept {
-  visit(a.damage, b.damage);
-  visit(a.begun, b.begun);
-  visit(a.ductility, b.ductility);
+template <class Real>
+void copy_cells(const Body& body, const FailedCells<Real>& from, FailedCells<Real>& to) noexcept {
+  for (std::size_t a = 0; a < from.arrays().size(); ++a) copy_rows(body, *from.arrays()[a], *to.arrays()[a]);
 }
 
 }  // namespace
@@ -33,7 +30,7 @@ SavedState<Real>::SavedState(const Body& body, const LatticeState<Real>& state) 
   if (!any_breaks(body)) return;
   mask_ = ZeroedArray<Mask>(n);
   if (body.solid)
-    for (auto* array : {&failed_.damage, &failed_.begun, &failed_.ductility}) *array = ZeroedArray<Real>(n);
+    for (auto* array : failed_.arrays()) *array = ZeroedArray<Real>(n);
   if (!any_yields(body)) return;
   for (std::size_t h = 0; h < static_cast<std::size_t>(body.lattice.n_half); ++h) {
     l_c_[h] = ZeroedArray<Real>(n);
@@ -50,7 +47,7 @@ void SavedState<Real>::take(const Body& body, const LatticeState<Real>& state) n
     failed_.changes = state.failed.changes;
     breaks_ = state.breaks;
     copy_rows(body, state.mask, mask_);
-    each_array(state.failed, failed_, [&body](const auto& from, auto& to) { copy_rows(body, from, to); });
+    copy_cells(body, state.failed, failed_);
   }
   if (plastic_.changes != state.plastic.changes) {
     plastic_.changes = state.plastic.changes;
@@ -95,7 +92,7 @@ void SavedState<Real>::bring_back(const Body& body, LatticeState<Real>& state) c
   if (!any_breaks(body)) return;
   copy_rows(body, mask_, state.mask);
   if (body.solid) {
-    each_array(failed_, state.failed, [&body](const auto& from, auto& to) { copy_rows(body, from, to); });
+    copy_cells(body, failed_, state.failed);
     ++state.failed.changes;
   }
   if (!any_yields(body)) return;

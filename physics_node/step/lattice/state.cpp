@@ -36,8 +36,7 @@ LatticeState<Real>::LatticeState(const Body& body) : fast(body) {
   row_state.resize(body.lattice.rows.size());
   ledger.resize(body.lattice.rows.size());
   if (body.solid && any_breaks(body)) {
-    for (auto* array : {&failed.damage, &failed.begun, &failed.ductility})
-      *array = ZeroedArray<Real>(n, colour++);
+    for (auto* array : failed.arrays()) *array = ZeroedArray<Real>(n, colour++);
     fresh.reserve_cells(body.lattice.masses.size());
   }
   if (any_breaks(body)) fresh.reserve(body.lattice.n_elements());
@@ -57,8 +56,8 @@ void LatticeState<Real>::reset(const Body& body) {
     }
     mask[c] = body.lattice.mask[c];
     for (auto& array : remembered) array[c] = 0;
-    if (failed.begun.size() > 0 && failed.begun[c] != 0)
-      failed.begun[c] = failed.damage[c] = failed.ductility[c] = 0;
+    if (failed.reached.size() > 0 && failed.reached[c] != 0)
+      for (auto* array : failed.arrays()) (*array)[c] = 0;
     if (!plastic.memory.empty() && plastic.memory.back()[c] != 0)
       for (auto& array : plastic.memory) array[c] = 0;
     for (std::size_t h = 0; yields && h < static_cast<std::size_t>(body.lattice.n_half); ++h) {

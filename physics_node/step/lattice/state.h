@@ -34,10 +34,22 @@ struct VariedConstants {
 /// What cells have lost, by their lowest corner: see hex_failure.h.
 template <class Real>
 struct FailedCells {
-  ZeroedArray<Real> damage;     // share of its stiffness that is gone; 1: broken                  (n_cells)
-  ZeroedArray<Real> begun;      // energy of the whole cell when that began; 0: it has not [J]      (n_cells)
-  ZeroedArray<Real> ductility;  // what the crack takes over `begun`; 0: no more than the cell holds (n_cells)
-  std::uint64_t changes = 0;    // how often any of them was another one
+  ZeroedArray<Real> damage;  // share of its stiffness that is gone; 1: broken                      (n_cells)
+  ZeroedArray<Real>
+      reached;              // most energy of the whole cell in tension; 0: it has not begun [J]     (n_cells)
+  ZeroedArray<Real> left;   // that the crack may take of it yet; 0: no more than it holds [J]      (n_cells)
+  ZeroedArray<Real> taken;  // of what it took, what is on no other cell's account [J]              (n_cells)
+  Three<Real> normal;       // N of hex_crack.h, when it began                                      (n_cells)
+  std::uint64_t changes = 0;  // how often any of them was another one
+
+  auto arrays() noexcept { return arrays_of(*this); }
+  auto arrays() const noexcept { return arrays_of(*this); }
+
+ private:
+  static auto arrays_of(auto& of) noexcept {
+    return std::array{&of.damage,    &of.reached,   &of.left,     &of.taken,
+                      &of.normal[0], &of.normal[1], &of.normal[2]};
+  }
 };
 
 /// What cells have yielded, by their lowest corner: see step/fem/hex_plastic.h.
