@@ -15,7 +15,7 @@
 namespace palpate::bench {
 namespace {
 
-constexpr int steps_a_frame = 4;
+constexpr int steps_a_tet_frame = 4;
 
 class TetCube {
  public:
@@ -33,8 +33,8 @@ class TetCubeOf final : public TetCube {
       if (body_.inverse_mass(n) > 0) body_.place(n, Vec3::Zero(), 0.01 * Vec3(dice(), dice(), dice()));
   }
   void frame(physics::Team* team, int threads) override {
-    for (int n = 0; n < steps_a_frame; ++n)
-      body_.step({.dt = dt_, .team = team, .threads = threads, .watch = n + 1 == steps_a_frame});
+    for (int n = 0; n < steps_a_tet_frame; ++n)
+      body_.step({.dt = dt_, .team = team, .threads = threads, .watch = n + 1 == steps_a_tet_frame});
   }
 
  private:
@@ -99,7 +99,7 @@ std::vector<TetCost> measure_tet_costs(const std::vector<TetCubeKind>& kinds, in
       const Stopwatch watch;
       for (int frame = 0; frame < frames; ++frame)
         cubes[n]->frame(kinds[n].threads > 1 ? &team : nullptr, kinds[n].threads);
-      if (round > 0) costs[n].ns.push_back(1e9 * watch.wall_s() / (frames * steps_a_frame * tets));
+      if (round > 0) costs[n].ns.push_back(1e9 * watch.wall_s() / (frames * steps_a_tet_frame * tets));
     }
   return costs;
 }

@@ -7,7 +7,7 @@
 namespace palpate::bench {
 namespace {
 
-constexpr double when = 2.0;          // physics falls silent [s]
+constexpr double silent_from = 2.0;   // physics falls silent [s]
 constexpr double watched = 0.7;       // [s]
 constexpr double long_silence = 0.5;  // [s]
 
@@ -21,12 +21,12 @@ Silence silence_in(const std::vector<Case>& cases) {
   Silence all;
   for (const Case& c : cases) {
     Trial trial(c, press_path(c));
-    trial.run(when);
+    trial.run(silent_from);
     trial.physics_alive = false;
-    double last_message = when, last = 1e9, gone = 10;
+    double last_message = silent_from, last = 1e9, gone = 10;
     std::uint64_t seen = taken(trial);
     bool stale = false;
-    trial.run(when + watched, [&] {
+    trial.run(silent_from + watched, [&] {
       if (taken(trial) != seen) seen = taken(trial), last_message = trial.t();
       const bool now_stale = trial.controller().state() == haptic::HapticState::stale;
       const double f = trial.rendered().force.norm();
@@ -37,10 +37,10 @@ Silence silence_in(const std::vector<Case>& cases) {
     });
     trial.restart_physics();
     double ready = 10;
-    trial.run(when + watched + 0.5, [&] {
+    trial.run(silent_from + watched + 0.5, [&] {
       if (trial.controller().state() == haptic::HapticState::ready) ready = std::min(ready, trial.t());
     });
-    all.found = std::max(all.found, ready - (when + watched) - c.link.delay);
+    all.found = std::max(all.found, ready - (silent_from + watched) - c.link.delay);
     all.latest = std::max(all.latest, gone - last_message);
     all.went_stale = all.went_stale && stale;
     all.step = std::max(all.step, trial.force_step_beyond_motion());
@@ -55,9 +55,9 @@ Return return_in(const std::vector<Case>& cases, const std::vector<double>& away
     for (const double silent : away) {
       const Path press = press_path(c, 1.0, 3.0);
       Trial trial(c, [press](double t) { return t < 5 ? press(t) : press(t - 5); });
-      trial.run(when);
+      trial.run(silent_from);
       trial.physics_alive = false;
-      trial.run(when + silent);
+      trial.run(silent_from + silent);
       trial.restart_physics();
       trial.run(7.0, [&] {
         if (silent > long_silence && trial.t() <= 4)

@@ -13,7 +13,7 @@ namespace {
 using haptic::DeviceSample;
 using haptic::HapticState;
 
-constexpr double when = 2.0;  // the trouble begins [s]
+constexpr double trouble_at = 2.0;  // the trouble begins [s]
 
 struct Trouble {
   const char* name;
@@ -56,12 +56,12 @@ std::string complaint(const Trouble& trouble, double& rise) {
   c.object = object_models[0];
   c.hand = hand_springs[1];
   Trial trial(c, press_path(c));
-  trial.run(when);
+  trial.run(trouble_at);
   int i = 0, reached = -1, last_force = -1;
   bool finite = true;
   const double before = trial.rendered().force.norm();
   trial.spoil_sample = [&](DeviceSample& sample) { trouble.spoil(sample, i); };
-  trial.run(when + 0.2, [&] {
+  trial.run(trouble_at + 0.2, [&] {
     ++i;
     const double f = trial.rendered().force.norm();
     finite = finite && std::isfinite(f);

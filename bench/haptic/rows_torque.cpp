@@ -13,8 +13,8 @@
 namespace palpate::bench {
 namespace {
 
-constexpr double torque_limit = 0.02, force_limit = 3.0;
-constexpr std::int64_t tick_ns = 1'000'000;
+constexpr double least_torque_limit = 0.02, force_limit = 3.0;
+constexpr std::int64_t torque_tick_ns = 1'000'000;
 
 struct SixTally {
   double torque_most = 0, force_most = 0, off_direction = 0, surplus = 0;
@@ -66,7 +66,7 @@ void move_for_ten_seconds(std::uint64_t seed, SixTally& tally) {
   haptic::ControllerSettings settings;
   settings.model = ForceModel::tangent;
   settings.force_limit = force_limit;
-  settings.torque_limit = torque_limit;
+  settings.torque_limit = least_torque_limit;
   haptic::Controller controller(settings);
   controller.set_state(haptic::HapticState::ready);
   std::int64_t now = 1'000'000'000;
@@ -99,22 +99,23 @@ void move_for_ten_seconds(std::uint64_t seed, SixTally& tally) {
     tally.torque_most = std::max(tally.torque_most, out.torque.norm());
     tally.force_most = std::max(tally.force_most, out.force.norm());
     const Vec3 felt = controller.contact().torque;
-    if (felt.norm() > torque_limit && out.torque.norm() > 0.999 * torque_limit)
+    if (felt.norm() > least_torque_limit && out.torque.norm() > 0.999 * least_torque_limit)
       tally.off_direction =
           std::max(tally.off_direction,
                    std::acos(std::clamp(felt.normalized().dot(out.torque.normalized()), -1.0, 1.0)));
     acting[1] = acting[0];
     acting[0] << out.force, out.torque;
-    energy.tick(1e-9 * tick_ns, controller.stored(), controller.plane_work(),
+    energy.tick(1e-9 * torque_tick_ns, controller.stored(), controller.plane_work(),
                 controller.contact().n_planes > 0);
-    now += tick_ns;
+    now += torque_tick_ns;
   }
   tally.surplus = std::max(tally.surplus, energy.surplus());
   tally.excess = std::max(tally.excess, energy.plane_excess());
   // Attitudes that are none: rejected, and after three a fault.
   sample.is_rotation = false;
   const std::uint64_t before = controller.motion().rejected();
-  for (int n = 0; n < 3; ++n) sample.t_ns = now += tick_ns, controller.tick(now, sample, &patch, &wrench);
+  for (int n = 0; n < 3; ++n)
+    sample.t_ns = now += torque_tick_ns, controller.tick(now, sample, &patch, &wrench);
   tally.bad_rejected = tally.bad_rejected && controller.motion().rejected() == before + 3;
   tally.faulted = tally.faulted && controller.state() == haptic::HapticState::fault;
 }
@@ -135,13 +136,14 @@ Row torque_is_bounded(const Runs& runs) {
       "springs kept; bad attitudes rejected, 3 a fault",
       fmt::format("{} hands of 10 s: torque {:.4f} of {} N m, force {:.2f} of {} N, direction {:.1e} "
                   "deg; G {:.3f} mJ, work {:+.3f} mJ of its bound; {}",
-                  cases, tally.torque_most, torque_limit, tally.force_most, force_limit,
+                  cases, tally.torque_most, least_torque_limit, tally.force_most, force_limit,
                   tally.off_direction * 180 / M_PI, 1e3 * tally.surplus, 1e3 * tally.excess,
                   tally.bad_rejected && tally.faulted ? "rejected, fault" : "let in"),
-      tally.torque_most > 0.99 * torque_limit && tally.force_most > 0.5 &&
-          tally.torque_most <= torque_limit * (1 + 1e-9) && tally.force_most <= force_limit * (1 + 1e-9) &&
-          tally.off_direction <= 0.1 * M_PI / 180 && tally.surplus <= EnergyBook::G_allowed &&
-          tally.excess <= 1e-9 && tally.bad_rejected && tally.faulted};
+      tally.torque_most > 0.99 * least_torque_limit && tally.force_most > 0.5 &&
+          tally.torque_most <= least_torque_limit * (1 + 1e-9) &&
+          tally.force_most <= force_limit * (1 + 1e-9) && tally.off_direction <= 0.1 * M_PI / 180 &&
+          tally.surplus <= EnergyBook::G_allowed && tally.excess <= 1e-9 && tally.bad_rejected &&
+          tally.faulted};
 }
 
 }  // namespace palpate::bench

@@ -7,8 +7,8 @@
 namespace palpate::bench {
 namespace {
 
-constexpr double tick = 1e-3, wait = 0.3;  // [s]
-constexpr std::int64_t tick_ns = 1'000'000;
+constexpr double tick_s = 1e-3, wait = 0.3;  // [s]
+constexpr std::int64_t surface_tick_ns = 1'000'000;
 
 haptic::TouchSettings settings_of(const SurfaceCase& c) {
   haptic::TouchSettings settings;
@@ -44,11 +44,11 @@ SurfaceRun touch_surface(const SurfaceCase& c, const Path& path, double until) {
   Vec3 in_flight = Vec3::Zero();  // on the handle, a tick on its way
   std::uint64_t frames = 0, taken = 0;
   double next_frame = -wait;
-  const int ticks = static_cast<int>(std::lround((until + wait) / tick));
-  const int waiting = static_cast<int>(std::lround(wait / tick));
+  const int ticks = static_cast<int>(std::lround((until + wait) / tick_s));
+  const int waiting = static_cast<int>(std::lround(wait / tick_s));
   for (int n = 0; n < ticks; ++n) {
-    const double t = -wait + tick * n;
-    const std::int64_t now_ns = n * tick_ns;
+    const double t = -wait + tick_s * n;
+    const std::int64_t now_ns = n * surface_tick_ns;
     up.send(now_ns, newest_samples(touch.history()));
     if (t >= next_frame - 1e-9) {
       next_frame += 1 / c.rate_Hz;
@@ -63,14 +63,14 @@ SurfaceRun touch_surface(const SurfaceCase& c, const Path& path, double until) {
     }
     const Vec3 force = -touch.tick(plant.measured(), 1.0);
     run.step_beyond =
-        std::max(run.step_beyond,
-                 (force - in_flight).norm() - c.stiffness * (plant.v().norm() * tick + c.device.resolution));
+        std::max(run.step_beyond, (force - in_flight).norm() -
+                                      c.stiffness * (plant.v().norm() * tick_s + c.device.resolution));
     if (n >= waiting) run.samples.push_back({t, plant.x(), touch.felt(), Vec3::Zero(), touch.share()});
     const Vec3 acting = in_flight, before = plant.x();
     in_flight = force;
-    energy.tick(tick, touch.stored() - force.dot(plant.x() - plant.measured()), touch.correction_work(),
+    energy.tick(tick_s, touch.stored() - force.dot(plant.x() - plant.measured()), touch.correction_work(),
                 touch.touching());
-    const int steps = static_cast<int>(std::lround(tick / Plant::step));
+    const int steps = static_cast<int>(std::lround(tick_s / Plant::step));
     const Vec3 push = t >= 0 && t < c.pushed ? c.push : Vec3(Vec3::Zero());
     for (int i = 0; i < steps; ++i) {
       const double now = t + i * Plant::step;

@@ -1,9 +1,9 @@
 // A standing wave on a chain of N equal elements with held ends, against the dispersion relation of the lattice.
 //
-//   u_n(t) = A sin(j pi n / N) cos(w t),   w = 2 sqrt(k / m) sin(j pi / (2 N))
+//   u_n(t) = A sin(j pi n / N) cos(w t),   w = 2 sqrt(spring / mass) sin(j pi / (2 N))
 //
 // The chain is the diagonal of one layer of a face-centred lattice of which all other masses are held: the elements
-// beside it stand at right angles and act only in third order of A / L. The frequency is read from the wave's amplitude
+// beside it stand at right angles and act only in third order of A / edge. The frequency is read from the wave's amplitude
 // a_n at regular times by the recurrence a_(n+1) + b a_(n-1) = 2 c a_n of any damped cosine, w = acos(c / sqrt b) / tau,
 // with b and c fitted to all samples. Error: relative difference in w.
 
@@ -21,15 +21,15 @@
 namespace palpate::bench {
 namespace {
 
-constexpr double k = 1000, m = 1, L = 1;
+constexpr double spring = 1000, mass = 1, edge = 1;
 
 Scene chain_scene(int n) {
   Scene scene = empty_scene();
-  scene.materials[0].mass = m;
-  scene.materials[0].k1 = k;
-  const double step = L / std::numbers::sqrt2;
+  scene.materials[0].mass = mass;
+  scene.materials[0].k1 = spring;
+  const double step = edge / std::numbers::sqrt2;
   const double side = (n + 0.1) * step;
-  scene.bodies = {box_body(LatticeKind::fcc, Vec3(side, side, 0.1), L)};
+  scene.bodies = {box_body(LatticeKind::fcc, Vec3(side, side, 0.1), edge)};
   const auto hold = [&](double x0, double x1, double y) {  // in steps
     scene.bodies[0].fixed_boxes.push_back(
         {Vec3(x0 * step, (y - 0.2) * step, -1), Vec3(x1 * step, (y + 0.2) * step, 1)});
@@ -57,7 +57,7 @@ double frequency(const std::vector<double>& a, double tau) {
 Outcome chain_wave(const Settings& settings, int n, int mode) {
   constexpr double A = 1e-4;  // [m]
   const double q = mode * std::numbers::pi / n;
-  const double w = 2 * std::sqrt(k / m) * std::sin(q / 2);
+  const double w = 2 * std::sqrt(spring / mass) * std::sin(q / 2);
   constexpr int periods = 10, frames = 12 * periods;
   const double T = periods * 2 * std::numbers::pi / w;
   Scene scene = chain_scene(n);

@@ -22,13 +22,6 @@ constexpr int warm_up = 20;  // rounds that are not counted
 constexpr std::uint8_t go_on = 1, end_now = 2;
 constexpr dds_duration_t patience = DDS_MSECS(200);
 
-Membership joined() {
-  Membership membership;
-  membership.domain = bench_domain;
-  membership.shared_memory = true;  // unless the environment refuses it
-  return membership;
-}
-
 /// One end: a writer of one topic, a reader of the other.
 template <class Bytes>
 class End {
@@ -87,7 +80,7 @@ class End {
     return word;
   }
 
-  Participant participant{joined()};
+  Participant participant{bench_membership()};
 
  private:
   bool loaned_;

@@ -14,13 +14,6 @@ namespace {
 using namespace std::chrono_literals;
 constexpr double pace_Hz = 1000;
 
-Membership joined() {
-  Membership membership;
-  membership.domain = bench_domain;
-  membership.shared_memory = true;  // unless the environment refuses it
-  return membership;
-}
-
 void fill(ToolState& state) { state.tick = 1; }
 void fill(ContactPatch& patch) {
   patch.n_facets = 8;
@@ -68,7 +61,7 @@ double paced_us(int times, const Work& work) {
 /// @return {processor time a sample [us]}
 template <class M>
 std::vector<double> write_all(int samples) {
-  Participant participant(joined());
+  Participant participant(bench_membership());
   Writer<M> writer(participant);
   for (int i = 0; writer.matched() == 0; ++i) {
     if (i > 5000) return {};
@@ -87,7 +80,7 @@ std::vector<double> write_all(int samples) {
 /// @return {processor time a sample that came [us], samples that came}; over when none comes for a second
 template <class M>
 std::vector<double> read_all() {
-  Participant participant(joined());
+  Participant participant(bench_membership());
   Reader<M> reader(participant);
   const auto message = std::make_unique<M>();
   if (!reader.wait(10s)) return {};

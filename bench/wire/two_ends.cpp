@@ -28,8 +28,8 @@ template <class Work>
   std::exit(code);  // not _exit: iceoryx tells RouDi on the way out
 }
 
-void end_within(pid_t child, std::chrono::milliseconds patience) {
-  const auto end = std::chrono::steady_clock::now() + patience;
+void end_within(pid_t child, std::chrono::milliseconds allowed) {
+  const auto end = std::chrono::steady_clock::now() + allowed;
   while (waitpid(child, nullptr, WNOHANG) == 0) {
     if (std::chrono::steady_clock::now() > end) kill(child, SIGKILL);
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -37,6 +37,13 @@ void end_within(pid_t child, std::chrono::milliseconds patience) {
 }
 
 }  // namespace
+
+Membership bench_membership() {
+  Membership membership;
+  membership.domain = bench_domain;
+  membership.shared_memory = true;
+  return membership;
+}
 
 std::vector<double> run_ends(Path path, const std::function<std::vector<double>()>& first,
                              const std::function<void()>& second) {

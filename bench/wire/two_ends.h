@@ -5,12 +5,16 @@
 #include <functional>
 #include <vector>
 
+#include "common/wire/participant.h"
+
 namespace palpate::bench {
 
 /// How the ends talk.
 enum class Path { udp, memory };
 
 inline constexpr int bench_domain = 98;
+/// Of that domain, through shared memory unless the environment refuses it.
+Membership bench_membership();
 
 /// Runs both ends, each in a process of its own with `path` forced upon it, and gives what `first` answers. `second` is
 /// killed if it has not ended ten seconds after `first`.
