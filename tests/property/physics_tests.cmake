@@ -2,12 +2,12 @@
 add_library(palpate_physics_worlds STATIC ${PROJECT_SOURCE_DIR}/tests/support/physics/small_worlds.cpp
                                            ${PROJECT_SOURCE_DIR}/tests/support/physics/tool_angles.cpp)
 target_link_libraries(palpate_physics_worlds PUBLIC palpate::physics)
-palpate_test(NAME physics_laws_test KIND property
+palpate_test(NAME physics_laws_test KIND property APART
   SOURCES physics_motion_test.cpp physics_force_test.cpp physics_plastic_test.cpp physics_same_bits_test.cpp
           physics_stability_test.cpp physics_breaks_test.cpp physics_fragments_test.cpp
           physics_energy_test.cpp physics_books_test.cpp physics_sleep_test.cpp physics_construction_test.cpp
   LIBS palpate_physics_worlds)
-palpate_test(NAME physics_elements_test KIND property SOURCES physics_elements_test.cpp physics_damper_test.cpp physics_shadow_energy_test.cpp physics_tissue_laws_test.cpp
+palpate_test(NAME physics_elements_test KIND property APART SOURCES physics_elements_test.cpp physics_damper_test.cpp physics_shadow_energy_test.cpp physics_tissue_laws_test.cpp
   LIBS palpate_physics_worlds palpate_bench_problems)
 # Few stiff cells that take steps of their own.
 palpate_test(NAME physics_fast_cells_test KIND property SOURCES physics_fast_cells_test.cpp LIBS palpate_physics_worlds)
@@ -17,7 +17,7 @@ palpate_test(NAME physics_yield_test KIND property SOURCES physics_yield_test.cp
 # Meshes of tetrahedra through the door of a scene: closed forms, laws, contact.
 palpate_test(NAME physics_meshes_test KIND property SOURCES physics_meshes_test.cpp LIBS palpate_physics_worlds)
 # Finite elements against what is known: closed forms, and CalculiX where it is installed.
-palpate_test(NAME physics_solids_test KIND property SOURCES physics_calculix_test.cpp physics_solids_test.cpp physics_large_strain_test.cpp physics_presses_test.cpp
+palpate_test(NAME physics_solids_test KIND property APART SOURCES physics_calculix_test.cpp physics_solids_test.cpp physics_large_strain_test.cpp physics_presses_test.cpp
   LIBS palpate_physics_worlds palpate_bench_problems palpate_bench_solids)
 # A rigid tip on the faces of a body: Hertz, and the laws.
 palpate_test(NAME physics_touch_test KIND property SOURCES physics_touch_test.cpp LIBS palpate_physics_worlds palpate_bench_solids)

@@ -4,7 +4,8 @@
 // Stress at the tip of a crack is highest beside it, and what is opening there is blunt: cells of the layers above and below lose a part
 // of their stiffness that they keep, the more layers the finer the cells. They and the one that goes are one crack:
 //
-//   the open cells that a line of l / 2 along N on either side meets, N the direction of the largest stretch at rest of one when it began;
+//   the open cells that a line of l / 2 along N on either side meets before it comes to one that has not begun, N the direction of the
+//   largest stretch at rest of one when it began;
 //   l = G_c / (energy of tissue at its limit by volume): the layer whose energy at the limit feeds one crack
 //
 // Among them the one that lost most leads. What others take is taken off its share, and falls to nobody else:

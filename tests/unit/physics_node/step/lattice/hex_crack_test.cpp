@@ -54,7 +54,7 @@ TEST_F(Crack, IsSharedByItsWidthAcrossItsNormal) {
 }
 
 TEST_F(Crack, ChargesTheOneThatLostMostOnce) {
-  const Index leader = open(2, 0, 5, 0.8), beside = open(2, 0, 7, 0.3);
+  const Index leader = open(2, 0, 5, 0.8), beside = open(2, 0, 6, 0.3);
   shares_.take(state_, leader, 0.25);
   shares_.take(state_, beside, 0.125);
   EXPECT_DOUBLE_EQ(left(leader), 1 - 0.25 - 0.125);
@@ -62,7 +62,7 @@ TEST_F(Crack, ChargesTheOneThatLostMostOnce) {
 }
 
 TEST_F(Crack, ChargesWhoeverLeadsLater) {
-  const Index first = open(2, 0, 5, 0.3), later = open(2, 0, 7, 0.1);
+  const Index first = open(2, 0, 5, 0.3), later = open(2, 0, 6, 0.1);
   shares_.take(state_, first, 0.25);
   state_.failed.damage[static_cast<std::size_t>(later)] = 0.6;
   EXPECT_DOUBLE_EQ(left(later), 1 - 0.25);
@@ -75,6 +75,15 @@ TEST_F(Crack, IsNotThatOfCellsBesideTheLine) {
   const Index leader = open(2, 0, 5, 0.8), aside = open(3, 0, 5, 0.3);
   shares_.take(state_, aside, 0.25);
   EXPECT_DOUBLE_EQ(left(leader), 1);
+}
+
+/// What lies beyond tissue that is whole is another crack.
+TEST_F(Crack, EndsAtACellThatHasNotBegun) {
+  const Index leader = open(2, 0, 5, 0.8), beyond = open(2, 0, 7, 0.3);
+  shares_.take(state_, beyond, 0.25);
+  EXPECT_DOUBLE_EQ(left(leader), 1);
+  open(2, 0, 6, 0.1);
+  EXPECT_DOUBLE_EQ(left(leader), 1 - 0.25);
 }
 
 TEST_F(ShortCrack, DoesNotReachFar) {
