@@ -13,6 +13,9 @@ namespace {
 /// Of a line, on either side. Why: of cells a tenth of l in size no more than ten beside a crack soften; time goes with it.
 constexpr int most_cells = 16;
 
+/// Why not std::round: without SSE 4.1 it is a call.
+int nearest(double x) { return static_cast<int>(x + std::copysign(0.5, x)); }
+
 }  // namespace
 
 template <class Real>
@@ -48,13 +51,13 @@ Index CrackShares<Real>::each_across(const LatticeState<Real>& state, Index cell
   const Lattice& lattice = body_.lattice;
   const double reach = reach_[body_.solid->failure_of[c]] / static_cast<double>(body_.solid->stiffness[c]);
   const Vec3 normal = vector_of(state.failed.normal, cell).cwiseQuotient(lattice.step);  // [cells/m]
-  const double layer =
-      1 / normal.cwiseAbs().maxCoeff();  // from one of the axis it is nearest to, to the next [m]
+  const double layer = 1 / normal.cwiseAbs().maxCoeff();  // across the axis that it is nearest to [m]
   const Vec3i here = lattice.grid_of(cell);
   Index gap = -1;
   for (const double way : {layer, -layer})
     for (int n = 1; n <= most_cells && (n - 0.5) * layer <= reach; ++n) {
-      const Vec3i to = here + (n * way * normal).array().round().matrix().template cast<int>();
+      Vec3i to = here;
+      for (int a = 0; a < 3; ++a) to[a] += nearest(n * way * normal[a]);
       const Index other = lattice.mass_at(to);
       if (other < 0) break;
       if (!is_open(state, other)) {
