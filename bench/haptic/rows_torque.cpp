@@ -8,13 +8,13 @@
 #include <random>
 
 #include "bench/haptic/rows.h"
+#include "bench/haptic/trial.h"
 #include "common/message/vec3.h"
 
 namespace palpate::bench {
 namespace {
 
 constexpr double least_torque_limit = 0.02, force_limit = 3.0;
-constexpr std::int64_t torque_tick_ns = 1'000'000;
 
 struct SixTally {
   double torque_most = 0, force_most = 0, off_direction = 0, surplus = 0;
@@ -105,9 +105,9 @@ void move_for_ten_seconds(std::uint64_t seed, SixTally& tally) {
                    std::acos(std::clamp(felt.normalized().dot(out.torque.normalized()), -1.0, 1.0)));
     acting[1] = acting[0];
     acting[0] << out.force, out.torque;
-    energy.tick(1e-9 * torque_tick_ns, controller.stored(), controller.plane_work(),
+    energy.tick(1e-9 * Trial::tick_ns, controller.stored(), controller.plane_work(),
                 controller.contact().n_planes > 0);
-    now += torque_tick_ns;
+    now += Trial::tick_ns;
   }
   tally.surplus = std::max(tally.surplus, energy.surplus());
   tally.excess = std::max(tally.excess, energy.plane_excess());
@@ -115,7 +115,7 @@ void move_for_ten_seconds(std::uint64_t seed, SixTally& tally) {
   sample.is_rotation = false;
   const std::uint64_t before = controller.motion().rejected();
   for (int n = 0; n < 3; ++n)
-    sample.t_ns = now += torque_tick_ns, controller.tick(now, sample, &patch, &wrench);
+    sample.t_ns = now += Trial::tick_ns, controller.tick(now, sample, &patch, &wrench);
   tally.bad_rejected = tally.bad_rejected && controller.motion().rejected() == before + 3;
   tally.faulted = tally.faulted && controller.state() == haptic::HapticState::fault;
 }

@@ -4,11 +4,12 @@
 #include <cmath>
 #include <optional>
 
+#include "bench/haptic/trial.h"
+
 namespace palpate::bench {
 namespace {
 
 constexpr double tick_s = 1e-3, wait = 0.3;  // [s]
-constexpr std::int64_t surface_tick_ns = 1'000'000;
 
 haptic::TouchSettings settings_of(const SurfaceCase& c) {
   haptic::TouchSettings settings;
@@ -48,7 +49,7 @@ SurfaceRun touch_surface(const SurfaceCase& c, const Path& path, double until) {
   const int waiting = static_cast<int>(std::lround(wait / tick_s));
   for (int n = 0; n < ticks; ++n) {
     const double t = -wait + tick_s * n;
-    const std::int64_t now_ns = n * surface_tick_ns;
+    const std::int64_t now_ns = n * Trial::tick_ns;
     up.send(now_ns, newest_samples(touch.history()));
     if (t >= next_frame - 1e-9) {
       next_frame += 1 / c.rate_Hz;
