@@ -98,12 +98,11 @@ void World::move_bodies(double dt, bool watch) noexcept {
   {
     const StageTimer timer(report_, stage);
     const bool joint = is_implicit() && near_;
-    const double driven = joint ? collisions_->tally().driven_work : 0;
     if (joint && !collisions_->solve(how, gathered_)) ++report_.unsolved;
     for (std::size_t b = 0; b < bodies_.size(); ++b)
       take(joint ? bodies_[b]->pending()->end(how, {gathered_[b], collisions_->contact(b)})
                  : bodies_[b]->advance(how, gathered_[b]));
-    if (joint) book_work(collisions_->tally().driven_work - driven);
+    if (joint) book_work(collisions_->driven_work());
   }
   choice_.took(report_[stage].total_ns - before);
   ++report_[is_implicit() ? Stage::element_forces : Stage::integrate].skipped;  // one pass does both
@@ -121,10 +120,9 @@ void World::touch(double dt, double done) noexcept {
     report_.contact_lost += led.lost;
   }
   if (near_ && !is_implicit()) {
-    const CollisionTally before = collisions_->tally();
-    collisions_->step(dt);
-    book_work(collisions_->tally().driven_work - before.driven_work);
-    report_.contact_lost += collisions_->tally().lost - before.lost;
+    const CollisionWork work = collisions_->step(dt);
+    book_work(work.driven);
+    report_.contact_lost += work.lost;
   }
   if (is_implicit()) return;  // planes are in its equations, as is contact
   for (const Plane& plane : planes_)
@@ -150,6 +148,7 @@ void World::step(double dt, double done, bool watch) noexcept {
 
 void World::save_all(bool good) noexcept {
   for (auto& body : bodies_) body->save(good);
+  account_.save(good, report_);
   guard_.saved();
 }
 
@@ -169,7 +168,6 @@ void World::guard() noexcept {
 
 void World::recover() noexcept {
   is_watched_ = false;
-  // Tools and gravity did work on a state that is thrown away: what is booked starts anew from the state restored.
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     bodies_[b]->restore();
     bodies_[b]->restart_momentum();
@@ -178,6 +176,7 @@ void World::recover() noexcept {
   }
   if (collisions_) collisions_->restart();
   ++report_.restored;
+  account_.restore(report_);
   account_.write_off(ledger());
   if (!guard_.may_try_again()) return;
   n_substeps_ *= 2;

@@ -162,32 +162,34 @@ void Collisions::follow_breaks() noexcept {
   for (auto& body : bodies_) body.follow_breaks();
 }
 
-void Collisions::step(double dt) noexcept {
-  if (!read_where_they_are(dt)) return;  // not finite: the guard's
+CollisionWork Collisions::step(double dt) noexcept {
+  CollisionWork work;
+  if (!read_where_they_are(dt)) return work;  // not finite: the guard's
   end_step(dt);
   tally_.rebuilds = near_.rebuilds();
   tally_.overflows = near_.overflows() + active_overflows_;
-  if (near_.size() == 0) return;
+  if (near_.size() == 0) return work;
   impulses_.begin_step();
   if (swept_) {
     const SweptReport report = swept_contact_->step(bodies_, near_.links(), spec_.restitution, dt, impulses_);
     tally_.collisions += report.collisions;
     tally_.stopped += report.stopped;
     active_overflows_ += report.overflows;
-    tally_.lost += report.lost;
+    work.lost = report.lost;
   } else {
     for (const Link& link : near_.links()) {
       const ExchangeReport report =
           exchange_velocities(bodies_, link.masses.pairs(), spec_.restitution, impulses_);
       tally_.collisions += report.collisions;
-      tally_.lost += report.lost;
+      work.lost += report.lost;
     }
   }
   if (spec_.count_passages)
     for (const Link& link : near_.links())
       tally_.passages += count_passages(bodies_, link.facets.pairs(), dt, impulses_);
-  tally_.driven_work += impulses_.driven_work();
+  work.driven = impulses_.driven_work();
   give_impulses(dt);
+  return work;
 }
 
 bool Collisions::solve(const ExplicitStep& step, std::span<const std::vector<NodalForce>> tools) noexcept {
@@ -213,7 +215,6 @@ bool Collisions::solve(const ExplicitStep& step, std::span<const std::vector<Nod
   tally_.collisions += report.touching;
   active_overflows_ += report.overflows;
   tally_.overflows = near_.overflows() + active_overflows_;
-  tally_.driven_work += impulses_.driven_work();
   return report.converged;
 }
 

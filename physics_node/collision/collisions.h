@@ -20,8 +20,12 @@ struct CollisionTally {
   std::int64_t stopped = 0;     // masses that had to be made to move together
   std::int64_t overflows = 0;   // pairs that found no room in the list
   std::int64_t rebuilds = 0;    // of the list
-  double lost = 0;              // kinetic energy [J]
-  double driven_work = 0;       // done by hands through masses that they drive [J]
+};
+
+/// What one step of contact did.
+struct CollisionWork {
+  double lost = 0;    // kinetic energy [J]
+  double driven = 0;  // by hands through masses that they drive [J]
 };
 
 class Collisions {
@@ -40,11 +44,13 @@ class Collisions {
   void follow_breaks() noexcept;
   /// One step of contact in a frame in which something is near, after the masses have moved by it; the bodies have remembered
   /// their velocities before. Contract: allocates and throws nothing.
-  void step(double dt) noexcept;
+  CollisionWork step(double dt) noexcept;
   /// With backward_euler in its place: solves the steps of all bodies, those that touch with forces of contact; then they end with
   /// these forces, contact(body). @param tools  forces on each body. Contract: allocates and throws nothing.
   /// @return false: some of what touches is nearer than it should be
   bool solve(const ExplicitStep& step, std::span<const std::vector<NodalForce>> tools) noexcept;
+  /// Of what was solved last, by hands through masses that they drive. [J]
+  double driven_work() const { return impulses_.driven_work(); }
   std::span<const NodalForce> contact(std::size_t body) const noexcept {
     return joint_contact_->forces(body);
   }

@@ -48,6 +48,17 @@ void EnergyAccount::restart(const BodyModels& bodies, const Vec3& gravity, const
   most_fallen_ = guard_ = 0;
 }
 
+void EnergyAccount::save(bool good, const StepReport& report) noexcept {
+  if (good) good_ = 1 - good_;
+  saved_[1 - good_] = Booked(report);
+}
+
+void EnergyAccount::restore(StepReport& report) noexcept {
+  report.contact_lost = saved_[good_].contact_lost;
+  report.tool_exchange = saved_[good_].tool_exchange;
+  saved_[1 - good_] = saved_[good_];
+}
+
 void EnergyAccount::note(double fallen) noexcept {
   most_fallen_ = std::max(most_fallen_, std::abs(fallen + start_.gravitational));
 }
