@@ -29,6 +29,7 @@ void World::restart_ledger() {
   account_.restart(bodies_, scene_.gravity, report_);
   watched_ = Booked(report_);
   is_watched_ = false;
+  guard_.begin();
   save_all(false);
   save_all(true);
 }
@@ -117,6 +118,7 @@ void World::touch(double dt, double done) noexcept {
   for (LedTool* tool : toolbox_.led) {
     const LeadWork led = tool->lead(done, dt);
     book_work(led.work);
+    tool->book().tissue(led.work - led.lost);
     report_.contact_lost += led.lost;
   }
   if (near_ && !is_implicit()) {
@@ -136,13 +138,14 @@ void World::step(double dt, double done, bool watch) noexcept {
   if (!is_implicit())
     for (LedTool* tool : toolbox_.led) tool->begin_step();
   for (PressingTool* tool : toolbox_.pressing) tool->begin_step();
-  double power = tools_power(false);
+  double work = book_tools(dt, false);
   move_bodies(dt, watch);
   follow_breaks();
   if (watch) watched_ = Booked(report_);
-  power += press(dt);
+  work += press(dt);
   touch(dt, done);
-  if (power += tools_power(true); power != 0) book_work(0.5 * dt * power);
+  if (work += book_tools(dt, true); work != 0) book_work(work);
+  if (is_implicit()) book_solved(dt);
   ++report_.steps;
 }
 
@@ -176,6 +179,7 @@ void World::recover() noexcept {
   }
   if (collisions_) collisions_->restart();
   ++report_.restored;
+  guard_.begin();
   account_.restore(report_);
   account_.write_off(ledger());
   if (!guard_.may_try_again()) return;
@@ -256,6 +260,7 @@ void World::frame(std::span<const std::optional<ToolState>> tools) noexcept {
   find_contacts();
   divide_frame();
   for (LedTool* tool : toolbox_.led) tool->end_frame(collisions_.get(), frame_dt_);
+  for (auto& tool : toolbox_.tools) tool->book().frame(tool->borne());
   guard();
   if (collisions_ && collisions_->bodies_are_near()) inside_->look_now_and_then();
   // backward_euler solves for all masses at once: none of them can be left out.

@@ -82,7 +82,8 @@ class World {
   void step(double dt, double done, bool watch) noexcept;
   void move_bodies(double dt, bool watch) noexcept;
   void touch(double dt, double done) noexcept;
-  double tools_power(bool begun) const noexcept;
+  double book_tools(double dt, bool begun) noexcept;
+  void book_solved(double dt) noexcept;
   double press(double dt) noexcept;
   void take_tools(std::span<const std::optional<ToolState>> tools) noexcept;
   void find_contacts() noexcept;

@@ -21,23 +21,36 @@ void World::gather() noexcept {
 }
 
 /// Of the forces of tools that press, where no step has solved for them.
-/// @param begun  false: of those alone that are known before a step [W]
-double World::tools_power(bool begun) const noexcept {
+/// @param begun  false: of those alone that are known before a step
+/// @return work in half a step of dt [J]
+double World::book_tools(double dt, bool begun) noexcept {
   double sum = 0;
   if (is_implicit()) return sum;
-  for (const PressingTool* tool : toolbox_.pressing)
-    if ((begun || !tool->follows_steps()) && !tool->forces().empty())
-      sum += bodies_[tool->touched_body()]->power(tool->forces());
+  for (PressingTool* tool : toolbox_.pressing) {
+    if ((!begun && tool->follows_steps()) || tool->forces().empty()) continue;
+    const double work = 0.5 * dt * bodies_[tool->touched_body()]->power(tool->forces());
+    tool->book().tissue(work);
+    sum += work;
+  }
   return sum;
 }
 
-/// Tools that follow steps: their forces act in the step just integrated. @return as PressingTool::press() [W]
+/// The step has solved for them: a force works along all of the way that the velocities at its end make.
+void World::book_solved(double dt) noexcept {
+  for (PressingTool* tool : toolbox_.pressing)
+    if (!tool->forces().empty())
+      tool->book().tissue(dt * bodies_[tool->touched_body()]->power(tool->forces()));
+}
+
+/// Tools that follow steps: their forces act in the step just integrated. @return work in the first half of it [J]
 double World::press(double dt) noexcept {
   double sum = 0;
   for (PressingTool* tool : toolbox_.pressing) {
     if (!tool->follows_steps()) continue;
     const StageTimer timer(report_, Stage::contact_forces);
-    sum += tool->press(dt);
+    const double work = 0.5 * dt * tool->press(dt);
+    tool->book().tissue(work);
+    sum += work;
     if (!tool->forces().empty()) bodies_[tool->touched_body()]->kick(tool->forces(), dt);
   }
   return sum;

@@ -68,6 +68,8 @@ class PointTool final : public PressingTool {
   Wrench wrench() const noexcept override { return {force_, (tip_ - set_point_).cross(force_)}; }
   Wrench raw_wrench() const noexcept override { return {raw_force_, (tip_ - set_point_).cross(raw_force_)}; }
   std::uint32_t contacts() const noexcept override { return static_cast<std::uint32_t>(forces_.size()); }
+  Vec3 borne() const noexcept override { return forces_.empty() ? Vec3(Vec3::Zero()) : force_; }
+  bool knows_tissue_work() const noexcept override { return true; }
 
  private:
   /// By the force of the last frame on the masses under the tip and the displacement that it has brought about: their mean

@@ -9,6 +9,7 @@ void Tool::note(const ToolState& state) noexcept {
   stamp_ns_ = state.stamp_ns;
   p_WT_ = state.p_WT;
   q_WT_ = state.q_WT;
+  book_.hand(state);
 }
 
 void Tool::begin_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) const noexcept {

@@ -4,6 +4,7 @@
 
 #include "common/message/messages.h"
 #include "physics_node/contact/low_pass.h"
+#include "physics_node/contact/touch_book.h"
 #include "physics_node/step/body_model.h"
 
 namespace palpate::physics {
@@ -47,10 +48,17 @@ class Tool {
   virtual Wrench raw_wrench() const noexcept = 0;       // of the last frame alone
   virtual std::uint32_t contacts() const noexcept = 0;  // masses that carry or collide
   Vec3 force() const noexcept { return wrench().force; }
+  /// By what it touches, in the frame that has ended [N].
+  virtual Vec3 borne() const noexcept = 0;
+  /// Can its work on tissue be told from that on its own elements?
+  virtual bool knows_tissue_work() const noexcept = 0;
+
+  TouchBook& book() noexcept { return book_; }
+  const TouchBook& book() const noexcept { return book_; }
 
  protected:
   Tool(std::uint32_t index, const Vec3& set_point) : index_(index), set_point_(set_point) {}
-  /// Remembers which state of the hand the next patch answers.
+  /// Remembers which state of the hand the next patch answers, and books it.
   void note(const ToolState& state) noexcept;
   /// A patch without facets that answers that state.
   void begin_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) const noexcept;
@@ -60,6 +68,7 @@ class Tool {
 
   std::uint32_t index_;
   Vec3 set_point_;
+  TouchBook book_;
 
  private:
   std::uint64_t tick_ = 0;

@@ -94,6 +94,14 @@ nlohmann::json team_part(const TeamChoice& choice) {
       {"mean_threads", choice.mean_threads()}, {"trials", choice.trials()}, {"changes", choice.changes()}};
 }
 
+/// What the hand felt, and whether tissue bore it.
+nlohmann::json touch_part(const Tool& tool) {
+  nlohmann::json part = {{"hand_work", tool.book().hand_work()}};
+  if (tool.knows_tissue_work()) part["tissue_work"] = tool.book().tissue_work();
+  if (const auto ratio = tool.book().felt_over_true_rms()) part["felt_over_true_rms"] = *ratio;
+  return part;
+}
+
 nlohmann::json stages_part(const StepReport& report) {
   nlohmann::json part;
   for (std::size_t s = 0; s < n_stages; ++s) {
@@ -173,13 +181,14 @@ nlohmann::json physics_summary(const World& world, const Recorder* recorder, dou
                        {"rebuilds", tally.rebuilds}};
     if (scene.contact->count_passages) part["contact"]["passages"] = tally.passages;
   }
-  for (std::size_t n = 0; recorder != nullptr && n < scene.tools.size(); ++n) {
-    part["tools"][scene.tools[n].name] = {{"contacts_max", recorder->contacts_max(n)},
-                                          {"force_peak", recorder->force_peak(n)},
-                                          {"force_rms", recorder->force_rms(n)},
-                                          {"moment_peak", recorder->moment_peak(n)},
-                                          {"trace", Recorder::trace_name(scene.tools[n].name)}};
-  }
+  for (std::size_t n = 0; n < world.n_tools(); ++n)
+    part["tools"][scene.tools[n].name] = touch_part(world.tool(n));
+  for (std::size_t n = 0; recorder != nullptr && n < scene.tools.size(); ++n)
+    part["tools"][scene.tools[n].name].update({{"contacts_max", recorder->contacts_max(n)},
+                                               {"force_peak", recorder->force_peak(n)},
+                                               {"force_rms", recorder->force_rms(n)},
+                                               {"moment_peak", recorder->moment_peak(n)},
+                                               {"trace", Recorder::trace_name(scene.tools[n].name)}});
   if (recorder != nullptr) part["record"] = {{"dropped", recorder->dropped()}};
   part["warnings"] = nlohmann::json::array();
   add_warnings(part, all_warnings(world));

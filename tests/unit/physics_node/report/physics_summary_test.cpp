@@ -67,7 +67,9 @@ TEST(PhysicsSummary, HasTheKeysPromised) {
   EXPECT_FALSE(summary.at("guard").contains("stopped"));
   EXPECT_EQ(summary.at("warnings"), json::array()) << "nothing is wrong with it";
   expect_keys(summary.at("tools").at("tip"),
-              {"contacts_max", "force_peak", "force_rms", "moment_peak", "trace"}, "tool");
+              {"contacts_max", "force_peak", "force_rms", "moment_peak", "trace", "hand_work", "tissue_work",
+               "felt_over_true_rms"},
+              "tool");
 
   EXPECT_NEAR(summary.at("simulated_s").get<double>(), 1.0, 1e-9);
   EXPECT_NEAR(summary.at("real_time_factor").get<double>(), 0.5, 1e-9);

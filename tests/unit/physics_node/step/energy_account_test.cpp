@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "physics_node/step/rebound.h"
 
 namespace palpate::physics {
@@ -98,6 +101,29 @@ TEST(EnergyAccount, WritesOffWhatAGuardTook) {
   account.write_off(before);
   EXPECT_DOUBLE_EQ(account.book({}, {}, Booked(report)).missing(), 0);
   EXPECT_DOUBLE_EQ(account.book({}, {}, Booked(report)).guard, 3);
+}
+
+/// Of the two states that are saved the older one is good, until the younger has proved itself.
+TEST(EnergyAccount, BringsBackWhatContactTookAndToolsExchanged) {
+  EnergyAccount account;
+  StepReport report;
+  const auto at = [&](double amount) {
+    report.contact_lost = report.tool_exchange = report.tool_work = amount;
+    return &report;
+  };
+  account.save(false, *at(1));
+  account.save(true, *at(2));  // what was saved at 1 is good
+  account.restore(*at(std::numeric_limits<double>::quiet_NaN()));
+  EXPECT_EQ(report.contact_lost, 1);
+  EXPECT_EQ(report.tool_exchange, 1);
+  EXPECT_TRUE(std::isnan(report.tool_work)) << "work stays booked, and is written off";
+  account.save(true, *at(3));  // the younger is now what was brought back
+  account.restore(*at(4));
+  EXPECT_EQ(report.contact_lost, 1);
+  account.save(false, *at(5));
+  account.save(true, *at(6));
+  account.restore(*at(7));
+  EXPECT_EQ(report.contact_lost, 5);
 }
 
 /// An impact of v_n < 0 ends with -e v_n; what rests is held, whatever e; nothing bounces higher than an elastic impact.

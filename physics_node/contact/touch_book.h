@@ -1,0 +1,42 @@
+#pragma once
+// What a hand and the tissue under its tool have done to each other: two works that are equal where the hand feels what the tissue bears, and by
+// how much what it felt was more.
+
+#include <cmath>
+#include <optional>
+
+#include "common/message/messages.h"
+#include "physics_node/contact/handle.h"
+
+namespace palpate::physics {
+
+class TouchBook {
+ public:
+  /// A state of the hand that has come, newer than the last. The work of its way since then by the trapezoid
+  ///   W += (f + f') / 2 . (x' - x) + (m + m') / 2 . turn,   f, m what the hand pressed with, against what it felt
+  /// so what swings faster than states come is not seen.
+  void hand(const ToolState& state) noexcept;
+  /// A step of the tool's forces on tissue, as the ledger has it. [J]
+  void tissue(double work) noexcept {
+    if (std::isfinite(work)) tissue_work_ += work;
+  }
+  /// A frame in which tissue bore this force [N].
+  void frame(const Vec3& borne) noexcept;
+
+  double hand_work() const noexcept { return hand_work_; }      // by the hand on what it felt [J]
+  double tissue_work() const noexcept { return tissue_work_; }  // by the tool on tissue [J]
+  /// Root mean square of the force on the hand over that of the force that tissue bore, of all frames; none: tissue bore nothing.
+  std::optional<double> felt_over_true_rms() const noexcept {
+    if (!(borne2_ > 0)) return std::nullopt;
+    return std::sqrt(felt2_ / borne2_);
+  }
+
+ private:
+  bool seen_ = false;
+  Pose at_;                                 // of the hand
+  Vec6 load_ = Vec6::Zero();                // that it pressed with [N], [N m]
+  double hand_work_ = 0, tissue_work_ = 0;  // [J]
+  double felt2_ = 0, borne2_ = 0;           // sums over frames [N^2]
+};
+
+}  // namespace palpate::physics

@@ -1,0 +1,109 @@
+// What hand and tissue do to each other: against closed forms, and against the ledger of the world.
+
+#include "physics_node/contact/touch_book.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "common/message/vec3.h"
+#include "common/scene/scene.h"
+#include "tests/support/physics/pressed_world.h"
+
+namespace palpate::physics {
+namespace {
+
+using namespace test;
+
+ToolState state_of_hand(const Vec3& p, const Vec3& force, double turned = 0, double torque = 0) {
+  ToolState state{};
+  state.engaged = 1;
+  state.p_WT = array(p);
+  state.q_WT = {std::cos(0.5 * turned), 0, 0, std::sin(0.5 * turned)};
+  state.force_now = array(force);
+  state.torque_now = {0, 0, torque};
+  return state;
+}
+
+/// Into a spring of 400 N/m by 5 mm, from 30 mm above it: k d^2 / 2, whatever the pace.
+TEST(TouchBook, BooksTheWorkOnASpring) {
+  for (const int n : {10, 1000}) {
+    TouchBook book;
+    for (int i = 0; i <= n; ++i) {
+      const double d = 0.005 * i / n;
+      book.hand(state_of_hand({0.1, 0.2, -d}, {0, 0, 400 * d}));
+    }
+    EXPECT_NEAR(book.hand_work(), 0.5 * 400 * 0.005 * 0.005, 1e-15) << n;
+  }
+}
+
+TEST(TouchBook, BooksTheWorkOfATurn) {
+  TouchBook book;
+  constexpr double spring = 0.3;  // [N m/rad]
+  for (int i = 0; i <= 100; ++i) {
+    const double turned = 0.01 * i;
+    book.hand(state_of_hand(Vec3::Zero(), Vec3::Zero(), turned, -spring * turned));
+  }
+  EXPECT_NEAR(book.hand_work(), 0.5 * spring, 1e-12);
+}
+
+TEST(TouchBook, BooksNothingOfAHandWithoutForces) {
+  TouchBook book;
+  for (int i = 0; i <= 10; ++i) {
+    ToolState state = state_of_hand({0, 0, 0.01 * i}, {0, 0, 3});
+    state.engaged = 0;
+    book.hand(state);
+    book.frame(Vec3::Zero());
+  }
+  EXPECT_EQ(book.hand_work(), 0);
+  EXPECT_FALSE(book.felt_over_true_rms()) << "tissue bore nothing";
+}
+
+/// Felt a third more than is borne, and a quarter of a period late: only the size is told.
+TEST(TouchBook, TellsHowMuchMoreIsFeltThanBorne) {
+  TouchBook book;
+  for (int i = 0; i < 1000; ++i) {
+    const double phase = 2 * std::numbers::pi * i / 100;
+    book.hand(state_of_hand(Vec3::Zero(), {0, 0, 4 * std::cos(phase)}));
+    book.frame({3 * std::sin(phase), 0, 0});
+  }
+  EXPECT_NEAR(book.felt_over_true_rms().value(), 4.0 / 3, 1e-9);
+}
+
+TEST(TouchBook, LeavesOutWhatIsNoNumber) {
+  TouchBook book;
+  book.hand(state_of_hand(Vec3::Zero(), {0, 0, 1}));
+  book.frame({0, 0, 1});
+  book.frame({0, 0, std::numeric_limits<double>::infinity()});
+  book.tissue(std::numeric_limits<double>::quiet_NaN());
+  book.tissue(2);
+  EXPECT_EQ(book.felt_over_true_rms(), 1);
+  EXPECT_EQ(book.tissue_work(), 2);
+}
+
+/// What the ledger has of all tools is what the only tool has done on tissue, with springs, faces of elements and implicit steps.
+TEST(TouchBook, AgreesWithTheLedgerOfTheWorld) {
+  for (const char* physics : {"integrator = \"symplectic_euler\"", "integrator = \"velocity_verlet\"",
+                              "integrator = \"backward_euler\"\nstep_ms = 5"})
+    for (const char* model : {"", "\nmodel = \"fem\""}) {
+      if (*model != 0 && std::string(physics).find("verlet") != std::string::npos) continue;  // springs alone
+      SCOPED_TRACE(std::string(physics) + model);
+      Recipe recipe = pressed_slab_recipe();
+      recipe.physics = physics;
+      recipe.body += model;
+      if (*model != 0) recipe.material += "\npoisson_ratio = 0.4";
+      World world(scene_of(recipe));
+      run(world, steady_hand({0, 0, 0.5}), 100);
+      ASSERT_GT(world.ledger().tool_work, 1e-5);
+      EXPECT_NEAR(world.tool(0).book().tissue_work(), world.ledger().tool_work,
+                  1e-6 * world.ledger().tool_work);
+      EXPECT_LT((world.tool(0).borne() - world.tool(0).force()).norm(), 1e-12);
+      world.reset();
+      EXPECT_EQ(world.tool(0).book().tissue_work(), 0);
+    }
+}
+
+}  // namespace
+}  // namespace palpate::physics
