@@ -6,10 +6,8 @@ namespace {
 constexpr std::int64_t frames_between_saves = 50;
 // Kinetic and elastic energy over what was ever put in. A sound step lets them swing: with symplectic Euler by
 // 1 / (1 - w dt / 2), more than this only for waves of a few cells at steps near the stable one.
-constexpr double largest_growth = 4;       // before the guard acts
-constexpr double suspicious_growth = 1.5;  // before it measures anew
-// That are measured after a start. Why: the step is chosen for the shape at rest, and what is shaken may outgrow it at once.
-constexpr int first_frames = 2;
+constexpr double largest_growth = 4;         // before the guard acts
+constexpr double suspicious_growth = 1.5;    // before it measures anew
 constexpr double sound_growth = 2;           // between two saves, for the first of them to be good
 constexpr double negligible_energy = 1e-12;  // [J]
 constexpr int most_recoveries =
@@ -40,8 +38,7 @@ Guard::Verdict Guard::look(const BodyModels& bodies, EnergyAccount& account, con
   }
   const double put_in = account.put_in(fallen, report);
   // The kernels saw elastic energy before the last step; what grows fast is looked at once more, as it is now.
-  if (begun_ < first_frames || !(energy <= suspicious_growth * put_in + negligible_energy)) {
-    begun_ += begun_ < first_frames ? 1 : 0;
+  if (!(energy <= suspicious_growth * put_in + negligible_energy)) {
     const Energies now = sum_energies(bodies, gravity);
     energy = now.kinetic + now.elastic;
   }

@@ -12,16 +12,13 @@ class Guard {
  public:
   enum class Verdict { sound, save, go_back };
 
-  /// Looks at what the last watched step of a frame saw: a pass over rows, over all elements only where energy has grown and in the first
-  /// frames after begin().
+  /// Looks at what the last watched step of a frame saw: a pass over rows, over all elements only where energy has grown.
   /// `save` is said every 50 frames.
   Verdict look(const BodyModels& bodies, EnergyAccount& account, const Vec3& gravity,
                StepReport& report) noexcept;
 
   /// A tool's work was not finite, and what it moved is not either.
   void note_unusable_work() noexcept { unusable_work_ = true; }
-  /// A state was set from outside, or brought back: what comes next is measured.
-  void begin() noexcept { begun_ = 0; }
   /// No growth since the last save: what was saved then is good.
   bool sound() const noexcept { return sound_; }
   void saved() noexcept { sound_ = true; }
@@ -35,7 +32,6 @@ class Guard {
  private:
   bool sound_ = true;
   bool unusable_work_ = false;
-  int begun_ = 0;       // frames since begin() that were measured
   int recoveries_ = 0;  // since the step was last chosen
   std::size_t culprit_ = 0;
   std::optional<std::size_t> given_up_;

@@ -29,7 +29,6 @@ void World::restart_ledger() {
   account_.restart(bodies_, scene_.gravity, report_);
   watched_ = Booked(report_);
   is_watched_ = false;
-  guard_.begin();
   save_all(false);
   save_all(true);
 }
@@ -179,7 +178,6 @@ void World::recover() noexcept {
   }
   if (collisions_) collisions_->restart();
   ++report_.restored;
-  guard_.begin();
   account_.restore(report_);
   account_.write_off(ledger());
   if (!guard_.may_try_again()) return;
