@@ -274,7 +274,7 @@ void World::reset() noexcept {
     if (fragments_[b]) fragments_[b]->update(*bodies_[b]);
     touchable_[b].surface->follow();
   }
-  for (auto& tool : toolbox_.tools) tool->reset();
+  for (auto& tool : toolbox_.tools) tool->reset(), tool->book() = {};
   if (collisions_) collisions_->restart();
   if (inside_) inside_->restart();
   n_substeps_ = std::max(1, n_substeps_ >> guard_.recoveries());

@@ -28,9 +28,7 @@ double World::book_tools(double dt, bool begun) noexcept {
   if (is_implicit()) return sum;
   for (PressingTool* tool : toolbox_.pressing) {
     if ((!begun && tool->follows_steps()) || tool->forces().empty()) continue;
-    const double work = 0.5 * dt * bodies_[tool->touched_body()]->power(tool->forces());
-    tool->book().tissue(work);
-    sum += work;
+    sum += tool->book().tissue(0.5 * dt * bodies_[tool->touched_body()]->power(tool->forces()));
   }
   return sum;
 }
@@ -48,9 +46,7 @@ double World::press(double dt) noexcept {
   for (PressingTool* tool : toolbox_.pressing) {
     if (!tool->follows_steps()) continue;
     const StageTimer timer(report_, Stage::contact_forces);
-    const double work = 0.5 * dt * tool->press(dt);
-    tool->book().tissue(work);
-    sum += work;
+    sum += tool->book().tissue(0.5 * dt * tool->press(dt));
     if (!tool->forces().empty()) bodies_[tool->touched_body()]->kick(tool->forces(), dt);
   }
   return sum;

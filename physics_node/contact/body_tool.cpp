@@ -21,7 +21,6 @@ BodyTool::BodyTool(const ToolSpec& tool, std::uint32_t index, std::size_t body, 
 }
 
 void BodyTool::reset() noexcept {
-  book_ = {};
   from_ = to_ = {moving_.body().tip, Eigen::Quaterniond::Identity()};
   handle_.reset();
   seen_ = engaged_ = false;

@@ -30,7 +30,6 @@ class BodyTool final : public LedTool {
 
   std::size_t body() const { return body_; }
   Vec3 tip() const noexcept override { return to_.p; }
-  Vec3 borne() const noexcept override { return raw_.force; }
   /// The hand's work goes into its elements, and comes out of them in collisions.
   bool knows_tissue_work() const noexcept override { return false; }
   Wrench wrench() const noexcept override { return felt_.value(); }

@@ -22,6 +22,8 @@ class LedTool : public Tool {
   virtual LeadWork lead(double done, double dt) noexcept = 0;
   /// At the end of a frame. @param collisions  of all bodies; null: nothing could touch
   virtual void end_frame(Collisions* collisions, double frame_seconds) noexcept = 0;
+  /// In every step it is where the hand has it: its contacts of the frame are what is borne.
+  Vec3 borne() const noexcept final { return raw_wrench().force; }
   /// Something may be touched in this frame by the tool itself, which then wants velocities remembered.
   virtual bool is_near() const noexcept = 0;
 

@@ -43,7 +43,6 @@ PointTool::PointTool(const ToolSpec& tool, std::uint32_t index, const std::vecto
 }
 
 void PointTool::reset() noexcept {
-  book_ = {};
   seen_ = engaged_ = false;
   force_.setZero();
   raw_force_.setZero();

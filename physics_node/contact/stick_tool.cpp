@@ -50,7 +50,6 @@ StickTool::StickTool(const ToolSpec& tool, std::uint32_t index, const BodyModels
 }
 
 void StickTool::reset() noexcept {
-  book_ = {};
   seen_ = false;
   n_near_ = contacts_ = 0;
   search_.reset();

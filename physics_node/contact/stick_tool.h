@@ -46,7 +46,6 @@ class StickTool final : public LedTool {
                     double t) const noexcept override;
 
   Vec3 tip() const noexcept override { return to_.p; }
-  Vec3 borne() const noexcept override { return raw_.force; }
   bool knows_tissue_work() const noexcept override { return true; }
   Wrench wrench() const noexcept override { return felt_.value(); }
   Wrench raw_wrench() const noexcept override { return raw_; }

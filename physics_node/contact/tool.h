@@ -68,9 +68,9 @@ class Tool {
 
   std::uint32_t index_;
   Vec3 set_point_;
-  TouchBook book_;
 
  private:
+  TouchBook book_;
   std::uint64_t tick_ = 0;
   std::int64_t stamp_ns_ = 0;
   Array3 p_WT_{};  // of the hand then [m]

@@ -1,6 +1,6 @@
 #pragma once
-// What a hand and the tissue under its tool have done to each other: two works that are equal where the hand feels what the tissue bears, and by
-// how much what it felt was more.
+// What a hand and the tissue under its tool have done to each other: two works that are equal where the hand
+// feels what the tissue bears, and by how much what it felt was more.
 
 #include <cmath>
 #include <optional>
@@ -16,16 +16,18 @@ class TouchBook {
   ///   W += (f + f') / 2 . (x' - x) + (m + m') / 2 . turn,   f, m what the hand pressed with, against what it felt
   /// so what swings faster than states come is not seen.
   void hand(const ToolState& state) noexcept;
-  /// A step of the tool's forces on tissue, as the ledger has it. [J]
-  void tissue(double work) noexcept {
+  /// A step of the tool's forces on tissue, as the ledger has it. @return work [J]
+  double tissue(double work) noexcept {
     if (std::isfinite(work)) tissue_work_ += work;
+    return work;
   }
   /// A frame in which tissue bore this force [N].
   void frame(const Vec3& borne) noexcept;
 
   double hand_work() const noexcept { return hand_work_; }      // by the hand on what it felt [J]
   double tissue_work() const noexcept { return tissue_work_; }  // by the tool on tissue [J]
-  /// Root mean square of the force on the hand over that of the force that tissue bore, of all frames; none: tissue bore nothing.
+  /// Root mean square of the force on the hand over that of the force that tissue bore, of all frames; none:
+  /// tissue bore nothing.
   std::optional<double> felt_over_true_rms() const noexcept {
     if (!(borne2_ > 0)) return std::nullopt;
     return std::sqrt(felt2_ / borne2_);

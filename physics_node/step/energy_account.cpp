@@ -48,15 +48,12 @@ void EnergyAccount::restart(const BodyModels& bodies, const Vec3& gravity, const
   most_fallen_ = guard_ = 0;
 }
 
-void EnergyAccount::save(bool good, const StepReport& report) noexcept {
-  if (good) good_ = 1 - good_;
-  saved_[1 - good_] = Booked(report);
-}
+void EnergyAccount::save(bool good, const StepReport& report) noexcept { saved_.next(good) = Booked(report); }
 
 void EnergyAccount::restore(StepReport& report) noexcept {
-  report.contact_lost = saved_[good_].contact_lost;
-  report.tool_exchange = saved_[good_].tool_exchange;
-  saved_[1 - good_] = saved_[good_];
+  report.contact_lost = saved_.good().contact_lost;
+  report.tool_exchange = saved_.good().tool_exchange;
+  save(false, report);
 }
 
 void EnergyAccount::note(double fallen) noexcept {

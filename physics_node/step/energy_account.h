@@ -1,13 +1,12 @@
 #pragma once
 // Keeps the books of energy from a start on: what was there, what has come in, what was lost.
 
-#include <array>
-#include <cstddef>
 #include <memory>
 #include <vector>
 
 #include "physics_node/step/body_model.h"
 #include "physics_node/step/energy_ledger.h"
+#include "physics_node/step/good_state.h"
 #include "physics_node/step/step_report.h"
 
 namespace palpate::physics {
@@ -40,8 +39,9 @@ class EnergyAccount {
   /// swings back to its start has taken all of it back, and holds only what its steps err by. [J] @param fallen  sum of m g . u
   double put_in(double fallen, const StepReport& report) const noexcept;
 
-  /// What contact took and by how much tools exchanged energy is part of the state that the guard brings back, as the losses of
-  /// elements are. What tools did stays booked: work on a state that is thrown away, which write_off() takes out.
+  /// What contact took and by how much tools exchanged energy is part of the state that the guard brings
+  /// back, as the losses of elements are. What tools did stays booked: work on a state that is thrown away,
+  /// which write_off() takes out.
   /// @param good  the state saved before this one is what restore() goes back to from now on
   void save(bool good, const StepReport& report) noexcept;
   void restore(StepReport& report) noexcept;
@@ -55,8 +55,7 @@ class EnergyAccount {
   Booked booked_;           // at the start
   double most_fallen_ = 0;  // magnitude, since the start [J]
   double guard_ = 0;        // [J]
-  std::array<Booked, 2> saved_;
-  std::size_t good_ = 0;  // of the two
+  GoodState<Booked> saved_;
 };
 
 }  // namespace palpate::physics

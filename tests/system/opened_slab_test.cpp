@@ -254,8 +254,8 @@ TEST_P(OpenedSlab, IsFeltWhereItIsInSimulatedTime) {
   if (!HasFatalFailure()) probe();
 }
 
-/// Hands go by the clock of the wall. On a busy machine physics makes too few frames of what they do in a third of a second, and then
-/// nothing can be said of where they feel the slab: they go again, half as fast.
+/// Hands go by the clock of the wall. On a busy machine physics makes too few frames of what they do in a
+/// third of a second, and then nothing can be said of where they feel the slab: they go again, half as fast.
 TEST_P(OpenedSlab, IsFeltWhereItIsByTheThreeNodes) {
   constexpr double slowest = 12;
   for (double slower = 3; slower <= slowest; slower *= 2) {

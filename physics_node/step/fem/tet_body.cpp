@@ -1,4 +1,5 @@
 #include "physics_node/step/fem/tet_body.h"
+#include "physics_node/step/good_state.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -21,7 +22,7 @@ class TetBody final : public BodyModel {
         body_(std::move(body)),
         start_(std::move(start)),
         tets_(body_.mesh->model),
-        saved_{tets_.saved(), tets_.saved()} {
+        saved_(tets_.saved(), tets_.saved()) {
     NodeMotion::show(NodeField(tets_.displacements()), NodeField(tets_.velocities()));
     Topology::show(body_.adjacency());
     reset();
@@ -64,12 +65,9 @@ class TetBody final : public BodyModel {
   double sleeping_fraction() const noexcept override { return 0; }
   bool is_finite() const noexcept override { return tets_.is_finite(); }
 
-  void save(bool good) noexcept override {
-    if (good) good_ = 1 - good_;
-    tets_.save(saved_[1 - good_]);
-  }
+  void save(bool good) noexcept override { tets_.save(saved_.next(good)); }
   void restore() noexcept override {
-    tets_.bring_back(saved_[good_]);
+    tets_.bring_back(saved_.good());
     save(false);
   }
   void reset() noexcept override {
@@ -188,8 +186,7 @@ class TetBody final : public BodyModel {
       tets_;  // what measures it writes forces and energies of its elements, which the next step makes anew
   std::vector<Vec3> v_before_;  // that moved its nodes in the step before the last; EMPTY: not for contact
   MomentumAccount momentum_;
-  typename Tetrahedra<Real>::Saved saved_[2];
-  std::size_t good_ = 0;  // the other one is to prove itself
+  GoodState<typename Tetrahedra<Real>::Saved> saved_;
 };
 
 }  // namespace

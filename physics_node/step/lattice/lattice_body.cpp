@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/math/state_hash.h"
+#include "physics_node/step/good_state.h"
 #include "physics_node/step/lattice/bounce.h"
 #include "physics_node/step/lattice/hex_marks.h"
 #include "physics_node/step/lattice/hexahedra.h"
@@ -47,7 +48,7 @@ class LatticeBody final : public BodyModel, private PendingStep {
         state_(body_),
         elements_(make_elements<Real>(body_, state_)),
         sleep_(body_),
-        saved_{{body_, state_}, {body_, state_}} {
+        saved_({body_, state_}, {body_, state_}) {
     NodeMotion::show({state_.u[0].data(), state_.u[1].data(), state_.u[2].data()},
                      {state_.v[0].data(), state_.v[1].data(), state_.v[2].data()});
     Topology::show({body_.lattice, {state_.mask.data(), state_.mask.size()}});
@@ -153,13 +154,10 @@ class LatticeBody final : public BodyModel, private PendingStep {
     return sum;
   }
 
-  void save(bool good) noexcept override {
-    if (good) good_ = 1 - good_;
-    saved_[1 - good_].take(body_, state_);
-  }
+  void save(bool good) noexcept override { saved_.next(good).take(body_, state_); }
   void restore() noexcept override {
     sleep_.wake_all(body_, state_);
-    saved_[good_].bring_back(body_, state_);
+    saved_.good().bring_back(body_, state_);
     save(false);
   }
 
@@ -372,8 +370,7 @@ class LatticeBody final : public BodyModel, private PendingStep {
   Three<Real> v_before_;  // that moved the masses in the step before the last; only for contact
   Sleep sleep_;
   MomentumAccount momentum_;
-  SavedState<Real> saved_[2];
-  std::size_t good_ = 0;                            // the other one is to prove itself
+  GoodState<SavedState<Real>> saved_;
   std::unique_ptr<ImplicitSolver<Real>> implicit_;  // only for backward_euler
   double pending_dt_ = 0;                           // of a step that is solved and not over; 0: none [s]
 };
