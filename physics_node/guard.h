@@ -12,10 +12,11 @@ class Guard {
  public:
   enum class Verdict { sound, save, go_back };
 
-  /// Looks at what the last watched step of a frame saw: a pass over rows, over all elements only where energy has grown.
-  /// `save` is said every 50 frames.
-  Verdict look(const BodyModels& bodies, EnergyAccount& account, const Vec3& gravity,
-               StepReport& report) noexcept;
+  /// The books begin anew.
+  void begin() noexcept;
+  /// Looks at what the last watched step of a frame saw: a pass over rows, over all elements only where energy has grown
+  /// and in the first frames. `save` is said every 50 frames.
+  Verdict look(const BodyModels& bodies, EnergyAccount& account, StepReport& report) noexcept;
 
   /// A tool's work was not finite, and what it moved is not either.
   void note_unusable_work() noexcept { unusable_work_ = true; }
@@ -31,6 +32,7 @@ class Guard {
 
  private:
   bool sound_ = true;
+  int first_ = 0;  // frames still to come that are measured whatever they show
   bool unusable_work_ = false;
   int recoveries_ = 0;  // since the step was last chosen
   std::size_t culprit_ = 0;

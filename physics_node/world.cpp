@@ -29,6 +29,7 @@ void World::restart_ledger() {
   account_.restart(bodies_, scene_.gravity, report_);
   watched_ = Booked(report_);
   is_watched_ = false;
+  guard_.begin();
   save_all(false);
   save_all(true);
 }
@@ -156,7 +157,7 @@ void World::save_all(bool good) noexcept {
 
 void World::guard() noexcept {
   const StageTimer timer(report_, Stage::guard_finite);
-  switch (guard_.look(bodies_, account_, scene_.gravity, report_)) {
+  switch (guard_.look(bodies_, account_, report_)) {
     case Guard::Verdict::go_back:
       return recover();
     case Guard::Verdict::save:
@@ -177,6 +178,7 @@ void World::recover() noexcept {
     touchable_[b].surface->follow();
   }
   if (collisions_) collisions_->restart();
+  guard_.begin();
   ++report_.restored;
   account_.restore(report_);
   account_.write_off(ledger());

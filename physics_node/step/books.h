@@ -54,6 +54,8 @@ class Books {
 
   virtual Watch watch() const noexcept = 0;
   virtual Energies energies(const Vec3& gravity) const = 0;
+  /// Kinetic and elastic energy as they are now. Cost: a pass over all elements. Contract: takes no memory. [J]
+  virtual double energy_now() const noexcept = 0;
   /// What the next step will book at once, of what `energies` has as done: the kick of the dampers and fresh yielding.
   virtual Losses due() const = 0;
   virtual Losses losses() const = 0;

@@ -121,6 +121,10 @@ class TetBody final : public BodyModel {
 
   Watch watch() const noexcept override { return tets_.watch(); }
   Energies energies(const Vec3& gravity) const override { return tets_.energies(gravity); }
+  double energy_now() const noexcept override {
+    const Energies now = tets_.energies(Vec3::Zero());
+    return now.kinetic + now.elastic;
+  }
   Losses due() const override { return tets_.due(); }
   Losses losses() const override { return tets_.losses(); }
   Momenta momenta() const override { return measured().momenta; }

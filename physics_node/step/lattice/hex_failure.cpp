@@ -213,19 +213,29 @@ double HexFailure<Real>::stiffness_left(const LatticeState<Real>& state, const C
   return r > e ? s * (r - e) / (e * (r - 1)) : 0.0;
 }
 
+/// Of a cell that has not gone: what the next step takes of s.
+template <class Real>
+double HexFailure<Real>::loss_of(const LatticeState<Real>& state, const Cell& now) const noexcept {
+  const auto c = static_cast<std::size_t>(now.cell);
+  const double s = 1 - static_cast<double>(state.failed.damage[c]);
+  if (state.failed.reached[c] > 0) return s - stiffness_left(state, now);
+  return comes_to_its_limit(now) && share_to_begin(now, stretched_along(now.h)) == 0 ? s : 0.0;
+}
+
+template <class Real>
+double HexFailure<Real>::due_of(const LatticeState<Real>& state, Index cell) const noexcept {
+  return loss_of(state, look_at(state, cell));
+}
+
 template <class Real>
 HexBreaks HexFailure<Real>::due(const LatticeState<Real>& state) const {
   HexBreaks due{std::vector<double>(state.failed.damage.size(), 0.0), 0};
   for (const HexRun& run : grid_.runs)
     for (Index cell = run.first; cell < run.first + run.count; ++cell) {
       const auto c = static_cast<std::size_t>(cell);
-      const double s = 1 - static_cast<double>(state.failed.damage[c]);
-      if (body_.solid->stiffness[c] <= 0 || s <= 0) continue;
+      if (body_.solid->stiffness[c] <= 0 || state.failed.damage[c] >= 1) continue;
       const Cell now = look_at(state, cell);
-      if (state.failed.reached[c] > 0)
-        due.loss[c] = s - stiffness_left(state, now);
-      else if (comes_to_its_limit(now) && share_to_begin(now, stretched_along(now.h)) == 0)
-        due.loss[c] = s;
+      due.loss[c] = loss_of(state, now);
       due.energy += due.loss[c] * now.middle;
     }
   return due;

@@ -49,6 +49,8 @@ class HexFailure {
                           ZeroedArray<Real>& stiffness) noexcept;
 
   HexBreaks due(const LatticeState<Real>& state) const;
+  /// Of one cell that has not gone: stiffness, as in HexBreaks::loss. Contract: takes no memory.
+  double due_of(const LatticeState<Real>& state, Index cell) const noexcept;
 
   /// Of each run: 1 where a cell has lost anything.
   const std::uint8_t* torn() const noexcept { return torn_.data(); }
@@ -71,6 +73,7 @@ class HexFailure {
   void take_away(LatticeState<Real>& state, Index cell) noexcept;
   Cell look_at(const LatticeState<Real>& state, Index cell) const noexcept;
   double stiffness_left(const LatticeState<Real>& state, const Cell& now) const noexcept;
+  double loss_of(const LatticeState<Real>& state, const Cell& now) const noexcept;
   TensionLimit<double> limit_of(Index cell) const noexcept;
   bool comes_to_its_limit(const Cell& now) const noexcept;
   double share_to_begin(const Cell& now, const Vec3& normal) const noexcept;

@@ -118,6 +118,24 @@ MeasuredHexahedra measure_hexahedra(const Body& body, const HexGrid& grid, const
   return sum;
 }
 
+template <class Real>
+double measure_elastic(const Body& body, const HexGrid& grid, const LatticeState<Real>& state,
+                       const HexFailure<Real>* failure) noexcept {
+  double sum = 0;
+  const HexCellMeter<Real> meter(body, state, state.v);
+  for_each_cell(body, grid, state, [&](double stiffness, const std::array<Index, 8>& corner, std::size_t) {
+    if (failure != nullptr)
+      stiffness -= failure->due_of(state, corner[0]) *
+                   static_cast<double>(body.solid->stiffness[static_cast<std::size_t>(corner[0])]);
+    sum += stiffness * meter.at(corner).forces.energy;
+  });
+  return sum;
+}
+
+template double measure_elastic(const Body&, const HexGrid&, const LatticeState<float>&,
+                                const HexFailure<float>*) noexcept;
+template double measure_elastic(const Body&, const HexGrid&, const LatticeState<double>&,
+                                const HexFailure<double>*) noexcept;
 template MeasuredHexahedra measure_hexahedra(const Body&, const HexGrid&, const LatticeState<float>&, CellsOf,
                                              const Three<float>&, std::span<const double>);
 template MeasuredHexahedra measure_hexahedra(const Body&, const HexGrid&, const LatticeState<double>&,

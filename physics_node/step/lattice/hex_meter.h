@@ -8,6 +8,7 @@
 
 #include "physics_node/step/fem/hex_constants.h"
 #include "physics_node/step/fem/hex_damper.h"
+#include "physics_node/step/lattice/hex_failure.h"
 #include "physics_node/step/lattice/hex_grid.h"
 #include "physics_node/step/lattice/state.h"
 
@@ -82,6 +83,10 @@ template <class Real>
 MeasuredHexahedra measure_hexahedra(const Body& body, const HexGrid& grid, const LatticeState<Real>& state,
                                     CellsOf which, const Three<Real>& v,
                                     std::span<const double> broken_soon = {});
+/// Elastic energy of all cells alone. Contract: takes no memory. @param failure  whose next losses it leaves out, or null [J]
+template <class Real>
+double measure_elastic(const Body& body, const HexGrid& grid, const LatticeState<Real>& state,
+                       const HexFailure<Real>* failure) noexcept;
 /// Of a body without fast cells, with the velocities of the state.
 template <class Real>
 MeasuredHexahedra measure_hexahedra(const Body& body, const HexGrid& grid, const LatticeState<Real>& state) {

@@ -193,6 +193,16 @@ Energies Hexahedra<Real>::energies(const Body& body, const LatticeState<Real>& s
 }
 
 template <class Real>
+double Hexahedra<Real>::energy_now(const Body& body, const LatticeState<Real>& state) const noexcept {
+  double energy = measure_elastic(body, grid_, state, failure_.get());
+  for (const Index i : body.nodes()) {
+    const double w = body.inverse_mass[static_cast<std::size_t>(i)];
+    if (w > 0) energy += 0.5 / w * vector_of(state.v, i).squaredNorm();
+  }
+  return energy;
+}
+
+template <class Real>
 Losses Hexahedra<Real>::due(const Body& body, const LatticeState<Real>& state) const {
   Losses due;
   const HexBreaks soon = due_breaks(state);

@@ -25,6 +25,7 @@ class Hexahedra final : public LatticeElements<Real> {
 
   StepOutcome step(const Body& body, LatticeState<Real>& state, const ExplicitStep& step) noexcept override;
   Energies energies(const Body& body, const LatticeState<Real>& state, const Vec3& gravity) const override;
+  double energy_now(const Body& body, const LatticeState<Real>& state) const noexcept override;
   Losses due(const Body& body, const LatticeState<Real>& state) const override;
   BodyCounts counts(const Body& body, const LatticeState<Real>& state) const override;
 

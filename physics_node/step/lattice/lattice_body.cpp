@@ -223,6 +223,7 @@ class LatticeBody final : public BodyModel, private PendingStep {
   Energies energies(const Vec3& gravity) const override {
     return elements_->energies(body_, state_, gravity);
   }
+  double energy_now() const noexcept override { return elements_->energy_now(body_, state_); }
   Losses due() const override { return elements_->due(body_, state_); }
   Losses losses() const override { return measure_losses(state_); }
   Momenta momenta() const override { return momenta_with(state_.v).momenta; }

@@ -18,6 +18,8 @@ class LatticeElements {
   virtual StepOutcome step(const Body& body, LatticeState<Real>& state,
                            const ExplicitStep& step) noexcept = 0;
   virtual Energies energies(const Body& body, const LatticeState<Real>& state, const Vec3& gravity) const = 0;
+  /// Books::energy_now().
+  virtual double energy_now(const Body& body, const LatticeState<Real>& state) const noexcept = 0;
   /// What the next step books at once: Books::due().
   virtual Losses due(const Body& body, const LatticeState<Real>& state) const = 0;
   /// All of BodyCounts but the shape.

@@ -16,6 +16,10 @@ class Springs final : public LatticeElements<Real> {
   Energies energies(const Body& body, const LatticeState<Real>& state, const Vec3& gravity) const override {
     return measure_energies(body, state, gravity);
   }
+  double energy_now(const Body& body, const LatticeState<Real>& state) const noexcept override {
+    const Energies now = measure_energies(body, state, Vec3::Zero());
+    return now.kinetic + now.elastic;
+  }
   Losses due(const Body& body, const LatticeState<Real>& state) const override {
     return measure_due(body, state);
   }
