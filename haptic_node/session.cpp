@@ -13,6 +13,7 @@
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
 #include "common/time/clock.h"
+#include "haptic_node/control/tell_motion.h"
 #include "haptic_node/device/driver_library.h"
 #include "haptic_node/device/driver_options.h"
 
@@ -219,6 +220,7 @@ void HapticSession::fill_messages(std::int64_t now, const ControllerOutput& out)
   tool_state_.contact_set = controller_.contact_set();
   tool_state_.buttons = raw_.buttons;
   tool_state_.engaged = controller_.engaged() ? 1u : 0u;
+  tell_motion(controller_, tool_state_);
 
   trace_.tick = counts_.ticks;
   trace_.t = seconds_from_ns(now - start_ns_);
@@ -263,6 +265,7 @@ void HapticSession::tick(const ContactPatch* newest, const ToolWrench* wrench) n
   counts_.samples_rejected = before_.samples_rejected + controller_.motion().rejected();
   counts_.outran = before_.outran + controller_.outran();
   counts_.surplus = controller_.surplus();
+  if (controller_.tissue() != nullptr) counts_.model_error = controller_.tissue()->model_error();
   counts_.surplus_max = std::max(counts_.surplus_max, counts_.surplus);
   if (out.write) {
     counts_.force_max = std::max(counts_.force_max, out.force.norm());

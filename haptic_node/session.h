@@ -35,6 +35,7 @@ struct SessionCounts {
   double surplus_max = 0;              // largest of that [J]
   double force_max = 0;                // largest sent to the device, in the world [N]
   double torque_max = 0;               // likewise [N m]
+  double model_error = -1;             // see PointTouch::model_error(); below 0: it has no model
 };
 
 class HapticSession {

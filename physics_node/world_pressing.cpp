@@ -8,7 +8,7 @@ namespace palpate::physics {
 
 bool World::is_pressed() const noexcept {
   return std::any_of(toolbox_.pressing.begin(), toolbox_.pressing.end(),
-                     [](const PressingTool* tool) { return !tool->forces().empty(); });
+                     [](const PressingTool* tool) { return tool->may_press(); });
 }
 
 void World::gather() noexcept {

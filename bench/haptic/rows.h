@@ -62,6 +62,8 @@ Row sphere_is_round();    // S8
 // rows_world.cpp: with the real physics library as the object
 Row world_is_stable(Runs& runs);               // S2, S6
 Row world_force_is_true(Runs& runs);           // S4
+Row world_tissue_is_stable(Runs& runs);        // S2
+Row world_tissue_is_true(Runs& runs);          // T1
 Row world_silence_fades();                     // F1
 Row world_return_is_no_kick();                 // F2
 Row world_raw_is_unstable(Runs& runs);         // S0

@@ -5,15 +5,16 @@
 
 #include "common/message/vec3.h"
 #include "common/scene/force_model.h"
+#include "haptic_node/control/tell_motion.h"
 
 namespace palpate::bench {
 namespace {
 
 /// What a scene would name for a hand that feels in this way.
-std::optional<ForceModel> asked_by(RenderMode mode) {
-  if (mode == RenderMode::raw_planes) return ForceModel::raw_planes;
-  if (mode == RenderMode::direct) return ForceModel::direct;
-  return std::nullopt;
+std::optional<ForceModel> asked_by(const Case& c) {
+  if (c.mode == RenderMode::raw_planes) return ForceModel::raw_planes;
+  if (c.mode == RenderMode::direct) return ForceModel::direct;
+  return c.feels;
 }
 
 haptic::ControllerSettings settings_of(const Case& c) {
@@ -26,7 +27,7 @@ haptic::ControllerSettings settings_of(const Case& c) {
   if (c.slab != nullptr) {
     ToolSpec tool;
     tool.shape = c.slab->stick ? ToolShape::stick : ToolShape::point;
-    tool.force_model = asked_by(c.mode);
+    tool.force_model = asked_by(c);
     settings.model = felt_force_model(tool, c.torque_limit).model;
   }
   return settings;
@@ -60,8 +61,8 @@ Trial::Trial(const Case& c, Path path)
       next_frame_ns_(now_ns_) {
   controller_.set_state(haptic::HapticState::ready);
   if (c.slab != nullptr)
-    world_ = std::make_unique<WorldObject>(
-        slab_scene(*c.slab, asked_by(c.mode), c.rate_Hz, c.stiffness, c.damping));
+    world_ =
+        std::make_unique<WorldObject>(slab_scene(*c.slab, asked_by(c), c.rate_Hz, c.stiffness, c.damping));
   if (is_pressed_by_motion(c.mode))
     pressed_ = std::make_unique<PressedTissue>(c.specimen != nullptr ? *c.specimen : specimen_of(c.object),
                                                c.told, haptic::ContactSpring{c.stiffness, c.damping});
@@ -78,6 +79,7 @@ Trial::HandReport Trial::report() {
   hand.state.proxy = array(hand.proxy);
   hand.state.force_on_hand = array(rendered_.reported);
   hand.state.force_now = array(rendered_.force);
+  haptic::tell_motion(controller_, hand.state);
   hand.state.engaged = case_.mode != RenderMode::local || controller_.engaged() ? 1U : 0U;
   return hand;
 }

@@ -34,7 +34,8 @@ struct Case {
   double damping = 1;
   double torque_limit = 0;  // above 0 a stick is felt by its wrench, without torques by its plane [N m]
   RenderMode mode = RenderMode::local;
-  int io_latency = 1;  // ticks from a sample to its force
+  std::optional<ForceModel> feels;  // of a slab, instead of what the mode would name
+  int io_latency = 1;               // ticks from a sample to its force
   std::uint64_t seed = 1;
 };
 

@@ -21,11 +21,11 @@ Scene slab_scene(const SlabModel& slab, std::optional<ForceModel> model, double 
           "title = \"slab\"\ngravity_m_per_s2 = [0, 0, 0]\n[physics]\nframe_Hz = {}\nthreads = 1\n"
           "[material.tissue]\ndensity_kg_per_m3 = 1000\n{}\n"
           "[[body]]\nname = \"slab\"\nlattice = \"voxel\"\nspacing_mm = 4\nmaterial = \"tissue\"\n"
-          "shape = \"box\"\nsize_mm = [64, 40, {}]\nat_mm = [10, 0, {}]\nfixed = [{}]\n"
+          "shape = \"box\"\nsize_mm = [64, 40, {}]\nat_mm = [10, 0, {}]\nfixed = [{}]\n{}\n"
           "[[tool]]\nname = \"tool\"\n{}device = \"hand\"\nstiffness_N_per_m = {}\ndamping_N_s_per_m = {}\n"
           "[device.hand]\ndriver = \"simulated\"\nwaypoints = [[0, 0, 0, 20], [1, 0, 0, 20]]\n",
           rate_Hz, slab.material, thick_mm, top_mm - thick_mm / 2,
-          slab.held ? "{ min_mm = [-100, -100, -100], max_mm = [100, 100, 100] }" : "\"-z\"", tool,
+          slab.held ? "{ min_mm = [-100, -100, -100], max_mm = [100, 100, 100] }" : "\"-z\"", slab.body, tool,
           hand_stiffness, hand_damping),
       slab.name);
   scene.tools[0].force_model = model;
@@ -44,6 +44,7 @@ void WorldObject::frame(const ToolState* hand, double table, std::int64_t now_ns
   world_.tool(0).write_wrench(wrench, number, now_ns, world_.t());
   world_.tool(0).write_patch(patch, number, now_ns);
   for (Array3* p : {&wrench.p_WT, &wrench.set_point, &wrench.tip}) (*p)[2] += table;
+  for (std::size_t i = 0; i < patch.n_tissues; ++i) patch.tissues[i].point[2] += table;
   for (std::size_t i = 0; i < patch.n_facets; ++i) {
     patch.facets[i].point[2] += table;
     for (Array3& corner : patch.facets[i].corners) corner[2] += table;

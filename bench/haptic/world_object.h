@@ -18,14 +18,20 @@ struct SlabModel {
   const char* name;
   const char* material;  // keys of a [material]
   bool stick;
-  double about;       // [N/m]
-  bool held = false;  // every mass of it: a wall
+  double about;           // [N/m]
+  bool held = false;      // every mass of it: a wall
+  const char* body = "";  // further keys of its [[body]]
 };
 inline constexpr std::array<SlabModel, 3> slab_models{
     {{"slab 30 kPa", "modulus_kPa = 30\nviscosity_Pa_s = 10", false, 270},
      {"slab 100 kPa", "modulus_kPa = 100\nviscosity_Pa_s = 20", false, 900},
      {"yielding slab", "modulus_kPa = 60\nviscosity_Pa_s = 10\nyield_ratio = 1.03\nbreak_ratio = 3", false,
       400}}};
+inline constexpr std::array<SlabModel, 2> solid_slabs{
+    {{"slab 30 kPa, elements", "modulus_kPa = 30\npoisson_ratio = 0.45\nviscosity_Pa_s = 10", false, 400,
+      false, "model = \"fem\""},
+     {"slab 100 kPa, elements", "modulus_kPa = 100\npoisson_ratio = 0.45\nviscosity_Pa_s = 20", false, 1300,
+      false, "model = \"fem\""}}};
 inline constexpr SlabModel held_slab{"held slab", "modulus_kPa = 100", false, rigid_stiffness, true};
 inline constexpr SlabModel stick_slab{"slab 100 kPa, stick", "modulus_kPa = 100\nviscosity_Pa_s = 20", true,
                                       1500};

@@ -9,8 +9,6 @@
 
 namespace palpate {
 
-inline constexpr double rigid_stiffness = 1e9;  // stands for "does not give" [N/m]
-
 /// One facet of the tissue near a tool, as a Norton-equivalent plane: where the plane would be without
 /// contact force, and how stiffly the tissue behind it answers.
 struct PatchFacet {
@@ -36,6 +34,71 @@ struct PatchFacet {
   friend bool operator==(const PatchFacet&, const PatchFacet&) = default;
 };
 
+/// A way in which tissue swings, of mass 1: q'' + damping q' + stiffness q = phi F, F pressing it, phi q into it.
+struct ModeOfTissue {
+  double phi = 1;        // > 0 [1 / sqrt(kg)]
+  double stiffness = 0;  // omega^2 [1/s^2]
+  double damping = 0;    // [1/s]
+  double q = 0, w = 0;   // now: [m sqrt(kg)], and per second
+
+  template <class Visit>
+  static constexpr void fields(Visit&& visit) {
+    using namespace promise;
+    visit(PALPATE_FIELD(phi), above_zero(largest_shape));
+    visit(PALPATE_FIELD(stiffness), up_to(stiffest_mode));
+    visit(PALPATE_FIELD(damping), up_to(most_mode_damping));
+    visit(PALPATE_FIELD(q), within(largest_state));
+    visit(PALPATE_FIELD(w), within(largest_state));
+  }
+  friend bool operator==(const ModeOfTissue&, const ModeOfTissue&) = default;
+};
+
+/// A spring that relaxes: place' = (depth - place) / time.
+struct BranchOfTissue {
+  double stiffness = 0;  // [N/m]
+  double time = 1;       // > 0 [s]
+  double place = 0;      // now [m]
+
+  template <class Visit>
+  static constexpr void fields(Visit&& visit) {
+    using namespace promise;
+    visit(PALPATE_FIELD(stiffness), up_to(rigid_stiffness));
+    visit(PALPATE_FIELD(time), above_zero(longest_time));
+    visit(PALPATE_FIELD(place), within(farthest_hand));
+  }
+  friend bool operator==(const BranchOfTissue&, const BranchOfTissue&) = default;
+};
+
+/// What a hand whose motion presses tissue can feel of it: haptic_node/tissue/tissue_model.h. Depths are from `point` against `normal`.
+struct TouchedTissue {
+  std::uint64_t sample = 0;  // ToolState.sample that the tissue has been pressed by last
+  Array3 point{};            // on the surface, where nothing presses [m]
+  Array3 normal{0, 0, 1};    // out of the tissue, unit
+  double residual = 0;       // compliance of all that follows at once [m/N]
+  double rest = 0;           // depth that modes and residual lie on [m]
+  double force = 0;          // that the tissue bears [N]
+  std::uint32_t n_modes = 0;
+  std::array<ModeOfTissue, max_tissue_modes> modes{};
+  std::uint32_t n_branches = 0;
+  std::array<BranchOfTissue, max_tissue_branches> branches{};
+
+  template <class Visit>
+  static constexpr void fields(Visit&& visit) {
+    using namespace promise;
+    visit(PALPATE_FIELD(sample), any);
+    visit(PALPATE_FIELD(point), within(farthest_hand));
+    visit(PALPATE_FIELD(normal), unit);
+    visit(PALPATE_FIELD(residual), up_to(most_compliance));
+    visit(PALPATE_FIELD(rest), within(farthest_hand));
+    visit(PALPATE_FIELD(force), up_to(strongest_tissue));
+    visit(PALPATE_FIELD(n_modes), count(max_tissue_modes));
+    visit.each(PALPATE_FIELD(modes), PALPATE_FIELD(n_modes), of_type<ModeOfTissue>);
+    visit(PALPATE_FIELD(n_branches), count(max_tissue_branches));
+    visit.each(PALPATE_FIELD(branches), PALPATE_FIELD(n_branches), of_type<BranchOfTissue>);
+  }
+  friend bool operator==(const TouchedTissue&, const TouchedTissue&) = default;
+};
+
 /// physics -> haptic. The facets that a tool may touch before the next patch. Facet 0 is the nearest one.
 struct ContactPatch {
   std::uint32_t tool = 0;
@@ -46,6 +109,8 @@ struct ContactPatch {
   std::uint64_t contact_set = 0;  // changes when the set of facets changes
   std::uint32_t n_facets = 0;     // <= max_patch_facets; 0: free space
   std::array<PatchFacet, max_patch_facets> facets{};
+  std::uint32_t n_tissues = 0;  // 1: the tool is pressed by the hand's motion
+  std::array<TouchedTissue, 1> tissues{};
 
   template <class Visit>
   static constexpr void fields(Visit&& visit) {
@@ -58,6 +123,8 @@ struct ContactPatch {
     visit(PALPATE_FIELD(contact_set), any);
     visit(PALPATE_FIELD(n_facets), count(max_patch_facets));
     visit.each(PALPATE_FIELD(facets), PALPATE_FIELD(n_facets), of_type<PatchFacet>);
+    visit(PALPATE_FIELD(n_tissues), count(1));
+    visit.each(PALPATE_FIELD(tissues), PALPATE_FIELD(n_tissues), of_type<TouchedTissue>);
   }
   friend bool operator==(const ContactPatch&, const ContactPatch&) = default;
 };

@@ -21,11 +21,18 @@ struct ToolState {
   Array3 proxy{};             // where the proxy rests: the tip if nothing is touched [m]
   Array3
       force_on_hand{};  // force that the device applies to the hand, low-passed at 2 Hz; HapticTrace has it as it is [N]
-  Array3 force_now{};             // the same as it is in this tick [N]
-  Array3 torque_now{};            // about the tip, as it is in this tick [N m]
+  Array3 force_now{};   // the same as it is in this tick; where motion presses tissue, of this sample [N]
+  Array3 torque_now{};  // about the tip, as it is in this tick [N m]
   std::uint64_t contact_set = 0;  // contact_set of the patch that this force was computed from; 0 none
   std::uint32_t buttons = 0;      // bit i: button i pressed
   std::uint32_t engaged = 0;      // 1: the hand is armed and its forces count
+  // Of a hand whose motion presses tissue; else 0.
+  std::uint64_t sample = 0;    // number of the sample at p_WT; they come at the rate of the device
+  double stiffness = 0;        // of the spring between hand and tissue, K [N/m]
+  double damping = 0;          // B [N s/m]
+  double force_limit = 0;      // the hand feels no more [N]
+  std::uint32_t n_before = 0;  // <= max_told_samples
+  std::array<Array3f, max_told_samples> before{};  // the samples before it, newest first, from p_WT [m]
 
   template <class Visit>
   static constexpr void fields(Visit&& visit) {
@@ -44,6 +51,12 @@ struct ToolState {
     visit(PALPATE_FIELD(contact_set), any);
     visit(PALPATE_FIELD(buttons), any);
     visit(PALPATE_FIELD(engaged), flag);
+    visit(PALPATE_FIELD(sample), any);
+    visit(PALPATE_FIELD(stiffness), up_to(rigid_stiffness));
+    visit(PALPATE_FIELD(damping), up_to(rigid_stiffness));
+    visit(PALPATE_FIELD(force_limit), up_to(strongest_hand));
+    visit(PALPATE_FIELD(n_before), count(max_told_samples));
+    visit.first(PALPATE_FIELD(before), PALPATE_FIELD(n_before), within(farthest_hand));
   }
   friend bool operator==(const ToolState&, const ToolState&) = default;
 };

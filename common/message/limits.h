@@ -13,6 +13,9 @@ using Array3f = std::array<float, 3>;
 inline constexpr std::uint32_t max_tools = 8;
 inline constexpr std::uint32_t max_bodies = 64;
 inline constexpr std::uint32_t max_patch_facets = 16;
+// Samples of the hand that ToolState has beside the newest. Why: with them it is one frame of Ethernet, and 64 ms cover physics at 20 Hz.
+inline constexpr std::uint32_t max_told_samples = 64;
+inline constexpr std::uint32_t max_tissue_modes = 9, max_tissue_branches = 4;
 inline constexpr std::uint32_t max_surface_vertices = 2048;  // in one BodySurface chunk
 inline constexpr std::uint32_t max_surface_facets = 2048;    // in one BodySurface chunk
 inline constexpr std::uint32_t max_surface_chunks = 16384;   // of one body: 33 million vertices
@@ -34,8 +37,15 @@ inline constexpr double farthest_vertex = 1e6;   // what has flown off [m]
 inline constexpr double fastest_turn = 1e6;      // [rad/s]
 inline constexpr double strongest_hand = 1e3;    // that a device applies [N], [N m]
 inline constexpr double strongest_tissue = 1e6;  // [N], [N m]
-inline constexpr double most_energy = 1e6;       // [J]
-inline constexpr double largest_value = 1e9;     // of a command or a rate, in its unit
+// Why: a tenth of a gram on what stands for "does not give", 1e9 N/m; what is beyond is no tissue.
+inline constexpr double stiffest_mode = 1e13;     // omega^2 [1/s^2]
+inline constexpr double most_mode_damping = 1e7;  // c [1/s]
+inline constexpr double largest_shape = 1e3;      // of a mode, of a microgram [1 / sqrt(kg)]
+inline constexpr double largest_state = 1e6;      // of a mode [m sqrt(kg)], and per second
+inline constexpr double most_compliance = 1;      // of what answers at once [m/N]
+inline constexpr double rigid_stiffness = 1e9;    // stands for "does not give" [N/m]
+inline constexpr double most_energy = 1e6;        // [J]
+inline constexpr double largest_value = 1e9;      // of a command or a rate, in its unit
 inline constexpr std::int64_t latest_stamp = std::int64_t{1} << 61;  // either side of zero [ns]
 
 /// Why a sample was rejected; index into NodeStatus::rejected.

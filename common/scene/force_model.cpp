@@ -12,6 +12,8 @@ const char* word_of(ForceModel model) noexcept {
       return "raw_planes";
     case ForceModel::direct:
       return "direct";
+    case ForceModel::tissue:
+      return "tissue";
   }
   return "";
 }

@@ -16,7 +16,8 @@ enum class LatticeKind { fcc, voxel };
 ///   drag      -c v_i                  against the world: takes momentum away                  P2
 enum class Damper { axial, relative, drag };
 
-/// norton: planes at zero force. tangent: wrench and its 6 x 6 stiffness. raw_planes, direct: as in the papers.
-enum class ForceModel { norton, tangent, raw_planes, direct };
+/// norton: planes at zero force. tangent: wrench and its 6 x 6 stiffness. raw_planes, direct: as in the papers. tissue: a copy of the tissue,
+/// which the hand's recorded motion presses.
+enum class ForceModel { norton, tangent, raw_planes, direct, tissue };
 
 }  // namespace palpate

@@ -20,7 +20,8 @@ namespace {
 const std::vector<std::string> tool_shapes = {"point", "stick", "knife", "needle"};
 const std::vector<std::string> point_contacts = {"nodes", "faces"};  // in the order of PointContact
 const std::vector<std::string> force_models = {word_of(ForceModel::norton), word_of(ForceModel::tangent),
-                                               word_of(ForceModel::raw_planes), word_of(ForceModel::direct)};
+                                               word_of(ForceModel::raw_planes), word_of(ForceModel::direct),
+                                               word_of(ForceModel::tissue)};
 
 /// A knife or needle in the table of its tool, under the name of the tool.
 void read_own_body(TableReader& reader, ReadContext& context, ToolSpec& spec) {
@@ -116,10 +117,13 @@ void read_force_model(TableReader& reader, ToolSpec& spec) {
   if (spec.friction > 0 && model != ForceModel::norton)
     reader.complain("friction",
                     "friction is felt with force_model = \"norton\" only; leave one of the two out");
+  if (model == ForceModel::tissue && spec.contact == PointContact::nodes)
+    reader.complain("contact",
+                    "force_model = \"tissue\" presses faces; write contact = \"faces\", or leave it out");
   if (can_feel(spec.shape, model)) return;
   reader.complain("force_model",
                   spec.shape == ToolShape::point
-                      ? "a point feels planes; write \"norton\", \"raw_planes\" or \"direct\""
+                      ? "a point feels planes; write \"norton\", \"tissue\", \"raw_planes\" or \"direct\""
                       : "this tool is more than a point and feels a wrench; write \"tangent\" or \"direct\"");
 }
 

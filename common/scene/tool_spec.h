@@ -42,10 +42,11 @@ struct ToolSpec {
 inline bool meets_facets(const ToolSpec& tool) { return tool.shape != ToolShape::body; }
 
 /// Does a point press the faces of a body, as far as the scene says? Finite elements have a surface, whose faces bear; a spring's masses are
-/// all that there is of it, as the papers have them.
+/// all that there is of it, as the papers have them. A hand's motion presses faces whatever they are of.
 inline bool asks_for_faces(const ToolSpec& tool, bool of_finite_elements) noexcept {
-  return tool.contact.value_or(of_finite_elements ? PointContact::faces : PointContact::nodes) ==
-         PointContact::faces;
+  return tool.force_model == ForceModel::tissue ||
+         tool.contact.value_or(of_finite_elements ? PointContact::faces : PointContact::nodes) ==
+             PointContact::faces;
 }
 
 }  // namespace palpate

@@ -99,6 +99,7 @@ nlohmann::json VirtualSession::finish() {
     summary["haptic"] = {{"rate_Hz", hands_.front()->rate_Hz()}, {"energy_max_J", counts.energy_max},
                          {"force_max_N", counts.force_max},      {"torque_max_N_m", counts.torque_max},
                          {"stale_events", counts.stale_events},  {"faults", counts.faults}};
+    if (counts.model_error >= 0) summary["haptic"]["model_error"] = counts.model_error;
   }
   std::vector<std::string> hand;
   for (std::size_t n = 0; n < hands_.size(); ++n) {

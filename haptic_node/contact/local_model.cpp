@@ -14,11 +14,13 @@ bool LocalModel::penetrated(const HandMotion& hand) const noexcept {
       return raw_plane_force(patch_, hand, stiffness_, 0, limit_).n_planes > 0;
     case ForceModel::direct:
       return direct_force(wrench_, hand, stiffness_).n_planes > 0;
+    case ForceModel::tissue:
+      return tissue_.penetrated(hand.x);
   }
   return true;
 }
 
-ContactResult LocalModel::tick(const HandMotion& hand, double dt, double share) noexcept {
+ContactResult LocalModel::tick(const HandMotion& hand, double dt, double share, double gain) noexcept {
   switch (model_) {
     case ForceModel::norton:
       return planes_.tick(hand.x, hand.v, dt, share);
@@ -28,6 +30,14 @@ ContactResult LocalModel::tick(const HandMotion& hand, double dt, double share) 
       return raw_plane_force(patch_, hand, stiffness_, damping_, limit_);
     case ForceModel::direct:
       return direct_force(wrench_, hand, stiffness_);
+    case ForceModel::tissue: {
+      ContactResult felt;
+      felt.force = tissue_.tick(hand.x, gain);
+      felt.proxy = hand.x + felt.force / stiffness_;
+      felt.stored = tissue_.touch().stored();
+      felt.n_planes = felt.force.isZero() ? 0 : 1;
+      return felt;
+    }
   }
   return {};
 }

@@ -7,6 +7,7 @@
 #include "common/scene/kinds.h"
 #include "haptic_node/contact/local_contact.h"
 #include "haptic_node/contact/tangent_wrench.h"
+#include "haptic_node/tissue/point_touch.h"
 
 namespace palpate::haptic {
 
@@ -14,23 +15,31 @@ class LocalModel {
  public:
   /// @param stiffness, damping, limit  of the spring between hand and tool [N/m], [N s/m], [N]
   /// @param torque_limit  0: the device gives none [N m]
+  /// @param period, resolution  of samples [s], [m]
   LocalModel(ForceModel model, double stiffness, double damping, double limit, double torque_limit,
-             double friction = 0) noexcept
+             double friction, double period, double resolution) noexcept
       : model_(model),
         stiffness_(stiffness),
         damping_(damping),
         limit_(limit),
         planes_(stiffness, damping, limit, friction),
-        tangent_(stiffness, damping, limit, torque_limit) {}
+        tangent_(stiffness, damping, limit, torque_limit),
+        tissue_({{stiffness, damping}, period, limit, resolution}) {}
 
   /// Forces come from wrenches; otherwise from patches.
   bool needs_wrench() const noexcept { return model_ == ForceModel::tangent || model_ == ForceModel::direct; }
   /// Bounds the energy that it gives. The other two are for comparison.
-  bool is_passive() const noexcept { return model_ == ForceModel::norton || model_ == ForceModel::tangent; }
+  bool is_passive() const noexcept {
+    return model_ == ForceModel::norton || model_ == ForceModel::tangent || limits_itself();
+  }
+  /// Takes gains and the limit of energy in itself: what tick() gives goes to the device as it is.
+  bool limits_itself() const noexcept { return model_ == ForceModel::tissue; }
 
   void take(const ContactPatch& patch, double period) noexcept {
     if (model_ == ForceModel::norton)
       planes_.take(patch, period);
+    else if (limits_itself())
+      tissue_.take(patch);
     else
       patch_ = patch;
   }
@@ -46,7 +55,16 @@ class LocalModel {
 
   /// Contract: real time.
   /// @param share  of the force that reached the hand in the last tick
-  ContactResult tick(const HandMotion& hand, double dt, double share) noexcept;
+  /// @param gain   what the state leaves of the force; of one that limits itself alone
+  ContactResult tick(const HandMotion& hand, double dt, double share, double gain) noexcept;
+  /// A tick in which nothing is felt.
+  void rest(const HandMotion& hand) noexcept {
+    if (limits_itself()) tissue_.tick(hand.x, 0);
+  }
+  /// What the device gets [N].
+  void sent(const Vec3& force) noexcept {
+    if (limits_itself()) tissue_.sent(force);
+  }
 
   /// The force becomes `keep` (0..1) of what it is at x.
   void weaken(const Vec3& x, double keep) noexcept {
@@ -58,18 +76,24 @@ class LocalModel {
 
   /// The force is about to grow by itself: how much of `work` may be done so now, booked [J].
   double pay(double work) noexcept {
-    if (!is_passive()) return work;
+    if (!is_passive() || limits_itself()) return work;
     return model_ == ForceModel::norton ? planes_.pay(work) : tangent_.pay(work);
   }
 
   /// Work of moving planes and springs on the hand since the start [J].
-  double work() const noexcept { return planes_.plane_work() + tangent_.work(); }
+  double work() const noexcept {
+    return planes_.plane_work() + tangent_.work() + tissue_.touch().correction_work();
+  }
+  /// Energy that it gives and has not been given, of one that limits itself [J].
+  double surplus() const noexcept { return tissue_.touch().leak(); }
+  const PointTouch& tissue() const noexcept { return tissue_; }
 
  private:
   ForceModel model_;
   double stiffness_, damping_, limit_;
   LocalContact planes_;
   TangentWrench tangent_;
+  PointTouch tissue_;
   ContactPatch patch_{};  // raw_planes
   ToolWrench wrench_{};   // direct
 };

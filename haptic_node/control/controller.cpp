@@ -61,7 +61,7 @@ Controller::Controller(const ControllerSettings& settings) noexcept
       patches_(settings.tool),
       wrenches_(settings.tool),
       model_(settings.model, settings.stiffness, settings.damping, settings.force_limit,
-             settings.torque_limit, settings.friction),
+             settings.torque_limit, settings.friction, settings.period, settings.resolution),
       guard_(settings.force_limit, settings.stiffness, settings.period),
       torque_guard_(settings.torque_limit, settings.stiffness * torque_lever * torque_lever, settings.period),
       energy_(settings.resolution) {}
@@ -202,6 +202,10 @@ double Controller::hand_moved() noexcept {
 /// What the springs may push with. A force that ends at the limit stores S (2 r - r^2), r = limit / F.
 double Controller::share_of_felt() noexcept {
   if (!model_.is_passive()) return 1;
+  if (model_.limits_itself()) {
+    stored_ = felt_.stored;
+    return 1;
+  }
   const double force = felt_.force.norm(), limit = guard_.limit();
   const double r = force > limit ? limit / force : 1.0;
   full_ = felt_.stored * (2 * r - r * r);
@@ -244,7 +248,11 @@ ControllerOutput Controller::tick(std::int64_t now_ns, const DeviceSample& sampl
   // 3. what may be felt
   step_state(now_ns, sample, is_new);
   const bool feels = engaged() || (state_ == HapticState::safe && gain_ > 0);
-  felt_ = feels ? model_.tick(motion_.hand(), std::min(dt, stall), reached_) : ContactResult{};
+  felt_ = {};
+  if (feels)
+    felt_ = model_.tick(motion_.hand(), std::min(dt, stall), reached_, whole_gain());
+  else
+    model_.rest(motion_.hand());
   if (felt_.outran) ++outran_;
 
   // 4. the force
@@ -253,7 +261,9 @@ ControllerOutput Controller::tick(std::int64_t now_ns, const DeviceSample& sampl
   const bool fading = state_ != HapticState::run || stopping_;
   ControllerOutput out;
   const double share = share_of_felt();
-  out.force = guard_.pass(share * felt_.force, whole_gain(), fading, hand_moved());
+  out.force =
+      guard_.pass(share * felt_.force, model_.limits_itself() ? 1.0 : whole_gain(), fading, hand_moved());
+  model_.sent(out.force);
   const double wanted = felt_.force.norm();
   reached_ = wanted > 0 ? std::min(1.0, out.force.norm() / wanted) : 1.0;
   if (settings_.torque_limit > 0) out.torque = torque_guard_.pass(share * felt_.torque, whole_gain(), fading);

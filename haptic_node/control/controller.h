@@ -100,7 +100,10 @@ class Controller {
   /// In the springs as they are applied: limited, faded [J].
   double stored() const noexcept { return stored_; }
   /// Energy that the loop has generated, as seen from the samples [J].
-  double surplus() const noexcept { return energy_.surplus(); }
+  double surplus() const noexcept { return model_.limits_itself() ? model_.surplus() : energy_.surplus(); }
+  /// Of a hand whose motion presses tissue: what it was felt with. Its samples count ticks.
+  const PointTouch* tissue() const noexcept { return model_.limits_itself() ? &model_.tissue() : nullptr; }
+  const ControllerSettings& settings() const noexcept { return settings_; }
   double force_limit() const noexcept { return guard_.limit(); }
   double torque_limit() const noexcept { return torque_guard_.limit(); }
   std::uint64_t contact_set() const noexcept { return contact_set_; }

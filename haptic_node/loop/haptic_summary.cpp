@@ -40,6 +40,7 @@ nlohmann::json haptic_summary(const LoopStats& stats, const std::vector<SessionR
     sum.temperature_max = std::max(sum.temperature_max, tool.counts.temperature_max);
     sum.energy_max = std::max(sum.energy_max, tool.counts.energy_max);
     sum.surplus_max = std::max(sum.surplus_max, tool.counts.surplus_max);
+    sum.model_error = std::max(sum.model_error, tool.counts.model_error);
     sum.force_max = std::max(sum.force_max, tool.counts.force_max);
     sum.torque_max = std::max(sum.torque_max, tool.counts.torque_max);
   }
@@ -63,6 +64,7 @@ nlohmann::json haptic_summary(const LoopStats& stats, const std::vector<SessionR
                            {"longest_call_ms", 1e3 * sum.longest_call},
                            {"trace_samples_lost", trace_lost}};
   const double seconds = seconds_from_ns(stats.last_ns - stats.start_ns);
+  if (sum.model_error >= 0) haptic["model_error"] = sum.model_error;
   if (sum.temperature_max >= 0) haptic["motor_temperature_max"] = sum.temperature_max;
   for (const auto& fault : faults)
     haptic["fault_causes"].push_back({{"tool", fault.tool},

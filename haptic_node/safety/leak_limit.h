@@ -76,6 +76,9 @@ class LeakLimit {
     sent_[0] = force;
   }
 
+  /// It was less than sent() had it [N].
+  void correct(const Vec3& force) noexcept { sent_[0] = force; }
+
   void sent(double force_along) noexcept { sent(Vec3(0, 0, force_along)); }
 
   /// Of H, what may still be given [J].

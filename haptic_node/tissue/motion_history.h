@@ -46,6 +46,14 @@ class History {
     samples_[++newest_ % kept] = next;
   }
 
+  /// Becomes what another one is along something. @param along  its sample -> one of these
+  template <class Other, class Along>
+  void follow(const History<Other>& other, const Along& along) noexcept {
+    newest_ = other.newest();
+    for (std::uint64_t number = newest_; other.has(number); --number)
+      samples_[number % kept] = along(other.at(number));
+  }
+
   std::uint64_t newest() const noexcept { return newest_; }  // 0: none yet
   bool has(std::uint64_t number) const noexcept {
     return number >= 1 && number <= newest_ && newest_ - number < kept;

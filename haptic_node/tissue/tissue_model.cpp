@@ -12,9 +12,9 @@ bool is_sound(const TissueAnswer& answer, std::uint32_t tool) noexcept {
   if (answer.tool != tool || m.n_modes > TissueModel::most_modes || m.n_branches > TissueModel::most_branches)
     return false;
   for (std::uint32_t i = 0; i < m.n_modes; ++i) {
-    if (!(m.modes[i].phi > 0) || !within(m.modes[i].phi, largest_phi)) return false;
-    if (!within(m.modes[i].stiffness, 0, largest_stiffness)) return false;
-    if (!within(m.modes[i].damping, 0, largest_damping)) return false;
+    if (!(m.modes[i].phi > 0) || !within(m.modes[i].phi, largest_shape)) return false;
+    if (!within(m.modes[i].stiffness, 0, stiffest_mode)) return false;
+    if (!within(m.modes[i].damping, 0, most_mode_damping)) return false;
     if (!within(s.q[i], largest_state) || !within(s.w[i], largest_state)) return false;
   }
   for (std::uint32_t j = 0; j < m.n_branches; ++j) {
@@ -22,7 +22,8 @@ bool is_sound(const TissueAnswer& answer, std::uint32_t tool) noexcept {
     if (!(m.branches[j].time > 0) || !std::isfinite(m.branches[j].time)) return false;
     if (!within(s.p[j], farthest_hand)) return false;
   }
-  return within(m.residual, 0, 1) && within(s.rest, farthest_hand) && within(s.force, 0, strongest_tissue);
+  return within(m.residual, 0, most_compliance) && within(s.rest, farthest_hand) &&
+         within(s.force, 0, strongest_tissue);
 }
 
 }  // namespace palpate::haptic

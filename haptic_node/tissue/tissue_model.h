@@ -10,6 +10,8 @@
 #include <array>
 #include <cstdint>
 
+#include "common/message/limits.h"
+
 namespace palpate::haptic {
 
 struct TissueMode {
@@ -24,7 +26,7 @@ struct RelaxingBranch {
 };
 
 struct TissueModel {
-  static constexpr std::size_t most_modes = 9, most_branches = 4;
+  static constexpr std::size_t most_modes = max_tissue_modes, most_branches = max_tissue_branches;
   std::uint32_t n_modes = 0, n_branches = 0;
   std::array<TissueMode, most_modes> modes{};
   std::array<RelaxingBranch, most_branches> branches{};

@@ -63,14 +63,13 @@ bool is_sound(const SurfaceModel& m) noexcept {
     if (m.origin[axis] < -farthest_node || m.origin[axis] > farthest_node) return false;
   }
   for (std::uint32_t i = 0; i < m.n_modes; ++i)
-    if (!within(m.modes[i].stiffness, 0, largest_stiffness) ||
-        !within(m.modes[i].damping, 0, largest_damping))
+    if (!within(m.modes[i].stiffness, 0, stiffest_mode) || !within(m.modes[i].damping, 0, most_mode_damping))
       return false;
   for (int n = 0; n < m.sides[0] * m.sides[1]; ++n) {
     const SurfaceModel::Node& node = m.nodes[static_cast<std::size_t>(n)];
     if (!is_within(node.rest, farthest_hand)) return false;
     for (std::uint32_t i = 0; i < m.n_modes; ++i)
-      if (!is_within(node.shapes[i], largest_phi)) return false;
+      if (!is_within(node.shapes[i], largest_shape)) return false;
   }
   for (int n = 0; n < m.fine(0) * m.fine(1); ++n)
     if (!is_compliance(m.residual[static_cast<std::size_t>(n)])) return false;

@@ -44,6 +44,18 @@ class TissueTouch {
   /// @return force on the device, out of the tissue [N]
   double tick(double x, double gain) noexcept;
 
+  /// Depths count along another direction, or from another point, from now on. @param tips  as many as history() has
+  /// @param along  sample of a tip -> depth and speed; @param by  what it makes of the hand's depth now, less what that was [m]
+  template <class Along>
+  void turn(const TipHistory& tips, const Along& along, double by) noexcept {
+    history_.follow(tips, along);
+    felt_.state.rest += by;
+    for (double& p : felt_.state.p) p += by;
+    shadow_at_ = 0;
+  }
+  /// What the device really gets of what tick() returned [N].
+  void sent(double force) noexcept { leak_.correct(Vec3(0, 0, force)); }
+
   const MotionHistory& history() const noexcept { return history_; }
   /// F of this sample as it is felt: limited by energy and gain, before the hold is paid [N].
   double felt() const noexcept { return felt_force_; }
@@ -57,6 +69,7 @@ class TissueTouch {
   double leak() const noexcept { return leak_.leak(); }
   /// Energy that steps of the copy have made by themselves, sum of -min(0, D) since the start [J].
   double made() const noexcept { return made_; }
+  bool knows_shadow() const noexcept { return shadow_at_ > 0; }
   const TissueCopy& felt_copy() const noexcept { return felt_; }
   const TissueCopy& shadow_copy() const noexcept { return shadow_; }
 

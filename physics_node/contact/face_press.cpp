@@ -53,8 +53,8 @@ double FacePress::reach() const noexcept {
   return box.max().head<2>().norm() + std::max(0.0, z_) + around() + 2 * moving_.body().spacing();
 }
 
-/// What tissue under the tip may move by in a frame. [m]
-double FacePress::around() const noexcept { return std::max(0.002, 0.25 * shape_.size()); }
+/// What tissue under the tip and the tip may move by in a frame. [m]
+double FacePress::around() const noexcept { return std::max(0.002, 0.25 * shape_.size()) + way_; }
 
 double FacePress::sample_spacing(double face_area) const noexcept {
   const double side = std::sqrt(face_area);
@@ -99,7 +99,8 @@ void FacePress::find_depth(const ShapePose& pose) noexcept {
   }
 }
 
-void FacePress::list(const ShapePose& pose, std::span<const std::uint32_t> candidates) noexcept {
+void FacePress::list(const ShapePose& pose, std::span<const std::uint32_t> candidates, double way) noexcept {
+  way_ = way;
   candidates_ = candidates;
   faces_.clear();
   nodes_.clear();

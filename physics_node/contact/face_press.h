@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "physics_node/boundary/boundary.h"
+#include "physics_node/contact/press_by.h"
 #include "physics_node/contact/rigid_shape.h"
 
 namespace palpate::physics {
@@ -51,11 +52,18 @@ class FacePress {
 
   /// Lists the faces that the shape may meet in the coming frame. Once a frame; allocates nothing.
   /// @param candidates  all faces near it; valid until the next call
-  void list(const ShapePose& pose, std::span<const std::uint32_t> candidates) noexcept;
+  /// @param way  of the tip in the frame [m]
+  void list(const ShapePose& pose, std::span<const std::uint32_t> candidates, double way = 0) noexcept;
 
   /// The shape is pressed along -normal, without friction, in a step of dt whose elements have moved the nodes.
-  /// @param force  above 0 [N]. @return false: it meets nothing, and forces() is empty
-  bool press(const ShapePose& pose, double force, double dt) noexcept;
+  /// @return false: it meets nothing, and forces() is empty
+  bool press(const ShapePose& pose, const PressBy& by, double dt) noexcept;
+  /// @param force  [N]
+  bool press(const ShapePose& pose, double force, double dt) noexcept {
+    return press(pose, PressBy{.force = force}, dt);
+  }
+  /// The pose's tip has moved: the depth below it is by so much another [m].
+  void shift(double by) noexcept { z_ += by; }
   /// Adds to that what sums up to `force`, in the proportions of the pressure: friction, and what holds the shape where it is sideways.
   void spread(const Vec3& force) noexcept;
   /// Before a step: remembers how fast the nodes are that it lists.
@@ -127,10 +135,10 @@ class FacePress {
     elsewhere,
     nothing
   };  // elsewhere: beyond the samples that were collected, towards z_
-  Found balance(double force) noexcept;
+  Found balance(const PressBy& by) noexcept;
   void lump(double dt, bool all) noexcept;
   void place_samples() noexcept;
-  Found sweep(double force, double dt, bool first) noexcept;
+  Found sweep(const PressBy& by, double dt, bool first) noexcept;
   void share_out(const ShapePose& pose) noexcept;
 
   const Boundary& surface_;
@@ -151,6 +159,7 @@ class FacePress {
   std::vector<std::uint32_t> bears_;                    // the node of each force
   Vec3 borne_ = Vec3::Zero(), normal_ = Vec3::UnitZ();  // of the last press, scenery's part included
   double z_ = 0, collected_z_ = 0, area_ = 0, overlap_ = 0;
+  double way_ = 0;  // see list()
   bool touching_ = false;
 };
 

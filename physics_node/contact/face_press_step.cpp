@@ -118,14 +118,15 @@ double FacePress::nearest() const noexcept {
   return least;
 }
 
-/// Finds the depth at which samples press with `force`, by Newton's method between bounds.
-FacePress::Found FacePress::balance(double force) noexcept {
+/// Finds the depth at which samples press as they are pressed, by Newton's method between bounds.
+FacePress::Found FacePress::balance(const PressBy& by) noexcept {
   double low = -unbounded, high = unbounded;
   for (int n = 0; n < most_looks; ++n) {
     const Balance now = look(z_);
+    const double force = by.at(z_);
     if (std::abs(now.force - force) <= balance_within * force) return Found::here;
     (now.force < force ? low : high) = z_;
-    double to = z_ + (force - now.force) / now.slope;
+    double to = z_ + (force - now.force) / (now.slope + by.fall(z_));
     if (!(now.slope > 0)) {  // beside or above everything
       const double gap = nearest();
       if (!(gap < unbounded)) return Found::nothing;
@@ -162,19 +163,20 @@ void FacePress::place_samples() noexcept {
   for (const std::uint32_t s : near_) samples_[s].x = at(faces_[samples_[s].face], samples_[s].w);
 }
 
-FacePress::Found FacePress::sweep(double force, double dt, bool first) noexcept {
+FacePress::Found FacePress::sweep(const PressBy& by, double dt, bool first) noexcept {
   place_samples();
   look(z_);
   const bool anew = first && !touching_;
   lump(dt, anew);  // Why of all: before a first touch nothing presses yet
-  if (const Found found = balance(force); found != Found::here) return found;
+  if (const Found found = balance(by); found != Found::here) return found;
   if (anew) {
     lump(dt, false);
-    if (const Found found = balance(force); found != Found::here) return found;
+    if (const Found found = balance(by); found != Found::here) return found;
   }
   double pressed = 0;
   for (const std::uint32_t s : near_) pressed -= samples_[s].next * samples_[s].o.z();
-  if (!(pressed > 0)) return Found::nothing;
+  const double force = by.at(z_);
+  if (!(pressed > 0 && force > 0)) return Found::nothing;
   for (Node& node : nodes_) node.f.setZero();
   for (const std::uint32_t s : near_) {
     Sample& sample = samples_[s];
@@ -222,8 +224,8 @@ void FacePress::spread(const Vec3& force) noexcept {
   for (NodalForce& nodal : forces_) nodal.force += nodal.force.dot(normal_) / pressed * missing;
 }
 
-bool FacePress::press(const ShapePose& pose, double force, double dt) noexcept {
-  if (faces_.empty() || !(force > 0)) {
+bool FacePress::press(const ShapePose& pose, const PressBy& by, double dt) noexcept {
+  if (faces_.empty() || !by.presses()) {
     release();
     return false;
   }
@@ -235,7 +237,7 @@ bool FacePress::press(const ShapePose& pose, double force, double dt) noexcept {
     read_nodes(pose);
     collect();
     for (int n = 0; n < sweeps; ++n)
-      if (found = sweep(force, dt, n == 0); found != Found::here) break;
+      if (found = sweep(by, dt, n == 0); found != Found::here) break;
   }
   if (found == Found::nothing || samples_.empty()) {
     release();

@@ -1,11 +1,14 @@
 #include "physics_node/contact/make_tools.h"
 
 #include "common/error/error.h"
+#include "common/scene/device_spec.h"
+#include "common/scene/force_model.h"
 #include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
 #include "physics_node/contact/body_tool.h"
 #include "physics_node/contact/stick_tool.h"
+#include "physics_node/contact/tissue_tool.h"
 
 namespace palpate::physics {
 namespace {
@@ -18,6 +21,22 @@ void add_point(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
                      ": contact = \"faces\" presses step by step, which \"backward_euler\" does not; write "
                      "contact = \"nodes\", or integrator = \"symplectic_euler\"");
   auto point = std::make_unique<PointTool>(spec, n, touchable, scene.physics->integrator);
+  box.pressing.push_back(point.get());
+  box.tools.push_back(std::move(point));
+  for (const auto& body : bodies) body->prepare_for(Disturbance::forces);
+}
+
+/// A point that the hand's motion presses. @param n  of the tool
+void add_tissue(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
+                const std::vector<TouchableBody>& touchable, Toolbox& box) {
+  const ToolSpec& spec = scene.tools[n];
+  if (scene.physics->integrator == Integrator::backward_euler)
+    throw InputError(
+        spec.place.text() +
+        ": force_model = \"tissue\" presses step by step, which \"backward_euler\" does not; write "
+        "force_model = \"norton\", or integrator = \"symplectic_euler\"");
+  auto point = std::make_unique<TissueTool>(spec, n, touchable, 1 / scene.device(spec.device).rate_Hz,
+                                            scene.physics->integrator);
   box.pressing.push_back(point.get());
   box.tools.push_back(std::move(point));
   for (const auto& body : bodies) body->prepare_for(Disturbance::forces);
@@ -54,7 +73,9 @@ Toolbox make_tools(const Scene& scene, const BodyModels& bodies,
   Toolbox box;
   for (std::uint32_t n = 0; n < scene.tools.size(); ++n) {
     const ToolSpec& spec = scene.tools[n];
-    if (spec.shape == ToolShape::point)
+    if (force_model_of(spec) == ForceModel::tissue)
+      add_tissue(scene, n, bodies, touchable, box);
+    else if (spec.shape == ToolShape::point)
       add_point(scene, n, bodies, touchable, box);
     else if (spec.shape == ToolShape::stick)
       add_stick(scene, n, bodies, touchable, box);

@@ -49,6 +49,7 @@ class PointTool final : public PressingTool {
   void reset() noexcept override;
 
   std::span<const NodalForce> forces() const noexcept override { return forces_; }
+  bool may_press() const noexcept override { return !forces_.empty(); }
   std::size_t touched_body() const noexcept override { return touched_; }
 
   bool follows_steps() const noexcept override { return pressed_by_faces(); }

@@ -11,6 +11,8 @@ class PressingTool : public Tool {
  public:
   /// Forces on masses of the touched body during the coming frame; none: it touches nothing, or does not press.
   virtual std::span<const NodalForce> forces() const noexcept = 0;
+  /// May forces() come in the coming frame?
+  virtual bool may_press() const noexcept = 0;
   virtual std::size_t touched_body() const noexcept = 0;  // meaningful while forces() is not empty
 
   /// Are forces() found in every step anew, from where its elements have moved the masses (explicit integrators), rather than known

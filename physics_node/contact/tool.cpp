@@ -18,7 +18,7 @@ void Tool::begin_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t no
   patch.stamp_ns = now_ns;
   patch.answers = tick_;
   patch.answers_ns = stamp_ns_;
-  patch.n_facets = 0;
+  patch.n_facets = patch.n_tissues = 0;
   patch.contact_set = 0;
 }
 

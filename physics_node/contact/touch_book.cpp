@@ -23,6 +23,7 @@ void TouchBook::frame(const Vec3& borne) noexcept {
   if (!std::isfinite(felt2 + borne2)) return;
   felt2_ += felt2;
   borne2_ += borne2;
+  off2_ += (load_.head<3>() + borne).squaredNorm();
 }
 
 }  // namespace palpate::physics

@@ -33,12 +33,18 @@ class TouchBook {
     return std::sqrt(felt2_ / borne2_);
   }
 
+  /// The same of their difference, in the same frame: what hides in sizes that agree, late or another way.
+  std::optional<double> felt_off_rms() const noexcept {
+    if (!(borne2_ > 0)) return std::nullopt;
+    return std::sqrt(off2_ / borne2_);
+  }
+
  private:
   bool seen_ = false;
-  Pose at_;                                 // of the hand
-  Vec6 load_ = Vec6::Zero();                // that it pressed with [N], [N m]
-  double hand_work_ = 0, tissue_work_ = 0;  // [J]
-  double felt2_ = 0, borne2_ = 0;           // sums over frames [N^2]
+  Pose at_;                                   // of the hand
+  Vec6 load_ = Vec6::Zero();                  // that it pressed with [N], [N m]
+  double hand_work_ = 0, tissue_work_ = 0;    // [J]
+  double felt2_ = 0, borne2_ = 0, off2_ = 0;  // sums over frames [N^2]
 };
 
 }  // namespace palpate::physics

@@ -8,6 +8,7 @@
 
 #include "common/error/error.h"
 #include "common/report/commit.h"
+#include "common/scene/force_model.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
 
@@ -21,12 +22,21 @@ std::vector<std::uint8_t> bytes_of_file(const std::string& path) {
   return bytes;
 }
 
+/// Of its samples, those that physics has not played yet. @param played  the newest that it has; follows
+std::uint32_t count_new(const ToolState& state, std::uint64_t& played) noexcept {
+  const bool goes_on = played > 0 && state.sample > played;
+  const auto n = goes_on ? std::min<std::uint64_t>(state.n_before, state.sample - played - 1) : 0;
+  if (state.sample > 0) played = state.sample;
+  return static_cast<std::uint32_t>(n);
+}
+
 }  // namespace
 
 SessionLog::SessionLog(const World& world, const SceneSource& source, Hdf5File& file)
     : file_(file),
       entries_(std::make_unique<SpscRing<Entry, n_entries>>()),
       told_(world.n_tools()),
+      played_(world.n_tools(), 0),
       hashes_(make_rows<std::uint64_t>("/session/hashes", 2)),
       breaks_(make_rows<std::uint64_t>("/session/breaks", 3)),
       commands_(make_rows<std::uint64_t>("/session/commands", 3)),
@@ -37,7 +47,15 @@ SessionLog::SessionLog(const World& world, const SceneSource& source, Hdf5File& 
   keep_source(source);
   for (const ToolSpec& tool : world.scene().tools) {
     input_index_.push_back(make_rows<std::uint64_t>("/session/inputs/" + tool.name + "/index", index_width));
-    input_state_.push_back(make_rows<double>("/session/inputs/" + tool.name + "/state", state_width));
+    const std::string base = "/session/inputs/" + tool.name;
+    input_state_.push_back(make_rows<double>(base + "/state", state_width));
+    motion_.emplace_back();
+    spring_.push_back({base + "/spring", spring_width});
+    samples_.push_back({base + "/samples", 3});
+    if (force_model_of(tool) != ForceModel::tissue) continue;
+    motion_.back() = make_rows<std::uint64_t>(base + "/motion", motion_width);
+    make_rows<double>(base + "/spring", spring_width);
+    make_rows<float>(base + "/samples", 3);
   }
   note_hash(world, 0);
 }
@@ -104,6 +122,7 @@ void SessionLog::frame(const World& world, std::span<const std::optional<ToolSta
                  .frame = done - 1,
                  .fresh = hand.has_value(),
                  .state = hand.value_or(ToolState{})};
+    if (hand) told->state.n_before = count_new(told->state, played_[n]);
     push(*told);
   }
   const StepReport& report = world.report();
@@ -160,6 +179,14 @@ void SessionLog::take(const Entry& entry) {
       for (const Array3& part :
            {state.v_WT, state.w_WT, state.proxy, state.force_on_hand, state.force_now, state.torque_now})
         numbers.insert(numbers.end(), part.begin(), part.end());
+      if (auto& motion = motion_[entry.tool]) {
+        motion->values.insert(motion->values.end(), {state.sample, state.n_before});
+        auto& spring = spring_[entry.tool].values;
+        spring.insert(spring.end(), {state.stiffness, state.damping, state.force_limit});
+        auto& samples = samples_[entry.tool].values;
+        for (std::uint32_t n = 0; n < state.n_before; ++n)
+          samples.insert(samples.end(), state.before[n].begin(), state.before[n].end());
+      }
       break;
     }
     case Entry::Kind::hash:
@@ -186,6 +213,10 @@ void SessionLog::write() {
   for (Entry entry; entries_->pop(entry);) take(entry);
   for (auto& rows : input_index_) append(rows);
   for (auto& rows : input_state_) append(rows);
+  for (auto& rows : motion_)
+    if (rows) append(*rows);
+  for (auto& rows : spring_) append(rows);
+  for (auto& rows : samples_) append(rows);
   for (auto* rows : {&hashes_, &breaks_, &commands_}) append(*rows);
   append(command_values_);
   append(command_names_);

@@ -23,6 +23,8 @@ inline constexpr std::uint64_t most_kept_bytes = std::uint64_t{512}
                                                  << 20;  // of the files of a scene, together
 inline constexpr std::uint64_t index_width = 7,
                                state_width = 25;  // columns of /session/inputs/NAME/index and state
+// Of a hand whose motion presses tissue: columns of motion (sample, samples before it that are new) and of spring.
+inline constexpr std::uint64_t motion_width = 2, spring_width = 3;
 
 class SessionLog {
  public:
@@ -83,11 +85,15 @@ class SessionLog {
   std::unique_ptr<SpscRing<Entry, n_entries>> entries_;
   bool lost_ = false;                       // an entry found no room: nothing is logged any more
   std::vector<std::optional<Entry>> told_;  // newest input of each tool
+  std::vector<std::uint64_t> played_;       // of each tool: the newest sample of its hand
   std::int64_t broken_ = 0, restored_ = 0;
 
   // the writer's
   std::vector<Rows<std::uint64_t>> input_index_;  // of each tool
   std::vector<Rows<double>> input_state_;
+  std::vector<std::optional<Rows<std::uint64_t>>> motion_;  // of each tool that motion presses
+  std::vector<Rows<double>> spring_;                        // of each tool
+  std::vector<Rows<float>> samples_;                        // the same, new ones only, oldest last
   Rows<std::uint64_t> hashes_, breaks_, commands_, flushed_;
   Rows<double> command_values_, status_;
   Rows<std::uint8_t> command_names_;

@@ -148,6 +148,29 @@ void SessionRecord::read_block(const std::string& tool, Track& track) const {
   const std::uint64_t n = std::min(block_rows, track.n_rows - track.next);
   track.index = file_->read_rows<std::uint64_t>(base + "/index", track.next, n, index_width);
   track.state = file_->read_rows<double>(base + "/state", track.next, n, state_width);
+  if (!track.pressed_by_motion) return;
+  track.motion = file_->read_rows<std::uint64_t>(base + "/motion", track.next, n, motion_width);
+  track.spring = file_->read_rows<double>(base + "/spring", track.next, n, spring_width);
+}
+
+/// The samples of one state. They lie one after the other, whether its hand was there or not.
+void SessionRecord::read_motion(const std::string& tool, std::uint64_t row, Track& track) const {
+  const std::uint64_t n = track.motion[row * motion_width + 1];
+  if (n > max_told_samples)
+    throw InputError(
+        fmt::format("{}: /session/inputs/{}/motion has {} samples in a state; at most {} can be; it is "
+                    "damaged",
+                    path_, tool, n, max_told_samples));
+  const auto samples =
+      file_->read_rows<float>("/session/inputs/" + tool + "/samples", track.samples_read, n, 3);
+  track.samples_read += n;
+  if (!track.now) return;
+  ToolState& state = *track.now;
+  state.sample = track.motion[row * motion_width];
+  const double* spring = &track.spring[row * spring_width];
+  state.stiffness = spring[0], state.damping = spring[1], state.force_limit = spring[2];
+  state.n_before = static_cast<std::uint32_t>(n);
+  for (std::size_t i = 0; i < n; ++i) std::copy_n(&samples[3 * i], 3, state.before[i].begin());
 }
 
 void SessionRecord::inputs(std::uint64_t frame, const std::vector<ToolSpec>& specs,
@@ -158,6 +181,7 @@ void SessionRecord::inputs(std::uint64_t frame, const std::vector<ToolSpec>& spe
     if (frame == 0) {
       const std::string base = "/session/inputs/" + specs[n].name;
       track.n_rows = std::min(file_->shape(base + "/index").at(0), file_->shape(base + "/state").at(0));
+      track.pressed_by_motion = file_->has(base + "/motion");
     }
     while (track.next < track.n_rows) {
       if (track.next >= track.block_first + track.index.size() / index_width)
@@ -168,6 +192,7 @@ void SessionRecord::inputs(std::uint64_t frame, const std::vector<ToolSpec>& spe
       track.now.reset();
       if (index[1] != 0)
         track.now = state_of(static_cast<std::uint32_t>(n), index, &track.state[row * state_width]);
+      if (track.pressed_by_motion) read_motion(specs[n].name, row, track);
       ++track.next;
     }
     tools[n] = track.now;

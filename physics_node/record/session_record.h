@@ -56,10 +56,15 @@ class SessionRecord {
     std::uint64_t n_rows = 0, next = 0, block_first = 0;
     std::vector<std::uint64_t> index{};
     std::vector<double> state{};
+    bool pressed_by_motion = false;
+    std::uint64_t samples_read = 0;
+    std::vector<std::uint64_t> motion{};
+    std::vector<double> spring{};
     std::optional<ToolState> now{};
   };
   std::string text_of(const std::string& dataset) const;
   void read_block(const std::string& tool, Track& track) const;
+  void read_motion(const std::string& tool, std::uint64_t row, Track& track) const;
 
   std::string path_;
   std::unique_ptr<Hdf5File> file_;

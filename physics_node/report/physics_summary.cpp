@@ -99,6 +99,7 @@ nlohmann::json touch_part(const Tool& tool) {
   nlohmann::json part = {{"hand_work", tool.book().hand_work()}};
   if (tool.knows_tissue_work()) part["tissue_work"] = tool.book().tissue_work();
   if (const auto ratio = tool.book().felt_over_true_rms()) part["felt_over_true_rms"] = *ratio;
+  if (const auto off = tool.book().felt_off_rms()) part["felt_off_rms"] = *off;
   return part;
 }
 

@@ -35,10 +35,11 @@ class PressTest : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder); }
 
-  /// `palpate WORDS scenes/box_press.toml --out folder/NAME MORE`. @return exit code
-  int palpate(const std::string& words, const std::string& name, const std::string& more = "") const {
+  /// `palpate WORDS scenes/SCENE.toml --out folder/NAME MORE`. @return exit code
+  int palpate(const std::string& words, const std::string& name, const std::string& more = "",
+              const std::string& scene = "box_press") const {
     const std::string command =
-        test::quoted(PALPATE) + " " + words + " " + test::quoted(SCENES "/box_press.toml") + " --out " +
+        test::quoted(PALPATE) + " " + words + " " + test::quoted(SCENES "/" + scene + ".toml") + " --out " +
         test::quoted(folder / name) + " " + more + " >" + test::quoted(folder / (name + ".log")) + " 2>&1";
     const int status = std::system(command.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
@@ -110,6 +111,21 @@ TEST_F(PressTest, ForceGrowsWithDepthIsTheSameThroughThreeProcessesAndLeavesNoth
   EXPECT_EQ(report["guard"]["nonfinite"].get<int>(), 0);
   EXPECT_GT(report["render"]["frames"].get<int>(), 0);
   EXPECT_TRUE(fs::exists(folder / "live" / "force.png"));
+}
+
+/// 5 Hz and a tap: local planes press tissue with something else, later (0.32 off on this scene).
+TEST_F(PressTest, WhereMotionPressesTissueItIsFeltAsItBearsAtAnyRateOfFrames) {
+  const std::string scene = "fem_palpate";
+  for (const auto& [frame_Hz, most] : {std::pair{"1000", 0.04}, std::pair{"50", 0.04}}) {
+    ASSERT_EQ(
+        palpate("simulate", frame_Hz, std::string("--no-frames --set physics.frame_Hz=") + frame_Hz, scene),
+        0);
+    const auto tip = summary(frame_Hz)["tools"]["tip"];
+    EXPECT_LT(tip["felt_off_rms"].get<double>(), most) << frame_Hz;
+    EXPECT_NEAR(tip["felt_over_true_rms"].get<double>(), 1, most) << frame_Hz;
+  }
+  ASSERT_EQ(palpate("simulate", "planes", "--no-frames --set tool.tip.force_model=norton", scene), 0);
+  EXPECT_GT(summary("planes")["tools"]["tip"]["felt_off_rms"].get<double>(), 0.2);
 }
 
 TEST_F(PressTest, SimulatesTheSameBitsTwiceAndOnTwoThreads) {

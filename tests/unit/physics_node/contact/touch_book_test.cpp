@@ -63,7 +63,7 @@ TEST(TouchBook, BooksNothingOfAHandWithoutForces) {
   EXPECT_FALSE(book.felt_over_true_rms()) << "tissue bore nothing";
 }
 
-/// Felt a third more than is borne, and a quarter of a period late: only the size is told.
+/// Felt a third more than is borne, and a quarter of a period late, along another axis.
 TEST(TouchBook, TellsHowMuchMoreIsFeltThanBorne) {
   TouchBook book;
   for (int i = 0; i < 1000; ++i) {
@@ -71,7 +71,8 @@ TEST(TouchBook, TellsHowMuchMoreIsFeltThanBorne) {
     book.hand(state_of_hand(Vec3::Zero(), {0, 0, 4 * std::cos(phase)}));
     book.frame({3 * std::sin(phase), 0, 0});
   }
-  EXPECT_NEAR(book.felt_over_true_rms().value(), 4.0 / 3, 1e-9);
+  EXPECT_NEAR(book.felt_over_true_rms().value(), 4.0 / 3, 1e-9) << "their sizes";
+  EXPECT_NEAR(book.felt_off_rms().value(), 5.0 / 3, 1e-9) << "their difference";
 }
 
 TEST(TouchBook, LeavesOutWhatIsNoNumber) {

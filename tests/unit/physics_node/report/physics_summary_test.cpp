@@ -68,7 +68,7 @@ TEST(PhysicsSummary, HasTheKeysPromised) {
   EXPECT_EQ(summary.at("warnings"), json::array()) << "nothing is wrong with it";
   expect_keys(summary.at("tools").at("tip"),
               {"contacts_max", "force_peak", "force_rms", "moment_peak", "trace", "hand_work", "tissue_work",
-               "felt_over_true_rms"},
+               "felt_over_true_rms", "felt_off_rms"},
               "tool");
 
   EXPECT_NEAR(summary.at("simulated_s").get<double>(), 1.0, 1e-9);

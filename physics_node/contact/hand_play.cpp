@@ -1,0 +1,64 @@
+#include "physics_node/contact/hand_play.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/message/vec3.h"
+
+namespace palpate::physics {
+namespace {
+
+constexpr double corner_Hz = 100;  // of the velocity, as in the hand
+
+}  // namespace
+
+HandPlay::HandPlay(double period) noexcept
+    : period_(period), share_(-std::expm1(-2 * std::numbers::pi * corner_Hz * period)) {}
+
+void HandPlay::add(const Vec3& x, std::uint64_t number) noexcept {
+  const Moment& before = path_[n_ - 1];
+  const double time = period_ * static_cast<double>(number - last_);
+  path_[n_] = {x, before.v + share_ * ((x - before.x) / time - before.v)};
+  if (n_ == 1) first_ = number;
+  ++n_;
+  last_ = number;
+}
+
+bool HandPlay::take(const ToolState* state) noexcept {
+  path_[0] = path_[n_ - 1];
+  n_ = 1;
+  begin_ = last_;
+  if (state == nullptr || state->sample == last_ || state->sample == 0) {
+    path_[0].v.setZero();
+    return true;
+  }
+  const Vec3 newest = vec(state->p_WT);
+  const bool goes_on = seen() && state->sample > last_;
+  if (!goes_on) {
+    path_[0] = {newest, Vec3::Zero()};
+    begin_ = last_ = state->sample;
+    return false;
+  }
+  const auto told = std::min<std::uint64_t>({state->n_before, max_told_samples, state->sample - last_ - 1});
+  for (std::uint64_t back = told; back > 0; --back) {
+    const Array3f& from = state->before[back - 1];
+    add(newest + Vec3(from[0], from[1], from[2]), state->sample - back);
+  }
+  add(newest, state->sample);
+  return true;
+}
+
+HandPlay::Moment HandPlay::at(double share) const noexcept {
+  if (n_ == 1) return path_[0];
+  const double gap = static_cast<double>(first_ - begin_);
+  const double from_begin = std::clamp(share, 0.0, 1.0) * static_cast<double>(last_ - begin_);
+  // In intervals of the path, of which the first may be of many samples.
+  const double place = from_begin < gap ? from_begin / gap : 1 + from_begin - gap;
+  const std::size_t n = std::min(static_cast<std::size_t>(place), n_ - 2);
+  const double part = place - static_cast<double>(n);
+  const Moment &a = path_[n], &b = path_[n + 1];
+  return {a.x + part * (b.x - a.x), a.v + part * (b.v - a.v)};
+}
+
+}  // namespace palpate::physics

@@ -1,0 +1,46 @@
+#pragma once
+// The recorded motion of a hand, played to tissue in the hand's own time: a frame goes from the last sample that has been played
+// to the newest that has come, however many lie between. So late and lost messages change when tissue is pressed, not how.
+
+#include <array>
+#include <cstdint>
+
+#include "common/math/vec3.h"
+#include "common/message/messages.h"
+
+namespace palpate::physics {
+
+class HandPlay {
+ public:
+  struct Moment {
+    Vec3 x = Vec3::Zero();  // [m]
+    Vec3 v = Vec3::Zero();  // smoothed as the hand smooths it: haptic_node/tissue/motion_history.h [m/s]
+  };
+
+  /// @param period  between samples [s]
+  explicit HandPlay(double period) noexcept;
+
+  /// The coming frame plays up to the sample of this state; none, or one that has been played: the hand stands.
+  /// @return false: a hand that begins anew, at its newest sample
+  bool take(const ToolState* state) noexcept;
+  /// @param share  of the frame, from 0 to 1
+  Moment at(double share) const noexcept;
+  /// Way of the tip in the frame, straight [m].
+  double way() const noexcept { return (path_[n_ - 1].x - path_[0].x).norm(); }
+
+  double period() const noexcept { return period_; }
+  bool seen() const noexcept { return last_ > 0; }
+  std::uint64_t sample() const noexcept { return last_; }  // that is played by the end of the frame; 0: none
+  void reset() noexcept { last_ = 0; }
+
+ private:
+  void add(const Vec3& x, std::uint64_t number) noexcept;
+
+  double period_, share_;
+  std::uint64_t begin_ = 0, last_ = 0;  // samples at both ends of the frame
+  std::uint64_t first_ = 0;             // of path_[1]: more than one after begin_ where some are lost
+  std::size_t n_ = 1;
+  std::array<Moment, max_told_samples + 2> path_{};
+};
+
+}  // namespace palpate::physics

@@ -1,0 +1,102 @@
+#pragma once
+// A sphere that presses tissue by the hand's recorded motion, through the spring and damper that the hand feels: what the hand feels and what
+// the tissue bears are one force, of one sample. The hand has no answer to wait for: it presses a copy of the tissue, which is told here, at
+// the end of each frame, with the state that the motion has brought the tissue to.
+//
+//   copy: nine modes of the body (finite elements on a lattice; else none), the compliance of all else, and the depth that both lie on
+//
+// While physics hears nothing the hand stands, and after Hands::silence the spring lets go, within 200 ms.
+// Limits: one normal, without friction. Cells that break or yield leave the modes as they were: the depth that they lie on takes it up.
+
+#include <memory>
+#include <vector>
+
+#include "physics_node/contact/face_press.h"
+#include "physics_node/contact/hand_play.h"
+#include "physics_node/contact/point_tool.h"
+#include "physics_node/contact/pressing_tool.h"
+#include "physics_node/contact/residual_compliance.h"
+#include "physics_node/contact/tool_contact.h"
+#include "physics_node/reduced/body_modes.h"
+
+namespace palpate::physics {
+
+class TissueTool final : public PressingTool {
+ public:
+  /// @param period  of the hand's samples [s]
+  /// @throws InputError  a body whose cells do not follow a sphere of this size
+  TissueTool(const ToolSpec& tool, std::uint32_t index, const std::vector<TouchableBody>& bodies,
+             double period, Integrator integrator, const Crew& crew = {});
+
+  void take(const ToolState* state, double dt) noexcept override;
+  void find_contact(double t) noexcept override;
+  void reset() noexcept override;
+
+  std::span<const NodalForce> forces() const noexcept override { return forces_; }
+  bool may_press() const noexcept override { return found_ && engaged_; }
+  std::size_t touched_body() const noexcept override { return touched_; }
+  bool follows_steps() const noexcept override { return true; }
+  void begin_step() noexcept override;
+  double press(double dt) noexcept override;
+
+  void write_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) noexcept override;
+  /// For the record.
+  void write_wrench(ToolWrench& wrench, std::uint64_t frame, std::int64_t now_ns,
+                    double t) const noexcept override {
+    begin_wrench(wrench, this->wrench(), frame, now_ns, t);
+  }
+
+  Vec3 tip() const noexcept override { return hand_.x; }
+  Wrench wrench() const noexcept override { return {borne(), (tip() - set_point_).cross(borne())}; }
+  Wrench raw_wrench() const noexcept override { return wrench(); }
+  std::uint32_t contacts() const noexcept override { return static_cast<std::uint32_t>(forces_.size()); }
+  Vec3 borne() const noexcept override {
+    return forces_.empty() ? Vec3(Vec3::Zero()) : force_ * pose_.normal();
+  }
+  bool knows_tissue_work() const noexcept override { return true; }
+  /// Of the hand, that borne() belongs to.
+  std::uint64_t sample() const noexcept { return play_.sample(); }
+
+ private:
+  using Modal = std::array<double, max_tissue_modes>;
+  struct Touchable {
+    const NodeMotion* moving;
+    ToolContact contact;
+    FacePress faces;
+    BodyModes modes;
+  };
+  /// z - sum phi q, and what it is made of, at the end of a frame.
+  struct Told {
+    double depth = 0, force = 0;  // z, F [m], [N]
+    Modal q{}, w{};
+  };
+  void let_go() noexcept;
+  Modal find_shapes(const Touchable& body) const noexcept;
+  double stiffness_of_patch(const Touchable& body) const noexcept;
+  void tell(TouchedTissue& tissue) noexcept;
+
+  double radius_;
+  Integrator integrator_;
+  HandPlay play_;
+  std::vector<std::unique_ptr<Touchable>> bodies_;
+  std::vector<std::uint32_t> candidates_;
+  std::vector<NodalForce> forces_;
+  PressBy spring_;
+  bool engaged_ = false;
+  double keep_ = 1;                    // of the spring, after silence
+  double frame_dt_ = 0, elapsed_ = 0;  // of it [s]
+  HandPlay::Moment hand_;              // now
+  double depth_ = 0;                   // of the sphere below the hand; out of contact of the surface [m]
+  double force_ = 0;                   // [N]
+  std::size_t touched_ = 0;
+  bool found_ = false;  // a surface, in this frame
+  LocalPlane plane_;
+  ShapePose pose_;
+  std::uint64_t told_at_ = 0;  // the sample of the last answer
+  Told told_;
+  double rest_ = 0;                                    // that was told, low-passed [m]
+  Vec3 point_ = Vec3::Zero(), normal_ = Vec3::Zero();  // and from where
+  ResidualCompliance residual_;
+};
+
+}  // namespace palpate::physics
