@@ -88,7 +88,7 @@ Row world_tissue_is_stable(Runs& runs) {
   MatrixSize size;
   size.losses = {0, 0.1};
   if (runs.effort == Effort::quick) size = {{60, 1000}, {5e-3, 50e-3}, {0.1}, {}};
-  const Tally t = tally(run_cases(chosen(over_links(bases, size), runs.effort, 12), runs.jobs));
+  const Tally t = tally(run_cases(chosen(over_links(bases, size), runs.effort, 6), runs.jobs));
   return {"S2",
           "real tissue pressed by the hand's motion, 3-D: three slabs of springs, two of elements; Touch, 3 "
           "hands",
