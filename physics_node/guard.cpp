@@ -8,8 +8,8 @@ namespace {
 constexpr std::int64_t frames_between_saves = 50;
 // Kinetic and elastic energy over what was ever put in. A sound step lets them swing: with symplectic Euler by
 // 1 / (1 - w dt / 2), more than this only for waves of a few cells at steps near the stable one.
-constexpr double largest_growth = 4;         // before the guard acts
-constexpr double suspicious_growth = 1.5;    // before it measures anew
+constexpr double largest_growth = 4;       // before the guard acts
+constexpr double suspicious_growth = 1.5;  // before it measures anew
 // That are measured after a start. Why: the step is chosen for the shape at rest, and what is shaken may outgrow it at once.
 constexpr int first_frames = 2;
 constexpr double sound_growth = 2;           // between two saves, for the first of them to be good
