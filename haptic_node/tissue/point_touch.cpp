@@ -72,7 +72,6 @@ void PointTouch::take(const ContactPatch& patch) noexcept {
 Vec3 PointTouch::tick(const Vec3& x, double gain) noexcept {
   tips_.add(x);
   given_ = touch_.tick(depth(x), known_ ? gain : 0.0);
-  sent(given_ * normal_);
   return given_ * normal_;
 }
 

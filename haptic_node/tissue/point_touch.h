@@ -16,7 +16,7 @@ class PointTouch {
   /// One tick. Contract: real time. @param gain  as TissueTouch has it
   /// @return force on the hand [N]
   Vec3 tick(const Vec3& x, double gain) noexcept;
-  /// What the device really gets of it [N].
+  /// What the device really gets of it [N]. After each tick(): felt() follows from it.
   void sent(const Vec3& force) noexcept;
   /// Force on the hand of the newest sample: of what is sent without what it leads by, which pays for the way to the motors [N].
   const Vec3& felt() const noexcept { return felt_; }

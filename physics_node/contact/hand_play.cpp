@@ -1,10 +1,9 @@
 #include "physics_node/contact/hand_play.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "common/message/vec3.h"
+#include "physics_node/contact/low_pass.h"
 
 namespace palpate::physics {
 namespace {
@@ -13,8 +12,13 @@ constexpr double corner_Hz = 100;  // of the velocity, as in the hand
 
 }  // namespace
 
-HandPlay::HandPlay(double period) noexcept
-    : period_(period), share_(-std::expm1(-2 * std::numbers::pi * corner_Hz * period)) {}
+std::uint32_t new_samples(const ToolState& state, std::uint64_t played) noexcept {
+  if (played == 0 || state.sample <= played) return 0;
+  return static_cast<std::uint32_t>(
+      std::min<std::uint64_t>({state.n_before, max_told_samples, state.sample - played - 1}));
+}
+
+HandPlay::HandPlay(double period) noexcept : period_(period), share_(low_pass_part(corner_Hz, period)) {}
 
 void HandPlay::add(const Vec3& x, std::uint64_t number) noexcept {
   const Moment& before = path_[n_ - 1];
@@ -40,8 +44,7 @@ bool HandPlay::take(const ToolState* state) noexcept {
     begin_ = last_ = state->sample;
     return false;
   }
-  const auto told = std::min<std::uint64_t>({state->n_before, max_told_samples, state->sample - last_ - 1});
-  for (std::uint64_t back = told; back > 0; --back) {
+  for (std::uint64_t back = new_samples(*state, last_); back > 0; --back) {
     const Array3f& from = state->before[back - 1];
     add(newest + Vec3(from[0], from[1], from[2]), state->sample - back);
   }

@@ -10,6 +10,10 @@
 
 namespace palpate::physics {
 
+/// Of the samples that a state tells before its newest, how many come after `played`; 0 where its hand begins anew.
+/// The record keeps what HandPlay plays: both ask here.
+std::uint32_t new_samples(const ToolState& state, std::uint64_t played) noexcept;
+
 class HandPlay {
  public:
   struct Moment {

@@ -44,11 +44,9 @@ TissueTool::TissueTool(const ToolSpec& tool, std::uint32_t index, const std::vec
                   BodyModes(shape, static_cast<int>(max_tissue_modes), crew)}));
   }
   candidates_.reserve(FacePress::most_facets);
-  forces_.reserve(4 * FacePress::most_facets);
 }
 
 void TissueTool::let_go() noexcept {
-  forces_.clear();
   force_ = 0;
   if (touched_ < bodies_.size()) bodies_[touched_]->faces.release();
 }
@@ -112,7 +110,6 @@ void TissueTool::begin_step() noexcept {
 }
 
 double TissueTool::press(double dt) noexcept {
-  forces_.clear();
   if (!found_) return 0;
   FacePress& faces = bodies_[touched_]->faces;
   elapsed_ += dt;
@@ -139,7 +136,6 @@ double TissueTool::press(double dt) noexcept {
   depth_ = faces.depth();
   force_ = by.at(depth_);
   faces.spread(-force_ * n);
-  forces_.assign(faces.forces().begin(), faces.forces().end());
   return faces.power_before();
 }
 
@@ -147,11 +143,11 @@ TissueTool::Modal TissueTool::find_shapes(const Touchable& body) const noexcept 
   Modal phi{};
   const Vec3 into = -pose_.normal();
   for (std::size_t i = 0; i < body.modes.size(); ++i) {
-    if (forces_.empty())
+    if (forces().empty())
       for (const MassShare& share : body.contact.shares())
         phi[i] += share.share * into.dot(body.modes.shape(i, share.cell));
     else
-      for (const NodalForce& nodal : forces_)
+      for (const NodalForce& nodal : forces())
         phi[i] += nodal.force.dot(body.modes.shape(i, nodal.cell)) / force_;
   }
   return phi;

@@ -32,7 +32,9 @@ class TissueTool final : public PressingTool {
   void find_contact(double t) noexcept override;
   void reset() noexcept override;
 
-  std::span<const NodalForce> forces() const noexcept override { return forces_; }
+  std::span<const NodalForce> forces() const noexcept override {
+    return bodies_.empty() ? std::span<const NodalForce>() : bodies_[touched_]->faces.forces();
+  }
   bool may_press() const noexcept override { return found_ && engaged_; }
   std::size_t touched_body() const noexcept override { return touched_; }
   bool follows_steps() const noexcept override { return true; }
@@ -49,9 +51,9 @@ class TissueTool final : public PressingTool {
   Vec3 tip() const noexcept override { return hand_.x; }
   Wrench wrench() const noexcept override { return {borne(), (tip() - set_point_).cross(borne())}; }
   Wrench raw_wrench() const noexcept override { return wrench(); }
-  std::uint32_t contacts() const noexcept override { return static_cast<std::uint32_t>(forces_.size()); }
+  std::uint32_t contacts() const noexcept override { return static_cast<std::uint32_t>(forces().size()); }
   Vec3 borne() const noexcept override {
-    return forces_.empty() ? Vec3(Vec3::Zero()) : force_ * pose_.normal();
+    return forces().empty() ? Vec3(Vec3::Zero()) : force_ * pose_.normal();
   }
   bool knows_tissue_work() const noexcept override { return true; }
   /// Of the hand, that borne() belongs to.
@@ -80,7 +82,6 @@ class TissueTool final : public PressingTool {
   HandPlay play_;
   std::vector<std::unique_ptr<Touchable>> bodies_;
   std::vector<std::uint32_t> candidates_;
-  std::vector<NodalForce> forces_;
   PressBy spring_;
   bool engaged_ = false;
   double keep_ = 1;                    // of the spring, after silence

@@ -11,6 +11,7 @@
 #include "common/scene/force_model.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
+#include "physics_node/contact/hand_play.h"
 
 namespace palpate::physics {
 namespace {
@@ -20,14 +21,6 @@ std::vector<std::uint8_t> bytes_of_file(const std::string& path) {
   std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(in), {}};
   if (!in) throw InputError(path + ": cannot be read; check its permissions");
   return bytes;
-}
-
-/// Of its samples, those that physics has not played yet. @param played  the newest that it has; follows
-std::uint32_t count_new(const ToolState& state, std::uint64_t& played) noexcept {
-  const bool goes_on = played > 0 && state.sample > played;
-  const auto n = goes_on ? std::min<std::uint64_t>(state.n_before, state.sample - played - 1) : 0;
-  if (state.sample > 0) played = state.sample;
-  return static_cast<std::uint32_t>(n);
 }
 
 }  // namespace
@@ -122,7 +115,8 @@ void SessionLog::frame(const World& world, std::span<const std::optional<ToolSta
                  .frame = done - 1,
                  .fresh = hand.has_value(),
                  .state = hand.value_or(ToolState{})};
-    if (hand) told->state.n_before = count_new(told->state, played_[n]);
+    told->state.n_before = new_samples(told->state, played_[n]);
+    if (told->state.sample > 0) played_[n] = told->state.sample;
     push(*told);
   }
   const StepReport& report = world.report();

@@ -29,13 +29,19 @@ ContactPatch patch(std::uint64_t sample, double x_depth, double angle = 0) {
 /// 2 mm deep, from 1 mm above, within 0.1 s.
 Vec3 way_in(int n) { return {0, 0, 1e-3 - 3e-5 * std::min(n, 100)}; }
 
-TEST(PointTouch, PressesAlongTheNormalOfTheAnswer) {
-  PointTouch touch(settings());
+/// That many ticks, answered a tick late. @return force of the last
+Vec3 press(PointTouch& touch, int ticks) {
   Vec3 force = Vec3::Zero();
-  for (int n = 1; n <= 600; ++n) {
+  for (int n = 1; n <= ticks; ++n) {
     if (n > 1) touch.take(patch(static_cast<std::uint64_t>(n - 1), -way_in(n - 1).z()));
     force = touch.tick(way_in(n), 1);
   }
+  return force;
+}
+
+TEST(PointTouch, PressesAlongTheNormalOfTheAnswer) {
+  PointTouch touch(settings());
+  const Vec3 force = press(touch, 600);
   EXPECT_NEAR(force.z(), 0.5, 0.01) << "spring and tissue in series";
   EXPECT_EQ(force.head<2>().norm(), 0);
   EXPECT_NEAR(touch.model_error(), 0, 0.02) << "the copy is right";
@@ -45,11 +51,7 @@ TEST(PointTouch, PressesAlongTheNormalOfTheAnswer) {
 
 TEST(PointTouch, KeepsItsForceWhereTheNormalTurns) {
   PointTouch touch(settings());
-  Vec3 before = Vec3::Zero();
-  for (int n = 1; n <= 400; ++n) {
-    if (n > 1) touch.take(patch(static_cast<std::uint64_t>(n - 1), -way_in(n - 1).z()));
-    before = touch.tick(way_in(n), 1);
-  }
+  const Vec3 before = press(touch, 400);
   const double angle = 0.2;
   for (int n = 401; n <= 410; ++n) {
     touch.take(patch(static_cast<std::uint64_t>(n - 1), 2e-3 * std::cos(angle), angle));
@@ -74,10 +76,7 @@ TEST(PointTouch, LeavesOutWhatIsNoTissue) {
 
 TEST(PointTouch, FeelsNothingWhereNoTissueIsNear) {
   PointTouch touch(settings());
-  for (int n = 1; n <= 300; ++n) {
-    if (n > 1) touch.take(patch(static_cast<std::uint64_t>(n - 1), -way_in(n - 1).z()));
-    touch.tick(way_in(n), 1);
-  }
+  press(touch, 300);
   touch.take(ContactPatch{});
   for (int n = 301; n <= 400; ++n) EXPECT_TRUE(touch.tick(way_in(n), 1).isZero());
   EXPECT_FALSE(touch.penetrated(way_in(400)));
