@@ -11,7 +11,7 @@ double PressedTissue::press(double x, double v) const noexcept {
 }
 
 /// The force is that of hand and tissue at the beginning of a step: taken from two times it is wrong by 6 % at 10 Hz.
-void PressedTissue::play(const haptic::HandSample& a, const haptic::HandSample& b, double time,
+void PressedTissue::play(const HandSample& a, const HandSample& b, double time,
                          const std::function<void(double)>& each) {
   const double step = specimen_.step();
   const int steps = static_cast<int>(std::lround(time / step));
@@ -28,7 +28,7 @@ void PressedTissue::play(const haptic::HandSample& a, const haptic::HandSample& 
 void PressedTissue::frame(const HandSamples* hand, double since, const std::function<void(double)>& each) {
   if (hand == nullptr || hand->newest <= stamp_) {
     silent_for_ += since;
-    const haptic::HandSample held{last_.x, 0};
+    const HandSample held{last_.x, 0};
     if (silent_for_ > silence && stamp_ > 0) play(held, held, since, each);
     return;
   }

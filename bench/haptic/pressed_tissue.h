@@ -34,14 +34,13 @@ class PressedTissue {
   double borne(std::uint64_t sample) const { return sample < borne_.size() ? borne_[sample] : 0.0; }
 
  private:
-  void play(const haptic::HandSample& a, const haptic::HandSample& b, double time,
-            const std::function<void(double)>& each);
+  void play(const HandSample& a, const HandSample& b, double time, const std::function<void(double)>& each);
   double press(double x, double v) const noexcept;
 
   Specimen specimen_;
   haptic::ContactSpring spring_;
   std::uint64_t stamp_ = 0;
-  haptic::HandSample last_;
+  HandSample last_;
   double force_ = 0, gain_ = 1, silent_for_ = 0;
   std::vector<double> borne_;  // by sample
 };

@@ -14,12 +14,13 @@ ReplayCost measure_replay(int modes, int answers) {
   haptic::TissueAnswer answer;
   answer.model.n_modes = static_cast<std::uint32_t>(modes);
   for (std::uint32_t i = 0; i < answer.model.n_modes; ++i)
-    answer.model.modes[i] = {3, 4000.0 * (i + 1) * (i + 1), 20.0 * (i + 1)};
-  answer.model.residual = 1e-4;
+    answer.model.modes[i] = {Vec3(0.5, 0.2, -3), 4000.0 * (i + 1) * (i + 1), 20.0 * (i + 1)};
+  answer.model.residual = answer.model.residual_across = 1e-4;
+  answer.model.friction = 0.3;
   haptic::TissueTouch touch({{500, 1}, 1e-3, 3, 0});
   std::vector<double> times;
   for (int n = 0; n < answers + static_cast<int>(age); ++n) {
-    touch.tick(2e-3 + 0.5e-3 * std::sin(0.03 * n), 1.0);
+    touch.tick(Vec3(1e-3 * std::sin(0.02 * n), 0, -2e-3 - 0.5e-3 * std::sin(0.03 * n)), 1.0);
     if (touch.history().newest() <= age) continue;
     answer.stamp = touch.history().newest() - age;
     const double begin = thread_us();

@@ -64,6 +64,8 @@ Row world_is_stable(Runs& runs);               // S2, S6
 Row world_force_is_true(Runs& runs);           // S4
 Row world_tissue_is_stable(Runs& runs);        // S2
 Row world_tissue_is_true(Runs& runs);          // T1
+Row world_tissue_slides(Runs& runs);           // T11
+Row world_tissue_bears_a_stick(Runs& runs);    // T14
 Row world_silence_fades();                     // F1
 Row world_return_is_no_kick();                 // F2
 Row world_raw_is_unstable(Runs& runs);         // S0

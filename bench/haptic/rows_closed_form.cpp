@@ -111,6 +111,8 @@ std::vector<Row> all_rows(Runs& runs) {
           world_force_is_true(runs),
           world_tissue_is_stable(runs),
           world_tissue_is_true(runs),
+          world_tissue_slides(runs),
+          world_tissue_bears_a_stick(runs),
           world_pulse_is_felt(runs),
           world_teleports_push_gently(),
           world_edge_has_no_ghost(runs),

@@ -44,14 +44,13 @@ void SolidSpecimen::choose(const physics::DrivingPoint& point, const physics::Vi
       residual_ += compliance(i);
       continue;
     }
-    const double down = point.psi(2, i) > 0 ? -1 : 1;  // phi is above 0, and depth goes down
-    Told told{{std::abs(point.psi(2, i)), point.omega2[i], beta * point.omega2[i]}, {}};
+    Told told{{Vec3(0, 0, point.psi(2, i)), point.omega2[i], beta * point.omega2[i]}, {}};
     for (const physics::Index node : body.nodes()) {
       const Eigen::Index row = answer.row_of(node);
       for (Eigen::Index a = 0; a < 3; ++a) {
         const double shape =
             i < of_body ? modes.shape(3 * row + a, i) : point.added(3 * row + a, i - of_body);
-        told.moment.push_back(down * answer.mass()[3 * row] * shape);
+        told.moment.push_back(answer.mass()[3 * row] * shape);
       }
     }
     told_.push_back(std::move(told));
@@ -75,7 +74,7 @@ void SolidSpecimen::measure() noexcept {
 void SolidSpecimen::tell(double force, haptic::TissueAnswer& answer) const {
   answer.model.n_modes = static_cast<std::uint32_t>(told_.size());
   answer.model.residual = residual_;
-  answer.state.force = force;
+  answer.state.force.z() = -force;
   double known = residual_ * force;
   const auto nodes = model_->body().nodes();
   for (std::size_t i = 0; i < told_.size(); ++i) {
@@ -88,9 +87,9 @@ void SolidSpecimen::tell(double force, haptic::TissueAnswer& answer) const {
     answer.model.modes[i] = told_[i].mode;
     answer.state.q[i] = q;
     answer.state.w[i] = w;
-    known += told_[i].mode.phi * q;
+    known -= told_[i].mode.psi.z() * q;
   }
-  answer.state.rest = depth_ - known;
+  answer.state.rest.z() = known - depth_;
 }
 
 }  // namespace palpate::bench

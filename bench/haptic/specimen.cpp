@@ -48,7 +48,8 @@ void Specimen::find_modes() {
     if (shape(0) < 0) shape = -shape;
     const double squared = solved.eigenvalues()(i);  // omega^2; links damp in proportion to their stiffness
     modes_.modes[static_cast<std::size_t>(i)] = {
-        shape(0), squared, model_.drag / model_.mass + squared * model_.damping / model_.stiffness};
+        Vec3(0, 0, -shape(0)), squared,
+        model_.drag / model_.mass + squared * model_.damping / model_.stiffness};
     compliance -= shape(0) * shape(0) / squared;
     shapes_.emplace_back(shape.data(), shape.data() + n);
   }
@@ -118,16 +119,17 @@ void Specimen::tell_lump(double force, haptic::TissueAnswer& answer) {
       told_stiffness_factor() * (tangent() + (relaxes && !tells ? model_.branch_stiffness : 0.0));
   const double z = u_[0];
   answer.model.n_modes = 1;
-  answer.model.modes[0] = {1 / std::sqrt(m), k / m, c / m};
+  answer.model.modes[0] = {Vec3(0, 0, -1 / std::sqrt(m)), k / m, c / m};
   double elastic = force - m * acceleration_ - c * v_[0];
   if (tells) {
     answer.model.n_branches = 1;
     answer.model.branches[0] = {model_.branch_stiffness, model_.branch_time};
-    answer.state.p[0] = branch_;
     elastic -= model_.branch_stiffness * (z - branch_);
   }
-  answer.state.rest = smooth_rest(z - elastic / k);
-  answer.state.q[0] = (z - answer.state.rest) * std::sqrt(m);
+  const double rest = smooth_rest(z - elastic / k);
+  answer.state.rest.z() = -rest;
+  if (tells) answer.state.p[0] = branch_ - rest;
+  answer.state.q[0] = (z - rest) * std::sqrt(m);
   answer.state.w[0] = v_[0] * std::sqrt(m);
 }
 
@@ -146,16 +148,16 @@ void Specimen::tell_modes(double force, haptic::TissueAnswer& answer) {
     answer.state.w[i] = w;
     told += shapes_[i][0] * q;
   }
-  answer.state.rest = smooth_rest(u_[0] - told);
+  answer.state.rest.z() = -smooth_rest(u_[0] - told);
 }
 
 void Specimen::tell(double force, haptic::TissueAnswer& answer) {
-  answer.state.force = force;
+  answer.state.force.z() = -force;
   if (solid_) {
     solid_->tell(force, answer);
-    answer.state.rest = smooth_rest(answer.state.rest);
+    answer.state.rest.z() = -smooth_rest(-answer.state.rest.z());
   } else if (u_.empty())
-    answer.state.rest = smooth_rest(base_);
+    answer.state.rest.z() = -smooth_rest(base_);
   else if (u_.size() == 1)
     tell_lump(force, answer);
   else

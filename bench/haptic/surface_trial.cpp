@@ -50,7 +50,7 @@ SurfaceRun touch_surface(const SurfaceCase& c, const Path& path, double until) {
   for (int n = 0; n < ticks; ++n) {
     const double t = -wait + tick_s * n;
     const std::int64_t now_ns = n * Trial::tick_ns;
-    up.send(now_ns, newest_samples(touch.history()));
+    up.send(now_ns, newest_samples(touch.history(), [](const haptic::TipSample& tip) { return tip; }));
     if (t >= next_frame - 1e-9) {
       next_frame += 1 / c.rate_Hz;
       up.receive(now_ns, known);

@@ -10,7 +10,7 @@ namespace {
 using std::numbers::pi;
 
 /// The force of each true sample without delay.
-void fill_ideal(const Case& c, const std::vector<haptic::HandSample>& truth, std::size_t first,
+void fill_ideal(const Case& c, const std::vector<HandSample>& truth, std::size_t first,
                 std::vector<Touched>& samples) {
   const SpecimenModel model = c.specimen != nullptr ? *c.specimen : specimen_of(c.object);
   PressedTissue ideal(model, {}, {c.stiffness, c.damping});
@@ -70,8 +70,8 @@ TouchRun lead_hand(const Case& c, const Path& path, double until) {
   Trial trial(c, path);
   trial.kinematic = true;
   TouchRun run;
-  std::vector<haptic::HandSample> truth;
-  haptic::HandSample now{-trial.plant().x().z(), 0};
+  std::vector<HandSample> truth;
+  HandSample now{-trial.plant().x().z(), 0};
   std::size_t first = 0;  // sample number at t = 0
   trial.run(until, [&] {
     truth.push_back(now);
@@ -81,7 +81,7 @@ TouchRun lead_hand(const Case& c, const Path& path, double until) {
     if (first == 0) first = truth.size();
     const double command = trial.rendered().force.z();
     const bool copies = c.mode == RenderMode::copy;
-    run.samples.push_back({t, truth.back().x, copies ? trial.touch().felt() : command, command,
+    run.samples.push_back({t, truth.back().x, copies ? trial.touch().felt().z() : command, command,
                            copies ? 0.0 : trial.tissue().load(), 0.0});
   });
   if (const PressedTissue* pressed = trial.pressed()) {
@@ -166,7 +166,7 @@ CutResult cut_under_hand(const LinkAge& age) {
   Trial trial(c, press_path(c));
   trial.alter_specimen = [](Specimen& tissue, double t) { tissue.weaken(t < cut_at ? 1.0 : 0.2); };
   std::vector<std::pair<double, double>> felt;  // with the time
-  trial.run(4.0, [&] { felt.emplace_back(trial.t() - 1e-3, trial.touch().felt()); });
+  trial.run(4.0, [&] { felt.emplace_back(trial.t() - 1e-3, trial.touch().felt().z()); });
   CutResult result;
   double before = 0;
   for (std::size_t i = 0; i < felt.size() && i + 1 <= trial.pressed()->stamp(); ++i) {

@@ -24,6 +24,7 @@ haptic::ControllerSettings settings_of(const Case& c) {
   settings.force_limit = c.device.force_limit;
   settings.resolution = c.device.resolution;
   settings.torque_limit = c.torque_limit;
+  settings.friction = c.friction;
   if (c.slab != nullptr) {
     ToolSpec tool;
     tool.shape = c.slab->stick ? ToolShape::stick : ToolShape::point;
@@ -61,8 +62,8 @@ Trial::Trial(const Case& c, Path path)
       next_frame_ns_(now_ns_) {
   controller_.set_state(haptic::HapticState::ready);
   if (c.slab != nullptr)
-    world_ =
-        std::make_unique<WorldObject>(slab_scene(*c.slab, asked_by(c), c.rate_Hz, c.stiffness, c.damping));
+    world_ = std::make_unique<WorldObject>(
+        slab_scene(*c.slab, asked_by(c), c.rate_Hz, c.stiffness, c.damping, c.friction));
   if (is_pressed_by_motion(c.mode))
     pressed_ = std::make_unique<PressedTissue>(c.specimen != nullptr ? *c.specimen : specimen_of(c.object),
                                                c.told, haptic::ContactSpring{c.stiffness, c.damping});
@@ -70,7 +71,7 @@ Trial::Trial(const Case& c, Path path)
 
 Trial::HandReport Trial::report() {
   HandReport hand{rendered_.reported.z(), plant_.measured(), rendered_.proxy, {}, {}};
-  if (pressed_) hand.samples = newest_samples(touch_.history());
+  if (pressed_) hand.samples = newest_samples(touch_.history(), straight);
   if (!world_) return hand;
   hand.state.tick = ++tick_;
   hand.state.stamp_ns = now_ns_;
@@ -164,19 +165,19 @@ void Trial::render() {
     rendered_.force = {0, 0, newest_->force};
 }
 
-/// Depths and forces of the copy count into the tissue, those of the trial out of it.
+/// Tissue in one dimension, along z: what is aside of it slides.
 void Trial::render_pressed() {
   const haptic::TissueAnswer* newest = newest_ ? &newest_->tissue : nullptr;
   const bool copies = case_.mode == RenderMode::copy;
   if (answers_.accept(newest, now_ns_) && copies) touch_.take(*newest);
-  const double x = -motion_.x().z();
-  double force = touch_.tick(x, copies ? answers_.gain(now_ns_) : 0.0);
+  const Vec3 x(0, 0, motion_.x().z());
+  double force = touch_.tick(x, copies ? answers_.gain(now_ns_) : 0.0).z();
   if (!copies && newest != nullptr && touch_.history().has(newest->stamp)) {
     double give = 1 / case_.stiffness + newest->model.residual;
     for (std::uint32_t i = 0; i < newest->model.n_modes; ++i)
-      give += newest->model.modes[i].phi * newest->model.modes[i].phi / newest->model.modes[i].stiffness;
-    const double moved = x - touch_.history().at(newest->stamp).x;
-    force = std::clamp(newest->state.force + moved / give, 0.0, settings_.force_limit);
+      give += newest->model.modes[i].psi.squaredNorm() / newest->model.modes[i].stiffness;
+    const double moved = (touch_.history().at(newest->stamp).x - x).z();
+    force = std::clamp(-newest->state.force.z() + moved / give, 0.0, settings_.force_limit);
   }
   rendered_ = {};
   rendered_.force = rendered_.reported = {0, 0, force};

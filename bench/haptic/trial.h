@@ -32,6 +32,7 @@ struct Case {
   double clock_ahead = 0;                   // the clock of physics before the hand's [s]
   double stiffness = 500;
   double damping = 1;
+  double friction = 0;      // of a point on a slab
   double torque_limit = 0;  // above 0 a stick is felt by its wrench, without torques by its plane [N m]
   RenderMode mode = RenderMode::local;
   std::optional<ForceModel> feels;  // of a slab, instead of what the mode would name

@@ -9,7 +9,7 @@
 namespace palpate::bench {
 
 Scene slab_scene(const SlabModel& slab, std::optional<ForceModel> model, double rate_Hz,
-                 double hand_stiffness, double hand_damping) {
+                 double hand_stiffness, double hand_damping, double friction) {
   constexpr double thick_mm = 16, radius_mm = 5, stick_radius_mm = 3;
   const double top_mm = slab.stick ? -stick_radius_mm : 0.0;
   const std::string tool =
@@ -29,6 +29,7 @@ Scene slab_scene(const SlabModel& slab, std::optional<ForceModel> model, double 
           hand_stiffness, hand_damping),
       slab.name);
   scene.tools[0].force_model = model;
+  scene.tools[0].friction = friction;
   return scene;
 }
 
@@ -44,7 +45,7 @@ void WorldObject::frame(const ToolState* hand, double table, std::int64_t now_ns
   world_.tool(0).write_wrench(wrench, number, now_ns, world_.t());
   world_.tool(0).write_patch(patch, number, now_ns);
   for (Array3* p : {&wrench.p_WT, &wrench.set_point, &wrench.tip}) (*p)[2] += table;
-  for (std::size_t i = 0; i < patch.n_tissues; ++i) patch.tissues[i].point[2] += table;
+  for (std::size_t i = 0; i < patch.n_tissues; ++i) patch.tissues[i].rest[2] += table;
   for (std::size_t i = 0; i < patch.n_facets; ++i) {
     patch.facets[i].point[2] += table;
     for (Array3& corner : patch.facets[i].corners) corner[2] += table;

@@ -38,7 +38,7 @@ inline constexpr SlabModel stick_slab{"slab 100 kPa, stick", "modulus_kPa = 100\
 
 /// The slab's scene, with the force model as one may name it; a point, or a stick that lies on it, touches at z = 0.
 Scene slab_scene(const SlabModel& slab, std::optional<ForceModel> model, double rate_Hz,
-                 double hand_stiffness, double hand_damping);
+                 double hand_stiffness, double hand_damping, double friction = 0);
 
 class WorldObject {
  public:

@@ -34,9 +34,9 @@ struct PatchFacet {
   friend bool operator==(const PatchFacet&, const PatchFacet&) = default;
 };
 
-/// A way in which tissue swings, of mass 1: q'' + damping q' + stiffness q = phi F, F pressing it, phi q into it.
+/// A way in which tissue swings, of mass 1: q'' + damping q' + stiffness q = psi . F, F on the tissue, which psi q moves.
 struct ModeOfTissue {
-  double phi = 1;        // > 0 [1 / sqrt(kg)]
+  Array3 psi{};          // [1 / sqrt(kg)]
   double stiffness = 0;  // omega^2 [1/s^2]
   double damping = 0;    // [1/s]
   double q = 0, w = 0;   // now: [m sqrt(kg)], and per second
@@ -44,7 +44,7 @@ struct ModeOfTissue {
   template <class Visit>
   static constexpr void fields(Visit&& visit) {
     using namespace promise;
-    visit(PALPATE_FIELD(phi), above_zero(largest_shape));
+    visit(PALPATE_FIELD(psi), within(largest_shape));
     visit(PALPATE_FIELD(stiffness), up_to(stiffest_mode));
     visit(PALPATE_FIELD(damping), up_to(most_mode_damping));
     visit(PALPATE_FIELD(q), within(largest_state));
@@ -57,7 +57,7 @@ struct ModeOfTissue {
 struct BranchOfTissue {
   double stiffness = 0;  // [N/m]
   double time = 1;       // > 0 [s]
-  double place = 0;      // now [m]
+  double place = 0;      // now, below the rest [m]
 
   template <class Visit>
   static constexpr void fields(Visit&& visit) {
@@ -69,14 +69,15 @@ struct BranchOfTissue {
   friend bool operator==(const BranchOfTissue&, const BranchOfTissue&) = default;
 };
 
-/// What a hand whose motion presses tissue can feel of it: haptic_node/tissue/tissue_model.h. Depths are from `point` against `normal`.
+/// What a hand whose motion presses tissue can feel of it: haptic_node/tissue/tissue_model.h.
 struct TouchedTissue {
-  std::uint64_t sample = 0;  // ToolState.sample that the tissue has been pressed by last
-  Array3 point{};            // on the surface, where nothing presses [m]
-  Array3 normal{0, 0, 1};    // out of the tissue, unit
-  double residual = 0;       // compliance of all that follows at once [m/N]
-  double rest = 0;           // depth that modes and residual lie on [m]
-  double force = 0;          // that the tissue bears [N]
+  std::uint64_t sample = 0;    // ToolState.sample that the tissue has been pressed by last
+  Array3 normal{0, 0, 1};      // out of the tissue, unit
+  double residual = 0;         // compliance of all that follows at once, along the normal [m/N]
+  double residual_across = 0;  // and across it [m/N]
+  Array3 arm{};                // from the hand's tip to where the tool is touched [m]
+  Array3 rest{};               // place of the tip that modes and residual lie on [m]
+  Array3 force{};              // on the tissue [N]
   std::uint32_t n_modes = 0;
   std::array<ModeOfTissue, max_tissue_modes> modes{};
   std::uint32_t n_branches = 0;
@@ -86,11 +87,12 @@ struct TouchedTissue {
   static constexpr void fields(Visit&& visit) {
     using namespace promise;
     visit(PALPATE_FIELD(sample), any);
-    visit(PALPATE_FIELD(point), within(farthest_hand));
     visit(PALPATE_FIELD(normal), unit);
     visit(PALPATE_FIELD(residual), up_to(most_compliance));
+    visit(PALPATE_FIELD(residual_across), up_to(most_compliance));
+    visit(PALPATE_FIELD(arm), within(farthest_hand));
     visit(PALPATE_FIELD(rest), within(farthest_hand));
-    visit(PALPATE_FIELD(force), up_to(strongest_tissue));
+    visit(PALPATE_FIELD(force), within(strongest_tissue));
     visit(PALPATE_FIELD(n_modes), count(max_tissue_modes));
     visit.each(PALPATE_FIELD(modes), PALPATE_FIELD(n_modes), of_type<ModeOfTissue>);
     visit(PALPATE_FIELD(n_branches), count(max_tissue_branches));

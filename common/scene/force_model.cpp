@@ -19,11 +19,14 @@ const char* word_of(ForceModel model) noexcept {
 }
 
 bool can_feel(ToolShape shape, ForceModel model) noexcept {
+  if (is_solid_tip(shape) || model == ForceModel::tissue)
+    return model == ForceModel::tissue && shape != ToolShape::body;
   if (model == ForceModel::direct) return true;
   return (shape == ToolShape::point) == (model != ForceModel::tangent);
 }
 
 ForceModel force_model_of(const ToolSpec& tool) noexcept {
+  if (is_solid_tip(tool.shape)) return ForceModel::tissue;
   return tool.force_model.value_or(tool.shape == ToolShape::point ? ForceModel::norton : ForceModel::tangent);
 }
 

@@ -17,7 +17,8 @@
 namespace palpate {
 namespace {
 
-const std::vector<std::string> tool_shapes = {"point", "stick", "knife", "needle"};
+const std::vector<std::string> tool_shapes = {"point", "stick", "cylinder", "cone", "box", "knife", "needle"};
+constexpr Range friction_range{.lo = 0, .hi = 2};
 const std::vector<std::string> point_contacts = {"nodes", "faces"};  // in the order of PointContact
 const std::vector<std::string> force_models = {word_of(ForceModel::norton), word_of(ForceModel::tangent),
                                                word_of(ForceModel::raw_planes), word_of(ForceModel::direct),
@@ -33,7 +34,16 @@ void read_own_body(TableReader& reader, ReadContext& context, ToolSpec& spec) {
     reader.complain("shape", fmt::format("too many bodies, those of tools included; at most {}", max_bodies));
 }
 
-/// name, and shape = "point" or body = NAME.
+std::optional<ToolShape> rigid_shape(const toml::node* word) {
+  const std::string name = word == nullptr ? std::string() : word->value_or(std::string());
+  if (name == "stick") return ToolShape::stick;
+  if (name == "cylinder") return ToolShape::cylinder;
+  if (name == "cone") return ToolShape::cone;
+  if (name == "box") return ToolShape::box;
+  return std::nullopt;
+}
+
+/// name, and shape = "point" or another, or body = NAME.
 void read_other_shape(TableReader& reader, ToolSpec& spec) {
   reader.require("name", "give each tool a name of its own");
   set_if(spec.name, reader.read_name("name"));
@@ -45,8 +55,8 @@ void read_other_shape(TableReader& reader, ToolSpec& spec) {
   }
   if (shape != nullptr && reader.has("body"))
     reader.complain("body", "both \"shape\" and \"body\" are given; keep one of them");
-  else if (shape != nullptr && shape->value_or(std::string()) == "stick")
-    spec.shape = ToolShape::stick;
+  else if (const auto rigid = rigid_shape(shape))
+    spec.shape = *rigid;
   else if (shape != nullptr && shape->value_or(std::string()) != "point")
     reader.complain_word("shape", *shape, tool_shapes, ", or body = the name of a [[body]] instead");
 }
@@ -96,13 +106,19 @@ void check_tool_body(TableReader& reader, const ReadContext& context, const Tool
                   tip.y(), tip.z()));
 }
 
-/// Length, radius and attitude of a stick; the forces of a stick or body are low-passed.
-void read_stick(TableReader& reader, ToolSpec& spec) {
-  reader.require("length_mm", "give the stick a length, such as length_mm = 100");
-  set_if(spec.length, reader.read_length_mm("length_mm"));
-  spec.radius = 0.002;
-  set_if(spec.radius, reader.read_length_mm("radius_mm"));
-  set_if(spec.low_pass_Hz, reader.read_number("low_pass_Hz", positive));
+/// Size and attitude of what is rigid and more than a point; the forces of a stick or body are low-passed.
+void read_rigid(TableReader& reader, ToolSpec& spec) {
+  if (spec.shape == ToolShape::box) {
+    reader.require("size_mm", "give the edges of the box as [x, y, z]");
+    set_if(spec.size, reader.read_vector_mm("size_mm", positive));
+  } else {
+    reader.require("length_mm", "give it a length, such as length_mm = 100");
+    set_if(spec.length, reader.read_length_mm("length_mm"));
+    spec.radius = spec.shape == ToolShape::stick ? 0.002 : 0.003;
+    set_if(spec.radius, reader.read_length_mm("radius_mm"));
+  }
+  if (spec.shape == ToolShape::stick) set_if(spec.low_pass_Hz, reader.read_number("low_pass_Hz", positive));
+  set_if(spec.friction, reader.read_number("friction", friction_range));
   if (const auto degrees = reader.read_numbers("theta_deg", 3, "[about z, about y, about x]"))
     spec.attitude = rotation_of_angles(
         {rad_from_deg((*degrees)[0]), rad_from_deg((*degrees)[1]), rad_from_deg((*degrees)[2])});
@@ -111,20 +127,25 @@ void read_stick(TableReader& reader, ToolSpec& spec) {
 /// What the hand feels between two answers of physics.
 void read_force_model(TableReader& reader, ToolSpec& spec) {
   const auto word = reader.read_word("force_model", force_models);
-  if (!word) return;
-  const auto model = static_cast<ForceModel>(*word);
-  spec.force_model = model;
-  if (spec.friction > 0 && model != ForceModel::norton)
-    reader.complain("friction",
-                    "friction is felt with force_model = \"norton\" only; leave one of the two out");
+  if (word) spec.force_model = static_cast<ForceModel>(*word);
+  const ForceModel model = force_model_of(spec);
+  if (spec.friction > 0 && model != ForceModel::norton && model != ForceModel::tissue)
+    reader.complain(
+        "friction",
+        "friction is felt with force_model = \"norton\" or \"tissue\" only; leave one of the two out");
   if (model == ForceModel::tissue && spec.contact == PointContact::nodes)
     reader.complain("contact",
                     "force_model = \"tissue\" presses faces; write contact = \"faces\", or leave it out");
-  if (can_feel(spec.shape, model)) return;
-  reader.complain("force_model",
-                  spec.shape == ToolShape::point
-                      ? "a point feels planes; write \"norton\", \"tissue\", \"raw_planes\" or \"direct\""
-                      : "this tool is more than a point and feels a wrench; write \"tangent\" or \"direct\"");
+  if (!word || can_feel(spec.shape, *spec.force_model)) return;
+  reader.complain(
+      "force_model",
+      spec.shape == ToolShape::point
+          ? "a point feels planes; write \"norton\", \"tissue\", \"raw_planes\" or \"direct\""
+      : spec.shape == ToolShape::stick
+          ? "a stick is more than a point and feels a wrench; write \"tangent\", \"tissue\" or \"direct\""
+      : is_solid_tip(spec.shape)
+          ? "this tool feels a copy of tissue; write \"tissue\", or leave it out"
+          : "this tool is more than a point and feels a wrench; write \"tangent\" or \"direct\"");
 }
 
 ToolSpec read_tool(TableReader& reader, ReadContext& context) {
@@ -147,11 +168,11 @@ ToolSpec read_tool(TableReader& reader, ReadContext& context) {
     set_if(spec.low_pass_Hz, reader.read_number("low_pass_Hz", positive));
     if (const auto* body = find_tool_body(reader, context, spec))
       check_tool_body(reader, context, spec, *body);
-  } else if (spec.shape == ToolShape::stick) {
-    read_stick(reader, spec);
+  } else if (spec.shape != ToolShape::point) {
+    read_rigid(reader, spec);
   } else {
     set_if(spec.radius, reader.read_length_mm("radius_mm"));
-    set_if(spec.friction, reader.read_number("friction", {.lo = 0, .hi = 2}));
+    set_if(spec.friction, reader.read_number("friction", friction_range));
     if (const auto contact = reader.read_word("contact", point_contacts))
       spec.contact = static_cast<PointContact>(*contact);
   }

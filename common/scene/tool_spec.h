@@ -12,8 +12,8 @@
 namespace palpate {
 
 /// A point touches tissue by the plane under it; a body is one of the scene's, driven by masses that the
-/// hand holds.
-enum class ToolShape { point, stick, body };
+/// hand holds; cylinder, cone and box are rigid, and go up from the tip.
+enum class ToolShape { point, stick, body, cylinder, cone, box };
 
 /// How a point presses: by the masses under it, as in the papers, or as a rigid sphere on sampled faces.
 enum class PointContact { nodes, faces };
@@ -33,18 +33,23 @@ struct ToolSpec {
   double torque_limit = 0.1;            // [N m]
   /// Of the hand between two answers of physics, as the scene has it; who goes by it asks force_model.h.
   std::optional<ForceModel> force_model;
-  double length = 0.1;  // from tip to end [m]; only ToolShape::stick
-  /// Where the handle is not turned; only ToolShape::stick.
+  double length = 0.1;       // from tip to end [m]; of a stick, cylinder, cone
+  Vec3 size = Vec3::Zero();  // of a box [m]
+  /// Where the handle is not turned; of all but points and bodies.
   Eigen::Matrix3d attitude = Eigen::Matrix3d::Identity();
   Place place;
 };
+/// Has it a rigid shape that only force_model = "tissue" presses?
+inline bool is_solid_tip(ToolShape shape) noexcept {
+  return shape == ToolShape::cylinder || shape == ToolShape::cone || shape == ToolShape::box;
+}
 /// Does it meet the facets of bodies? One that is a body has masses of its own, which collide.
 inline bool meets_facets(const ToolSpec& tool) { return tool.shape != ToolShape::body; }
 
 /// Does a point press the faces of a body, as far as the scene says? Finite elements have a surface, whose faces bear; a spring's masses are
 /// all that there is of it, as the papers have them. A hand's motion presses faces whatever they are of.
 inline bool asks_for_faces(const ToolSpec& tool, bool of_finite_elements) noexcept {
-  return tool.force_model == ForceModel::tissue ||
+  return tool.force_model == ForceModel::tissue || is_solid_tip(tool.shape) ||
          tool.contact.value_or(of_finite_elements ? PointContact::faces : PointContact::nodes) ==
              PointContact::faces;
 }

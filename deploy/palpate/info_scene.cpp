@@ -97,6 +97,11 @@ std::string tool_text(const ToolSpec& tool, const Scene& scene) {
   if (tool.shape == ToolShape::body)
     return fmt::format("tool         {}: body {}, device {} (driver {})\n", tool.name, tool.body, tool.device,
                        scene.device(tool.device).driver);
+  if (tool.shape == ToolShape::box)
+    return fmt::format(
+        "tool         {}: box {:.6g} x {:.6g} x {:.6g} mm, {:.6g} N/m, device {} (driver {})\n", tool.name,
+        mm_from_m(tool.size.x()), mm_from_m(tool.size.y()), mm_from_m(tool.size.z()), tool.stiffness,
+        tool.device, scene.device(tool.device).driver);
   return fmt::format("tool         {}: radius {:.6g} mm, {:.6g} N/m, device {} (driver {})\n", tool.name,
                      mm_from_m(tool.radius), tool.stiffness, tool.device, scene.device(tool.device).driver);
 }

@@ -32,7 +32,11 @@ ContactResult LocalModel::tick(const HandMotion& hand, double dt, double share, 
       return direct_force(wrench_, hand, stiffness_);
     case ForceModel::tissue: {
       ContactResult felt;
-      felt.force = tissue_.tick(hand.x, gain);
+      felt.force = tissue_.tick(hand.x, hand.q, gain);
+      felt.torque = tissue_.torque(felt.force);
+      // Both are shortened together: the work of one without the other would not be the copy's.
+      if (const double turns = felt.torque.norm(); torque_limit_ > 0 && turns > torque_limit_)
+        felt.force *= torque_limit_ / turns, felt.torque *= torque_limit_ / turns;
       felt.proxy = hand.x + felt.force / stiffness_;
       felt.stored = tissue_.touch().stored();
       felt.n_planes = felt.force.isZero() ? 0 : 1;

@@ -24,7 +24,8 @@ class LocalModel {
         limit_(limit),
         planes_(stiffness, damping, limit, friction),
         tangent_(stiffness, damping, limit, torque_limit),
-        tissue_({{stiffness, damping}, period, limit, resolution}) {}
+        torque_limit_(torque_limit),
+        tissue_({{stiffness, damping}, period, limit, resolution, torque_limit > 0}, friction) {}
 
   /// Forces come from wrenches; otherwise from patches.
   bool needs_wrench() const noexcept { return model_ == ForceModel::tangent || model_ == ForceModel::direct; }
@@ -59,7 +60,7 @@ class LocalModel {
   ContactResult tick(const HandMotion& hand, double dt, double share, double gain) noexcept;
   /// A tick in which nothing is felt.
   void rest(const HandMotion& hand) noexcept {
-    if (limits_itself()) tissue_.tick(hand.x, 0);
+    if (limits_itself()) tissue_.tick(hand.x, hand.q, 0);
   }
   /// What the device gets [N].
   void sent(const Vec3& force) noexcept {
@@ -93,6 +94,7 @@ class LocalModel {
   double stiffness_, damping_, limit_;
   LocalContact planes_;
   TangentWrench tangent_;
+  double torque_limit_;
   PointTouch tissue_;
   ContactPatch patch_{};  // raw_planes
   ToolWrench wrench_{};   // direct

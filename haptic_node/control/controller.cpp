@@ -266,7 +266,9 @@ ControllerOutput Controller::tick(std::int64_t now_ns, const DeviceSample& sampl
   model_.sent(out.force);
   const double wanted = felt_.force.norm();
   reached_ = wanted > 0 ? std::min(1.0, out.force.norm() / wanted) : 1.0;
-  if (settings_.torque_limit > 0) out.torque = torque_guard_.pass(share * felt_.torque, whole_gain(), fading);
+  if (settings_.torque_limit > 0)
+    out.torque =
+        torque_guard_.pass(share * felt_.torque, model_.limits_itself() ? 1.0 : whole_gain(), fading);
   energy_.sent(out.force, out.torque);
   out.reported = report_.pass(out.force, std::min(dt, stall));
   out.proxy = felt_.n_planes > 0 ? Vec3(motion_.x() + out.force / settings_.stiffness) : motion_.x();

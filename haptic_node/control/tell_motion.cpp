@@ -12,8 +12,8 @@ void tell_motion(const Controller& controller, ToolState& state) noexcept {
   state.sample = tips.newest();
   state.p_WT = array(newest);
   state.force_now = array(touch->felt());
-  state.stiffness = controller.settings().stiffness;
-  state.damping = controller.settings().damping;
+  state.stiffness = touch->gain() * controller.settings().stiffness;
+  state.damping = touch->gain() * controller.settings().damping;
   state.force_limit = controller.force_limit();
   state.n_before = 0;
   for (std::uint64_t back = 1; back <= max_told_samples && tips.has(tips.newest() - back); ++back) {

@@ -5,6 +5,11 @@
 namespace palpate::haptic {
 
 FrictionContact solve_contact(const Mat3& C, const Vec3& e, const Vec3& n, double friction) noexcept {
+  return solve_contact(C, C.inverse(), e, n, friction);
+}
+
+FrictionContact solve_contact(const Mat3& C, const Mat3& inverse, const Vec3& e, const Vec3& n,
+                              double friction) noexcept {
   FrictionContact contact;
   const double p = -n.dot(e);
   if (!(p > 0)) {
@@ -12,7 +17,7 @@ FrictionContact solve_contact(const Mat3& C, const Vec3& e, const Vec3& n, doubl
     return contact;
   }
   contact.touching = true;
-  const Vec3 sticks = C.inverse() * e;
+  const Vec3 sticks = inverse * e;
   const double pressed = -n.dot(sticks);
   const Vec3 along = sticks + pressed * n;
   const double size = along.norm();

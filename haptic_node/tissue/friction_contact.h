@@ -22,10 +22,13 @@ struct FrictionContact {
 };
 
 /// @param compliance  C [m/N]; its symmetric part positive
+/// @param inverse     of C, where it is known
 /// @param e           [m]
 /// @param normal      n, of length 1
 /// @param friction    mu >= 0
 FrictionContact solve_contact(const Mat3& compliance, const Vec3& e, const Vec3& normal,
+                              double friction) noexcept;
+FrictionContact solve_contact(const Mat3& compliance, const Mat3& inverse, const Vec3& e, const Vec3& normal,
                               double friction) noexcept;
 
 }  // namespace palpate::haptic

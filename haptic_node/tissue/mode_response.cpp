@@ -11,11 +11,10 @@ constexpr int terms = 14;
 
 }  // namespace
 
-ModeResponse mode_response(const TissueMode& mode, double h) noexcept {
+ModeResponse mode_response(double stiffness, double damping, double h) noexcept {
   int doublings = 0;
   double t = h;
-  for (const double rate = std::sqrt(mode.stiffness) + mode.damping; rate * t > short_step; t *= 0.5)
-    ++doublings;
+  for (const double rate = std::sqrt(stiffness) + damping; rate * t > short_step; t *= 0.5) ++doublings;
 
   // u_k = (M t)^k (0, 1),  M = (0 1; -omega^2 -c);  (P, P') = t sum u_k / (k + 1)!,  (Q, P) = t^2 sum u_k / (k + 2)!
   double u0 = 0, u1 = 1, weight = 1, P = 0, P_dot = 0, Q = 0;
@@ -24,7 +23,7 @@ ModeResponse mode_response(const TissueMode& mode, double h) noexcept {
     P += weight * u0;
     P_dot += weight * u1;
     Q += weight / (k + 2) * u0;
-    const double next = -t * (mode.stiffness * u0 + mode.damping * u1);
+    const double next = -t * (stiffness * u0 + damping * u1);
     u0 = t * u1;
     u1 = next;
   }
@@ -33,9 +32,9 @@ ModeResponse mode_response(const TissueMode& mode, double h) noexcept {
   ModeResponse r;
   for (;; --doublings) {
     r.a12 = P_dot;
-    r.a11 = 1 - mode.stiffness * P;
-    r.a21 = -mode.stiffness * P_dot;
-    r.a22 = 1 - mode.damping * P_dot - mode.stiffness * P;
+    r.a11 = 1 - stiffness * P;
+    r.a21 = -stiffness * P_dot;
+    r.a22 = 1 - damping * P_dot - stiffness * P;
     if (doublings == 0) break;
     // A load over 2 t: what it did by t goes on alone, and it acts for t once more.
     const double P_two = P + r.a11 * P + r.a12 * P_dot;

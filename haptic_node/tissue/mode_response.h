@@ -12,8 +12,6 @@
 // P and Q come from their power series over a step that is short for the mode, which is then doubled: no case is apart,
 // not omega = 0 nor strong damping.
 
-#include "haptic_node/tissue/tissue_model.h"
-
 namespace palpate::haptic {
 
 struct ModeResponse {
@@ -21,7 +19,7 @@ struct ModeResponse {
   double c0 = 0, c1 = 0, d0 = 0, d1 = 0;
 };
 
-/// @param h  > 0 [s]
-ModeResponse mode_response(const TissueMode& mode, double h) noexcept;
+/// @param stiffness, damping  omega^2 and c [1/s^2], [1/s]  @param h  > 0 [s]
+ModeResponse mode_response(double stiffness, double damping, double h) noexcept;
 
 }  // namespace palpate::haptic

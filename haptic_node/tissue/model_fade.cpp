@@ -8,25 +8,33 @@
 namespace palpate::haptic {
 namespace {
 
-constexpr int halvings = 16;  // beta to 1e-5 of its range
+constexpr int halvings = 16;          // beta to 1e-5 of its range
+constexpr double least_turned = 0.1;  // of a mixed normal: beyond, the two look away from each other
 
-double between(double a, double b, double share) noexcept { return a + share * (b - a); }
+template <class T>
+T between(const T& a, const T& b, double share) noexcept {
+  return a + share * (b - a);
+}
 
 bool same_parameters(const TissueModel& a, const TissueModel& b) noexcept {
   for (std::uint32_t i = 0; i < a.n_modes; ++i)
-    if (a.modes[i].phi != b.modes[i].phi || a.modes[i].stiffness != b.modes[i].stiffness ||
+    if (a.modes[i].psi != b.modes[i].psi || a.modes[i].stiffness != b.modes[i].stiffness ||
         a.modes[i].damping != b.modes[i].damping)
       return false;
   for (std::uint32_t j = 0; j < a.n_branches; ++j)
     if (a.branches[j].stiffness != b.branches[j].stiffness || a.branches[j].time != b.branches[j].time)
       return false;
-  return a.residual == b.residual;
+  return a.normal == b.normal && a.friction == b.friction && a.residual == b.residual &&
+         a.residual_across == b.residual_across;
 }
 
 TissueModel mixed(const TissueModel& a, const TissueModel& b, double beta) noexcept {
   TissueModel m = a;
+  const Vec3 normal = between(a.normal, b.normal, beta);
+  m.normal = normal.norm() > least_turned ? Vec3(normal.normalized()) : b.normal;
+  m.friction = between(a.friction, b.friction, beta);
   for (std::uint32_t i = 0; i < m.n_modes; ++i) {
-    m.modes[i].phi = between(a.modes[i].phi, b.modes[i].phi, beta);
+    m.modes[i].psi = between(a.modes[i].psi, b.modes[i].psi, beta);
     m.modes[i].stiffness = between(a.modes[i].stiffness, b.modes[i].stiffness, beta);
     m.modes[i].damping = between(a.modes[i].damping, b.modes[i].damping, beta);
   }
@@ -35,21 +43,22 @@ TissueModel mixed(const TissueModel& a, const TissueModel& b, double beta) noexc
     m.branches[j].time = between(a.branches[j].time, b.branches[j].time, beta);
   }
   m.residual = between(a.residual, b.residual, beta);
+  m.residual_across = between(a.residual_across, b.residual_across, beta);
   return m;
 }
 
-/// phi q and phi w are mixed, so that the surface moves straight from one to the other.
+/// The modal surface moves straight from one to the other: the rest follows from that.
 TissueState mixed(const TissueCopy& felt, const TissueCopy& shadow, const TissueModel& m,
                   double beta) noexcept {
-  const TissueModel &a = felt.step.model(), &b = shadow.step.model();
   TissueState s = felt.state;
   for (std::uint32_t i = 0; i < m.n_modes; ++i) {
-    const double from = a.modes[i].phi, to = b.modes[i].phi, phi = m.modes[i].phi;
-    s.q[i] = between(from * felt.state.q[i], to * shadow.state.q[i], beta) / phi;
-    s.w[i] = between(from * felt.state.w[i], to * shadow.state.w[i], beta) / phi;
+    s.q[i] = between(felt.state.q[i], shadow.state.q[i], beta);
+    s.w[i] = between(felt.state.w[i], shadow.state.w[i], beta);
   }
   for (std::uint32_t j = 0; j < m.n_branches; ++j) s.p[j] = between(felt.state.p[j], shadow.state.p[j], beta);
-  s.rest = between(felt.state.rest, shadow.state.rest, beta);
+  s.rest = between(modal_surface(felt.step.model(), felt.state),
+                   modal_surface(shadow.step.model(), shadow.state), beta) -
+           modal_way(m, s);
   return s;
 }
 
@@ -57,17 +66,13 @@ TissueState mixed(const TissueCopy& felt, const TissueCopy& shadow, const Tissue
 struct Tried {
   TissueModel model;
   TissueState state;
-  double energy, force;
+  HeldTissue held;
 };
 
-Tried tried(const TissueCopy& felt, const TissueCopy& shadow, double x, double v, double before,
-            double beta) noexcept {
-  Tried t{mixed(felt.step.model(), shadow.step.model(), beta), {}, 0, 0};
+Tried tried(const TissueCopy& felt, const TissueCopy& shadow, const Vec3& x, double beta) noexcept {
+  Tried t{mixed(felt.step.model(), shadow.step.model(), beta), {}, {}};
   t.state = mixed(felt, shadow, t.model, beta);
-  const ContactSpring& spring = felt.step.spring();
-  const double e = x - modal_surface(t.model, t.state);
-  t.energy = tissue_energy(t.model, t.state) + spring.energy(t.model.residual, e);
-  t.force = spring.force(t.model.residual, felt.step.h(), e, v - modal_speed(t.model, t.state), before);
+  t.held = held_tissue(t.model, t.state, felt.step.spring(), x);
   return t;
 }
 
@@ -90,29 +95,36 @@ bool ModelFade::is_event(double felt, double shadow, double h) noexcept {
   return falling_;
 }
 
-double ModelFade::pass(TissueCopy& felt, const TissueCopy& shadow, double x, double v, double before,
-                       double force_step, WorkTank& tank) noexcept {
-  const double h = felt.step.h(), force = felt.state.force, held = felt.step.energy(felt.state, x);
+/// The damper's part of F stays as it was: what is compared are the springs.
+double ModelFade::pass(TissueCopy& felt, const TissueCopy& shadow, const Vec3& x, double force_step,
+                       WorkTank& tank) noexcept {
+  const double h = felt.step.h();
+  const HeldTissue before = felt.step.held(felt.state, x);
   const auto fits = [&](const Tried& t) {
-    return t.energy - held <= tank.level() && std::abs(t.force - force) <= force_step;
+    return t.held.energy - before.energy <= tank.level() &&
+           (t.held.contact.force - before.contact.force).norm() <= force_step;
   };
   double beta = -std::expm1(-h / slow);
-  if (is_event(force, shadow.state.force, h)) {
+  if (is_event(pressed(felt.step.model(), felt.state), pressed(shadow.step.model(), shadow.state), h)) {
     const double fast = -std::expm1(-h / quick);
-    const Tried t = tried(felt, shadow, x, v, before, fast);
-    if (t.energy <= held && t.force <= force) beta = fast;
+    const Tried t = tried(felt, shadow, x, fast);
+    if (t.held.energy <= before.energy &&
+        t.held.contact.force.squaredNorm() <= before.contact.force.squaredNorm())
+      beta = fast;
   }
-  Tried t = tried(felt, shadow, x, v, before, beta);
+  Tried t = tried(felt, shadow, x, beta);
   if (!fits(t)) {
-    beta = largest_share(beta, halvings,
-                         [&](double share) { return fits(tried(felt, shadow, x, v, before, share)); });
+    beta = largest_share(beta, halvings, [&](double share) { return fits(tried(felt, shadow, x, share)); });
     if (beta <= 0) return 0;
-    t = tried(felt, shadow, x, v, before, beta);
+    t = tried(felt, shadow, x, beta);
   }
+  const Vec3 force = felt.state.force;
   felt = mixed(felt, shadow, beta);
-  felt.state.force = t.force;
-  tank.book(t.energy - held);
-  return t.energy - held;
+  const bool stays = before.contact.touching && t.held.contact.touching;
+  felt.state.force = t.held.contact.force + (stays ? Vec3(force - before.contact.force) : Vec3(Vec3::Zero()));
+  if (pressed(felt.step.model(), felt.state) <= 0) felt.state.force.setZero();
+  tank.book(t.held.energy - before.energy);
+  return t.held.energy - before.energy;
 }
 
 }  // namespace palpate::haptic

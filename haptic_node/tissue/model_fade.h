@@ -1,7 +1,7 @@
 #pragma once
 // What is felt, on its way to what physics knows. The felt copy S goes a share beta of the way to the shadow S* in each tick:
 //
-//   S := S + beta (S* - S),   in r, phi q, phi w, p, and in the parameters
+//   S := S + beta (S* - S),   in the surface, q, w, p, and in the parameters, the normal among them
 //   beta = the largest in [0, alpha], alpha = 1 - exp(-h / tau), for which H rises by no more than the tank holds, and
 //          F changes by no more than a given step
 //
@@ -35,12 +35,11 @@ class ModelFade {
   static constexpr double ripple_force = 0.05;          // that S* lies above F [N]
   static constexpr double ripple_rest = 0.5;            // after which it counts no more [s]
 
-  /// One tick: moves `felt` towards `shadow`, both at the same x, v.
-  /// @param before      F of the tick before [N]
+  /// One tick: moves `felt` towards `shadow`, both with the tip at x.
   /// @param force_step  most change of F [N]
   /// @return energy that it put into the felt copy, taken from the tank [J]
-  double pass(TissueCopy& felt, const TissueCopy& shadow, double x, double v, double before,
-              double force_step, WorkTank& tank) noexcept;
+  double pass(TissueCopy& felt, const TissueCopy& shadow, const Vec3& x, double force_step,
+              WorkTank& tank) noexcept;
 
   bool falling() const noexcept { return falling_; }
 

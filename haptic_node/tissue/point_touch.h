@@ -1,6 +1,5 @@
 #pragma once
-// tissue_touch.h for a tip in space: each answer of physics has a point and a normal of its own, along which the hand's motion counts. Where
-// they differ from those of the last answer, the felt copy keeps the force that it has.
+// tissue_touch.h for a tip whose contact comes in patches: what physics says of it becomes an answer, and how true answers were is counted.
 
 #include "common/message/messages.h"
 #include "haptic_node/tissue/tissue_touch.h"
@@ -9,37 +8,38 @@ namespace palpate::haptic {
 
 class PointTouch {
  public:
-  explicit PointTouch(const TouchSettings& settings) noexcept;
+  /// @param friction  Coulomb's, between tip and tissue
+  PointTouch(const TouchSettings& settings, double friction) noexcept
+      : friction_(friction), touch_(settings) {}
 
   /// An answer newer than the last. Before the next tick().
   void take(const ContactPatch& patch) noexcept;
-  /// One tick. Contract: real time. @param gain  as TissueTouch has it
-  /// @return force on the hand [N]
-  Vec3 tick(const Vec3& x, double gain) noexcept;
-  /// What the device really gets of it [N]. After each tick(): felt() follows from it.
-  void sent(const Vec3& force) noexcept;
-  /// Force on the hand of the newest sample: of what is sent without what it leads by, which pays for the way to the motors [N].
-  const Vec3& felt() const noexcept { return felt_; }
+  /// As TissueTouch has it.
+  Vec3 tick(const Vec3& x, const Eigen::Quaterniond& q, double gain) noexcept {
+    gain_ = gain;
+    return touch_.tick(x, q, known_ ? gain : 0.0);
+  }
+  Vec3 tick(const Vec3& x, double gain) noexcept { return tick(x, Eigen::Quaterniond::Identity(), gain); }
+  void sent(const Vec3& force) noexcept { touch_.sent(force); }
+  const Vec3& felt() const noexcept { return touch_.felt(); }
+  /// Of a force there, about the tip [N m].
+  Vec3 torque(const Vec3& force) const noexcept { return touch_.arm().cross(force); }
 
-  /// By the newest answer: the tip is below the surface.
-  bool penetrated(const Vec3& x) const noexcept { return known_ && depth(x) > surface_; }
-  const TipHistory& history() const noexcept { return tips_; }
+  /// Of the last tick: what is left of the spring that physics is to press by.
+  double gain() const noexcept { return gain_; }
+  /// By the newest answer the tip is below the surface.
+  bool penetrated(const Vec3& x) const noexcept { return known_ && normal_.dot(x + arm_ - surface_) < 0; }
+  const TipHistory& history() const noexcept { return touch_.history(); }
   const TissueTouch& touch() const noexcept { return touch_; }
   /// How far forces that the copy foretold were from those that answers made of the same hand: root of squares over squares.
   double model_error() const noexcept;
 
  private:
-  double depth(const Vec3& x) const noexcept { return normal_.dot(point_ - x); }
-  void turn_to(const Vec3& point, const Vec3& normal) noexcept;
-
-  double limit_;  // [N]
-  TipHistory tips_;
+  double friction_;
   TissueTouch touch_;
-  double given_ = 0;  // by the last tick() [N]
-  Vec3 felt_ = Vec3::Zero();
-  bool known_ = false;  // tissue is near, and where
-  Vec3 point_ = Vec3::Zero(), normal_ = Vec3::UnitZ();
-  double surface_ = 0;            // depth of the newest answer's [m]
+  bool known_ = false;  // tissue is near, and where: of the newest answer
+  Vec3 surface_ = Vec3::Zero(), normal_ = Vec3::UnitZ(), arm_ = Vec3::Zero();
+  double gain_ = 0;
   double off2_ = 0, force2_ = 0;  // sums over answers [N^2]
 };
 

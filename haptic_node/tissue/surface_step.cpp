@@ -8,7 +8,7 @@ namespace palpate::haptic {
 SurfaceStep::SurfaceStep(const SurfaceModel& model, const ContactSpring& spring, double h) noexcept
     : spring_(spring), h_(h) {
   for (std::uint32_t i = 0; i < model.n_modes; ++i)
-    modes_[i] = mode_response({1, model.modes[i].stiffness, model.modes[i].damping}, h);
+    modes_[i] = mode_response(model.modes[i].stiffness, model.modes[i].damping, h);
 }
 
 void SurfaceStep::advance(const SurfaceModel& model, SurfaceState& state,

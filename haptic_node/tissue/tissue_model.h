@@ -1,23 +1,26 @@
 #pragma once
-// Tissue under a tip, along the normal of the contact, reduced to what a hand can feel of it:
+// Tissue under a tip, reduced to what a hand can feel of it. A force F on it, at the point where the tip touches:
 //
-//   q_i'' + c_i q_i' + omega_i^2 q_i = phi_i (F - F_r),     y = r + sum phi_i q_i,     z = y + s F
-//   F_r = sum k_j (y - p_j),   p_j' = (y - p_j) / tau_j
+//   q_i'' + c_i q_i' + omega_i^2 q_i = psi_i . (F + F_r n),     y = r + sum psi_i q_i,     S = y + R F
+//   F_r = sum k_j (d - p_j),   p_j' = (d - p_j) / tau_j,   d = -n . (y - r)
 //
-// F presses the tissue, z is its surface; depths count into the tissue. Modes (phi > 0, normalised by mass), the compliance s
-// of all that follows at once, branches that relax, and the rest r that they lie on. No modes, no compliance: a wall at r.
+// S is where the surface is, n its normal, out of the tissue; the tip rubs there with Coulomb's friction mu. Modes (normalised by mass), the
+// compliance R of all that follows at once, along n and across it, branches that relax along n, and the rest r that they lie on. What slides
+// moves r along the surface. No modes, no compliance: a wall at r.
 
 #include <array>
 #include <cstdint>
 
+#include "common/math/vec3.h"
 #include "common/message/limits.h"
+#include "haptic_node/tissue/friction_contact.h"
 
 namespace palpate::haptic {
 
 struct TissueMode {
-  double phi = 0;        // of the surface under the tip, > 0 [1 / sqrt(kg)]
-  double stiffness = 0;  // omega^2 [1/s^2]
-  double damping = 0;    // c [1/s]
+  Vec3 psi = Vec3::Zero();  // of the surface under the tip [1 / sqrt(kg)]
+  double stiffness = 0;     // omega^2 [1/s^2]
+  double damping = 0;       // c [1/s]
 };
 
 struct RelaxingBranch {
@@ -27,53 +30,73 @@ struct RelaxingBranch {
 
 struct TissueModel {
   static constexpr std::size_t most_modes = max_tissue_modes, most_branches = max_tissue_branches;
+  Vec3 normal = Vec3::UnitZ();  // n
+  double friction = 0;          // mu
   std::uint32_t n_modes = 0, n_branches = 0;
   std::array<TissueMode, most_modes> modes{};
   std::array<RelaxingBranch, most_branches> branches{};
-  double residual = 0;  // s [m/N]
+  double residual = 0, residual_across = 0;  // R along n and across it [m/N]
 
   bool same_counts(const TissueModel& other) const noexcept {
     return n_modes == other.n_modes && n_branches == other.n_branches;
+  }
+  Mat3 compliance() const noexcept {  // R
+    return residual_across * Mat3::Identity() + (residual - residual_across) * normal * normal.transpose();
   }
 };
 
 struct TissueState {
   std::array<double, TissueModel::most_modes> q{}, w{};  // [m sqrt(kg)], and per second
-  std::array<double, TissueModel::most_branches> p{};    // where relaxing branches lie [m]
-  double rest = 0;                                       // r [m]
-  double force = 0;                                      // F, not below 0 [N]
+  std::array<double, TissueModel::most_branches> p{};    // where relaxing branches lie, below r [m]
+  Vec3 rest = Vec3::Zero();                              // r [m]
+  Vec3 force = Vec3::Zero();                             // F [N]
 };
 
-/// y: the surface less what the residual compliance gives [m].
-inline double modal_surface(const TissueModel& model, const TissueState& state) noexcept {
-  double y = state.rest;
-  for (std::uint32_t i = 0; i < model.n_modes; ++i) y += model.modes[i].phi * state.q[i];
-  return y;
+/// sum psi q [m]
+inline Vec3 modal_way(const TissueModel& model, const TissueState& state) noexcept {
+  Vec3 way = Vec3::Zero();
+  for (std::uint32_t i = 0; i < model.n_modes; ++i) way += state.q[i] * model.modes[i].psi;
+  return way;
+}
+
+/// y [m]
+inline Vec3 modal_surface(const TissueModel& model, const TissueState& state) noexcept {
+  return state.rest + modal_way(model, state);
 }
 
 /// y' [m/s]
-inline double modal_speed(const TissueModel& model, const TissueState& state) noexcept {
-  double speed = 0;
-  for (std::uint32_t i = 0; i < model.n_modes; ++i) speed += model.modes[i].phi * state.w[i];
+inline Vec3 modal_speed(const TissueModel& model, const TissueState& state) noexcept {
+  Vec3 speed = Vec3::Zero();
+  for (std::uint32_t i = 0; i < model.n_modes; ++i) speed += state.w[i] * model.modes[i].psi;
   return speed;
 }
 
-/// F_r at y [N]
-inline double relaxing_force(const TissueModel& model, const TissueState& state, double y) noexcept {
+/// How far x is below the modal surface [m].
+inline double depth_below(const TissueModel& model, const TissueState& state, const Vec3& x) noexcept {
+  return -model.normal.dot(x - modal_surface(model, state));
+}
+
+/// Of F, into the tissue [N].
+inline double pressed(const TissueModel& model, const TissueState& state) noexcept {
+  return -model.normal.dot(state.force);
+}
+
+/// F_r at d [N]
+inline double relaxing_force(const TissueModel& model, const TissueState& state, double d) noexcept {
   double force = 0;
   for (std::uint32_t j = 0; j < model.n_branches; ++j)
-    force += model.branches[j].stiffness * (y - state.p[j]);
+    force += model.branches[j].stiffness * (d - state.p[j]);
   return force;
 }
 
-/// In modes and branches: sum (w^2 + omega^2 q^2) / 2 + sum k (y - p)^2 / 2 [J]. That of the compliance belongs to the spring.
+/// In modes and branches: sum (w^2 + omega^2 q^2) / 2 + sum k (d - p)^2 / 2 [J]. That of the compliance belongs to the spring.
 inline double tissue_energy(const TissueModel& model, const TissueState& state) noexcept {
   double twice = 0;
   for (std::uint32_t i = 0; i < model.n_modes; ++i)
     twice += state.w[i] * state.w[i] + model.modes[i].stiffness * state.q[i] * state.q[i];
-  const double y = model.n_branches > 0 ? modal_surface(model, state) : 0.0;
+  const double d = model.n_branches > 0 ? -model.normal.dot(modal_way(model, state)) : 0.0;
   for (std::uint32_t j = 0; j < model.n_branches; ++j)
-    twice += model.branches[j].stiffness * (y - state.p[j]) * (y - state.p[j]);
+    twice += model.branches[j].stiffness * (d - state.p[j]) * (d - state.p[j]);
   return 0.5 * twice;
 }
 
@@ -82,11 +105,13 @@ struct TissueAnswer {
   std::uint64_t tick = 0;   // of the frame
   std::uint32_t tool = 0;   // whose contact it is
   std::uint64_t stamp = 0;  // of the last sample of the hand that has been played
+  Vec3 arm = Vec3::Zero();  // from the tip to the point that presses, as the handle lay then [m]
   TissueModel model;
   TissueState state;
 };
 
-/// All numbers finite and in bounds, phi and tau above 0, nothing else below 0. Otherwise it is rejected whole.
+/// All numbers finite and in bounds, n of length 1, tau above 0, nothing else below 0, and F not out of the tissue. Otherwise it is
+/// rejected whole.
 bool is_sound(const TissueAnswer& answer, std::uint32_t tool) noexcept;
 
 }  // namespace palpate::haptic

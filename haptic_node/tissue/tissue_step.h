@@ -1,16 +1,21 @@
 #pragma once
-// Tissue pressed through a spring over one tick. The force grows linearly over it, modes answer exactly, and its value at the
-// end is solved for, so that stiff springs on light tissue need no substeps. At the end of the tick
+// Tissue pressed over one tick by a tip that hangs on spring and damper, with friction. The force grows linearly over the tick, modes answer
+// exactly, and its value at the end is solved for, so that stiff springs on light tissue need no substeps. With y_f, y_f' where the modal
+// surface would be without a force at the end (branches exact for a depth that is linear),
 //
-//   y+ = alpha + sigma F+,    y+' = v0 + nu F+         from the modes, and from branches exact for a y that is linear
-//   F+ = min over { F without bounds, F at 3/2 of the spring }, at least 0
+//   y+ = y_f + D F+,   y+' = y_f' + E F+,   D = sum c1 psi psi^T less what branches hold of it, E alike with d1
+//   C F+ = e,   C = I / K + R + D + B / K n n^T (R / h + E),   e = x - y_f + B / K n n^T (v - y_f' + R F / h)
 //
-// Each law alone falls with F+, and so does the least of them: the least of their solutions solves it, without iterations.
+// within the cone of friction: solve_contact(). C is the same in all ticks: the whole tick is a few dozen products a mode. The damper acts along
+// the normal alone, through the residual compliance; the force is at least 0 and at most 3/2 of what the spring gives, as contact_spring.h has
+// it. What slides moves the rest.
 
 #include <array>
 
 #include "haptic_node/tissue/contact_spring.h"
 #include "haptic_node/tissue/mode_response.h"
+#include "haptic_node/tissue/motion_history.h"
+#include "haptic_node/tissue/tissue_model.h"
 
 namespace palpate::haptic {
 
@@ -21,40 +26,46 @@ struct StepWork {
       0;  // of it, what neither stores; below 0 by what the clamps and the damper's difference leave [J]
 };
 
+/// A state as it is, held by the spring alone.
+struct HeldTissue {
+  FrictionContact contact;
+  double spring_energy = 0;  // in spring and residual compliance [J]
+  double energy = 0;         // and in modes and branches, H [J]
+};
+HeldTissue held_tissue(const TissueModel& model, const TissueState& state, const ContactSpring& spring,
+                       const Vec3& x) noexcept;
+
 class TissueStep {
  public:
   TissueStep() = default;
   TissueStep(const TissueModel& model, const ContactSpring& spring, double h) noexcept;
 
-  /// One tick.
-  /// @param x_before, x  the hand at its beginning and end [m]
-  /// @param v            of the hand at its end, smoothed [m/s]
-  void advance(TissueState& state, double x, double v) const noexcept;
-  StepWork advance(TissueState& state, double x_before, double x, double v) const noexcept;
+  /// One tick. @param tip  at its end
+  void advance(TissueState& state, const TipSample& tip) const noexcept;
+  /// @param before  the tip at its beginning [m]
+  StepWork advance(TissueState& state, const Vec3& before, const TipSample& tip) const noexcept;
 
-  /// In spring, compliance, modes and branches, H [J].
-  double energy(const TissueState& state, double x) const noexcept;
-  /// In spring and compliance [J].
-  double spring_energy(const TissueState& state, double x) const noexcept;
-  /// F that the law of the spring gives at x, v for the state as it is [N].
-  double force_at(const TissueState& state, double x, double v) const noexcept;
-
+  HeldTissue held(const TissueState& state, const Vec3& x) const noexcept {
+    return held_tissue(model_, state, spring_, x);
+  }
   const TissueModel& model() const noexcept { return model_; }
   const ContactSpring& spring() const noexcept { return spring_; }
   double h() const noexcept { return h_; }
 
  private:
   struct Branch {
-    double keep = 1, first = 0, last = 0;  // p+ = keep p + first y + last y+
+    double keep = 1, first = 0, last = 0;  // p+ = keep p + first d + last d+
   };
   TissueModel model_;
   ContactSpring spring_;
   double h_ = 1e-3;
   std::array<ModeResponse, TissueModel::most_modes> modes_{};
   std::array<Branch, TissueModel::most_branches> branches_{};
-  double relaxing_ = 0;  // sum k (1 - last): F_r+ by y+ [N/m]
-  double sigma_ = 0;     // y+ by F+ [m/N]
-  double nu_ = 0;        // y+' by F+ [m/(N s)]
+  double relaxing_ = 0, held_ = 0;  // sum k (1 - last): F_r+ by d+ [N/m]; 1 / (1 + relaxing n.Dn)
+  Vec3 pushed_ = Vec3::Zero(), sped_ = Vec3::Zero();         // D n, E n, branches apart [m/N], [m/(N s)]
+  Mat3 residual_by_h_ = Mat3::Zero();                        // R / h
+  Mat3 compliance_ = Mat3::Zero(), inverse_ = Mat3::Zero();  // C
+  Mat3 bound_ = Mat3::Zero();                                // (I / K + R) / (3/2) + D
 };
 
 }  // namespace palpate::haptic

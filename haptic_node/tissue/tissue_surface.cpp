@@ -10,11 +10,6 @@ namespace palpate::haptic {
 namespace {
 
 constexpr int farthest_node = 1'000'000;
-constexpr double largest_friction = 10;
-
-bool is_within(const Vec3& value, double most) noexcept {
-  return within(value.x(), most) && within(value.y(), most) && within(value.z(), most);
-}
 
 Mat3 symmetric(const std::array<double, 6>& s) noexcept {
   Mat3 m;
@@ -67,9 +62,9 @@ bool is_sound(const SurfaceModel& m) noexcept {
       return false;
   for (int n = 0; n < m.sides[0] * m.sides[1]; ++n) {
     const SurfaceModel::Node& node = m.nodes[static_cast<std::size_t>(n)];
-    if (!is_within(node.rest, farthest_hand)) return false;
+    if (!within(node.rest, farthest_hand)) return false;
     for (std::uint32_t i = 0; i < m.n_modes; ++i)
-      if (!is_within(node.shapes[i], largest_shape)) return false;
+      if (!within(node.shapes[i], largest_shape)) return false;
   }
   for (int n = 0; n < m.fine(0) * m.fine(1); ++n)
     if (!is_compliance(m.residual[static_cast<std::size_t>(n)])) return false;
@@ -131,7 +126,7 @@ bool is_sound(const SurfaceAnswer& answer, std::uint32_t tool) noexcept {
   for (std::uint32_t i = 0; i < answer.model.n_modes; ++i)
     if (!within(s.q[i], largest_state) || !within(s.w[i], largest_state)) return false;
   return within(s.xi.x(), farthest_node) && within(s.xi.y(), farthest_node) &&
-         is_within(s.rest, farthest_hand) && is_within(s.force, strongest_tissue);
+         within(s.rest, farthest_hand) && within(s.force, strongest_tissue);
 }
 
 }  // namespace palpate::haptic

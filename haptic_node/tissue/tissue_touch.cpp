@@ -9,84 +9,119 @@ TissueTouch::TissueTouch(const TouchSettings& settings) noexcept
     : settings_(settings),
       history_(settings.period),
       leak_(settings.resolution, settings.period),
-      guard_(settings.force_limit, settings.spring.stiffness, settings.period) {}
+      guard_(settings.force_limit, settings.spring.stiffness, settings.period),
+      spring_(settings.spring) {}
 
 bool TissueTouch::take(const TissueAnswer& answer) noexcept {
   if (!history_.has(answer.stamp)) return false;
   if (touching() && !answer.model.same_counts(felt_.step.model())) return false;
-  shadow_.step = TissueStep(answer.model, settings_.spring, settings_.period);
+  turn_to(history_.at(answer.stamp).q.conjugate() * answer.arm);
+  shadow_.step = TissueStep(answer.model, spring_, settings_.period);
   shadow_.state = answer.state;
   shadow_at_ = answer.stamp;
-  while (shadow_at_ < history_.newest()) {
-    const HandSample& hand = history_.at(++shadow_at_);
-    shadow_.step.advance(shadow_.state, hand.x, hand.v);
-  }
+  while (shadow_at_ < history_.newest())
+    shadow_.step.advance(shadow_.state, history_.at(++shadow_at_).point(arm_));
   return true;
+}
+
+/// Another point of the tool presses: the felt copy keeps the force that it has.
+void TissueTouch::turn_to(const Vec3& arm) noexcept {
+  felt_.state.rest += history_.at(history_.newest()).q * (arm - arm_);
+  arm_ = arm;
+}
+
+/// Physics is told the spring as it is, so that in a ramp tissue bears what is felt.
+void TissueTouch::scale(double gain) noexcept {
+  spring_ = {gain * settings_.spring.stiffness, gain * settings_.spring.damping};
+  felt_.step = TissueStep(felt_.step.model(), spring_, settings_.period);
+  shadow_.step = TissueStep(shadow_.step.model(), spring_, settings_.period);
 }
 
 /// Tissue that is first known around a hand begins at the hand, at rest and without force, and comes out as fast as the
 /// tank pays.
-void TissueTouch::begin(double x) noexcept {
+void TissueTouch::begin(const Vec3& x) noexcept {
   felt_ = shadow_;
   began_ = true;
-  if (shadow_.state.force <= 0 && modal_surface(shadow_.step.model(), shadow_.state) >= x) return;
+  const TissueModel& model = felt_.step.model();
+  if (pressed(model, felt_.state) <= 0 && depth_below(model, felt_.state, x) <= 0) return;
   felt_.state = {};
   felt_.state.rest = x;
-  felt_.state.p.fill(x);
 }
 
-/// Moves the tissue back until its force is `keep` of what it was.
-void TissueTouch::weaken(double keep, double x) noexcept {
-  const double e = x - modal_surface(felt_.step.model(), felt_.state);
-  felt_.state.rest += (1 - keep) * std::max(0.0, e);
+/// Moves the tissue with the tip until its force is `keep` of what it was.
+void TissueTouch::weaken(double keep, const Vec3& x) noexcept {
+  const TissueModel& model = felt_.step.model();
+  if (depth_below(model, felt_.state, x) > 0)
+    felt_.state.rest += (1 - keep) * (x - modal_surface(model, felt_.state));
   felt_.state.force *= keep;
 }
 
-/// F + clamp(K* 1.5 h (x' - y'), -F, F / 2): a force that is held and late is worth its spring less a damper of that size,
-/// which gives energy; the command has it in advance.
-double TissueTouch::command(double v) const noexcept {
+/// F on the hand, and along the normal clamp(K* 1.5 h (x' - y'), -f, f / 2) more: a force that is held and late is worth its spring
+/// less a damper of that size, which gives energy; the command has it in advance.
+Vec3 TissueTouch::command(const Vec3& v) const noexcept {
   const TissueModel& model = felt_.step.model();
-  const double F = felt_.state.force;
-  const double late = settings_.spring.series(model.residual) * hold * settings_.period *
-                      (v - modal_speed(model, felt_.state));
-  return F + std::clamp(late, -F, ContactSpring::most_damping * F);
+  const double in = pressed(model, felt_.state);
+  const double late = spring_.series(model.residual) * hold * settings_.period *
+                      -model.normal.dot(v - modal_speed(model, felt_.state));
+  return -felt_.state.force + std::clamp(late, -in, ContactSpring::most_damping * in) * model.normal;
 }
 
-double TissueTouch::tick(double x, double gain) noexcept {
-  const double x_before = history_.newest() > 0 ? history_.at(history_.newest()).x : x;
-  history_.add(x);
-  const HandSample hand = history_.at(history_.newest());
-  const double way = hand.x - x_before;
-  if (gain <= 0) began_ = false, shadow_at_ = 0;
-  if (shadow_at_ > 0) shadow_.step.advance(shadow_.state, hand.x, hand.v), shadow_at_ = history_.newest();
+Vec3 TissueTouch::tick(const Vec3& tip, const Eigen::Quaterniond& q, double gain) noexcept {
+  const HandleSample then = history_.newest() > 0 ? history_.at(history_.newest())
+                                                  : HandleSample{{tip, Vec3::Zero()}, q, Vec3::Zero()};
+  history_.add(tip, q);
+  const HandleSample& now = history_.at(history_.newest());
+  const TipSample point = now.point(arm_);
+  const Vec3 before = then.point(arm_).x;
+  const Vec3& x = point.x;
+  if (gain <= 0)
+    began_ = false, shadow_at_ = 0;
+  else if (gain != gain_)
+    scale(gain);
+  if (shadow_at_ > 0) shadow_.step.advance(shadow_.state, point), shadow_at_ = history_.newest();
 
   StepWork work;
   double put_in = 0;
   if (shadow_at_ > 0 && (!began_ || !felt_.step.model().same_counts(shadow_.step.model()))) {
-    begin(hand.x);
+    begin(x);
   } else if (began_) {
-    const double before = felt_.state.force;
-    work = felt_.step.advance(felt_.state, x_before, hand.x, hand.v);
-    if (gain > gain_) weaken(gain_ / gain, hand.x);
-    put_in = fade_.pass(felt_, shadow_, hand.x, hand.v, before, slew * settings_.period, tank_);
+    work = felt_.step.advance(felt_.state, before, point);
+    if (gain > gain_) weaken(gain_ / gain, x);
+    put_in = fade_.pass(felt_, shadow_, x, slew * settings_.period, tank_);
   }
   gain_ = gain;
   made_ -= std::min(0.0, work.dissipated);
   // The tank fills again after a rest in which nothing was put into the copy either.
   tank_.pass(settings_.period, touching() || put_in > 0);
 
-  const double F = began_ ? felt_.state.force : 0.0;
-  LeakStep step = LeakStep::along(way, hand.v, work.given, work.dissipated, gain * F, 0, 0);
+  LeakStep step;
+  // Without torques the hand pushes at the tip alone.
+  step.way = settings_.torque ? Vec3(x - before) : Vec3(now.x - then.x);
+  step.v = settings_.torque ? point.v : now.v;
+  step.given = work.given, step.dissipated = work.dissipated;
+  Vec3 wanted = Vec3::Zero(), force = Vec3::Zero();
   if (began_) {
-    step.spring_energy = felt_.step.spring_energy(felt_.state, hand.x);
-    step.whole_energy = felt_.step.energy(felt_.state, hand.x);
+    const HeldTissue held = felt_.step.held(felt_.state, x);
+    step.speed = -felt_.step.model().normal.dot(point.v);
+    step.force = felt_.state.force;
+    step.spring_energy = held.spring_energy;
+    step.whole_energy = held.energy;
+    force = felt_.state.force;
+    if (touching()) wanted = command(point.v);
   }
   share_ = leak_.share(step);
-  felt_force_ = gain * share_ * F;
-  const double wanted = F > 0 ? gain * share_ * command(hand.v) : 0.0;
-  const double sent = guard_.pass(Vec3(0, 0, wanted), 1.0, false, std::abs(way)).z();
-  leak_.sent(sent);
-  return sent;
+  felt_force_ = -share_ * force;
+  given_ = guard_.pass(share_ * wanted, 1.0, false, (x - before).norm());
+  leak_.sent(-given_);
+  return given_;
+}
+
+void TissueTouch::sent(const Vec3& force) noexcept {
+  leak_.correct(-force);
+  const double whole = given_.squaredNorm();
+  felt_force_ *= whole > 0 ? std::clamp(force.dot(given_) / whole, 0.0, 1.0) : 0.0;
+  const double size = felt_force_.norm();
+  if (size > settings_.force_limit) felt_force_ *= settings_.force_limit / size;
 }
 
 }  // namespace palpate::haptic

@@ -1,8 +1,8 @@
 #pragma once
-// What a hand feels of tissue that physics computes elsewhere, along one normal. Physics presses its tissue by the hand's
-// recorded motion through the spring and damper that the hand feels; the hand runs a copy of the tissue, reduced to some modes,
-// which it presses by the same motion now. At an answer the shadow takes over model and state of the real tissue and replays
-// the hand's own motion since; what is felt fades towards it. So the delay is not felt: only what the model does not know is late.
+// What a hand feels of tissue that physics computes elsewhere. Physics presses its tissue by the hand's recorded motion through the spring and
+// damper that the hand feels; the hand runs a copy of the tissue, reduced to some modes, which it presses by the same motion now. At an answer
+// the shadow takes over model and state of the real tissue and replays the hand's own motion since; what is felt fades towards it. So the delay
+// is not felt: only what the model does not know is late.
 //
 //   history of the hand --> physics --> answer of sample s --> shadow: replay s..n --fade, paid by the tank--> felt --> force
 //
@@ -22,6 +22,7 @@ struct TouchSettings {
   double period = 1e-3;    // [s]
   double force_limit = 3;  // [N]
   double resolution = 0;   // of a sample [m]
+  bool torque = false;     // reaches the hand: turning it against the tissue is work
 };
 
 class TissueTouch {
@@ -38,28 +39,21 @@ class TissueTouch {
   bool take(const TissueAnswer& answer) noexcept;
 
   /// One tick. Contract: real time.
-  /// @param x     depth of the hand [m]
-  /// @param gain  what silence, arming and the like leave of the force, 0..1; 0 forgets the tissue until the next answer,
+  /// @param x, q  tip of the hand, and how the handle lies [m]
+  /// @param gain  what silence, arming and the like leave of spring and damper, 0..1; 0 forgets the tissue until the next answer,
   ///              and what rises again in contact is paid by the tank
-  /// @return force on the device, out of the tissue [N]
-  double tick(double x, double gain) noexcept;
+  /// @return force on the hand, its hold paid [N]
+  Vec3 tick(const Vec3& x, const Eigen::Quaterniond& q, double gain) noexcept;
+  Vec3 tick(const Vec3& x, double gain) noexcept { return tick(x, Eigen::Quaterniond::Identity(), gain); }
+  /// What the device really gets of what tick() returned [N]. After each tick(), where it may be less.
+  void sent(const Vec3& force) noexcept;
 
-  /// Depths count along another direction, or from another point, from now on. @param tips  as many as history() has
-  /// @param along  sample of a tip -> depth and speed; @param by  what it makes of the hand's depth now, less what that was [m]
-  template <class Along>
-  void turn(const TipHistory& tips, const Along& along, double by) noexcept {
-    history_.follow(tips, along);
-    felt_.state.rest += by;
-    for (double& p : felt_.state.p) p += by;
-    shadow_at_ = 0;
-  }
-  /// What the device really gets of what tick() returned [N].
-  void sent(double force) noexcept { leak_.correct(Vec3(0, 0, force)); }
-
-  const MotionHistory& history() const noexcept { return history_; }
-  /// F of this sample as it is felt: limited by energy and gain, before the hold is paid [N].
-  double felt() const noexcept { return felt_force_; }
-  bool touching() const noexcept { return began_ && felt_.state.force > 0; }
+  const TipHistory& history() const noexcept { return history_; }
+  /// From the tip to the point that presses, now [m].
+  Vec3 arm() const noexcept { return history_.newest() > 0 ? history_.at(history_.newest()).q * arm_ : arm_; }
+  /// Force on the hand of the newest sample: of what is sent without what it leads by, which pays for the way to the motors [N].
+  const Vec3& felt() const noexcept { return felt_force_; }
+  bool touching() const noexcept { return began_ && felt_.state.force.squaredNorm() > 0; }
   /// Of the felt copy's energy, what may still be given [J].
   double stored() const noexcept { return leak_.left(); }
   /// Of corrections on the copy since the start [J].
@@ -74,12 +68,15 @@ class TissueTouch {
   const TissueCopy& shadow_copy() const noexcept { return shadow_; }
 
  private:
-  void begin(double x) noexcept;
-  void weaken(double keep, double x) noexcept;
-  double command(double v) const noexcept;
+  void turn_to(const Vec3& arm) noexcept;
+  void scale(double gain) noexcept;
+  void begin(const Vec3& x) noexcept;
+  void weaken(double keep, const Vec3& x) noexcept;
+  Vec3 command(const Vec3& v) const noexcept;
 
   TouchSettings settings_;
-  MotionHistory history_;
+  TipHistory history_;
+  Vec3 arm_ = Vec3::Zero();  // in the frame of the handle
   TissueCopy felt_, shadow_;
   ModelFade fade_;
   WorkTank tank_;
@@ -88,7 +85,9 @@ class TissueTouch {
   bool began_ = false;
   std::uint64_t shadow_at_ = 0;  // the sample that the shadow has been brought to; 0: no shadow
   double gain_ = 0;              // of the last tick
-  double felt_force_ = 0, share_ = 1, made_ = 0;
+  ContactSpring spring_;         // what that left of it
+  Vec3 given_ = Vec3::Zero(), felt_force_ = Vec3::Zero();
+  double share_ = 1, made_ = 0;
 };
 
 }  // namespace palpate::haptic

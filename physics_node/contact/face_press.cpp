@@ -9,8 +9,8 @@ namespace {
 
 constexpr double stiffness_in_cells =
     100;  // k h / E. Why: p / k is then below 1 % of the depth; see docs/benchmarks.md
-constexpr double samples_in_size =
-    10;  // Why: with 24 forces differ by 1 % at most, and cost five times as much
+// Why: with 24 forces differ by 1 % at most, and cost five times as much. A stick bears along its side on many, across on few.
+constexpr double samples_in_size = 10, samples_in_side = 5;
 constexpr int fewest_a_side = 2, most_a_side = 8;
 constexpr double far = std::numeric_limits<double>::infinity();
 
@@ -32,10 +32,17 @@ ShapePose pose_along(const Vec3& tip, const Vec3& normal) noexcept {
   return pose;
 }
 
+ShapePose pose_along(const Vec3& tip, const Vec3& normal, const Eigen::Matrix3d& attitude) noexcept {
+  ShapePose pose = pose_along(tip, normal);
+  pose.attitude = pose.axes.transpose() * attitude;
+  return pose;
+}
+
 FacePress::FacePress(const Boundary& surface, const NodeMotion& moving, const RigidShape& shape)
     : surface_(surface),
       moving_(moving),
       shape_(shape),
+      turns_(shape.kind() != RigidShape::Kind::sphere),
       k_(stiffness_in_cells * stiffest(moving.body()) / moving.body().spacing()),
       margin_(0.1 * std::min(moving.body().spacing(), shape.size())) {
   faces_.reserve(most_facets);
@@ -50,7 +57,8 @@ FacePress::FacePress(const Boundary& surface, const NodeMotion& moving, const Ri
 double FacePress::reach() const noexcept {
   // Why twice the spacing: from the middle of a facet to its corners, stretched.
   const Eigen::AlignedBox3d box = shape_.bounds();
-  return box.max().head<2>().norm() + std::max(0.0, z_) + around() + 2 * moving_.body().spacing();
+  const double size = turns_ ? box.max().cwiseMax(-box.min()).norm() : box.max().head<2>().norm();
+  return size + std::max(0.0, z_) + around() + 2 * moving_.body().spacing();
 }
 
 /// What tissue under the tip and the tip may move by in a frame. [m]
@@ -58,8 +66,16 @@ double FacePress::around() const noexcept { return std::max(0.002, 0.25 * shape_
 
 double FacePress::sample_spacing(double face_area) const noexcept {
   const double side = std::sqrt(face_area);
-  return side / std::clamp(std::ceil(samples_in_size * side / shape_.size()), 1.0 * fewest_a_side,
-                           1.0 * most_a_side);
+  const double most = shape_.kind() == RigidShape::Kind::capsule ? samples_in_side : samples_in_size;
+  return side / std::clamp(std::ceil(most * side / shape_.size()), 1.0 * fewest_a_side, 1.0 * most_a_side);
+}
+
+/// From the shape, of a point in the frame of the pose.
+RigidShape::Distance FacePress::distance(const Vec3& p) const noexcept {
+  if (!turns_) return shape_.distance(p);
+  RigidShape::Distance d = shape_.distance(attitude_.transpose() * p);
+  d.outward = attitude_ * d.outward;
+  return d;
 }
 
 FacePress::Weights FacePress::weights(const Face& face, std::uint32_t at) const noexcept {
@@ -85,13 +101,12 @@ void FacePress::find_depth(const ShapePose& pose) noexcept {
     for (const std::uint32_t facet : candidates_) {
       const auto [middle, area] = surface_.centroid_and_area(facet, moving_);
       const Vec3 p = local(middle) + z_ * Vec3::UnitZ();
-      const RigidShape::Distance d = shape_.distance(p);
+      const RigidShape::Distance d = distance(p);
       if ((pose.axes.transpose() * area).dot(d.outward) >= 0 || d.outward.z() >= 0) continue;
       nearest = std::min(nearest, d.distance);
       for (std::size_t c = 0; c < 4; ++c)
         nearest = std::min(
-            nearest,
-            shape_.distance(local(surface_.position(facet, c, moving_)) + z_ * Vec3::UnitZ()).distance);
+            nearest, distance(local(surface_.position(facet, c, moving_)) + z_ * Vec3::UnitZ()).distance);
     }
     if (!(nearest < far)) return;
     z_ += nearest;
@@ -101,6 +116,7 @@ void FacePress::find_depth(const ShapePose& pose) noexcept {
 
 void FacePress::list(const ShapePose& pose, std::span<const std::uint32_t> candidates, double way) noexcept {
   way_ = way;
+  attitude_ = pose.attitude;
   candidates_ = candidates;
   faces_.clear();
   nodes_.clear();
@@ -111,7 +127,7 @@ void FacePress::list(const ShapePose& pose, std::span<const std::uint32_t> candi
     Face face;
     const Vec3 middle = surface_.centroid(facet, moving_);
     const Vec3 p = pose.axes.transpose() * (middle - pose.tip) + z_ * Vec3::UnitZ();
-    const double gap = shape_.distance(p).distance;
+    const double gap = distance(p).distance;
     // Why twice the spacing: from the middle of a face to its corners, stretched.
     if (gap > 2 * moving_.body().spacing() + around()) continue;
     for (std::size_t c = 0; c < 4; ++c)
@@ -148,9 +164,10 @@ void FacePress::list(const ShapePose& pose, std::span<const std::uint32_t> candi
   }
 }
 
-void FacePress::note_velocities(bool verlet) noexcept {
+void FacePress::note_motion(bool verlet) noexcept {
   for (Node& node : nodes_) {
     if (node.cell < 0) continue;
+    node.began = moving_.position(node.cell);
     if (!verlet) {
       node.v = moving_.velocity(node.cell);
       continue;
@@ -170,6 +187,28 @@ double FacePress::power_before() const noexcept {
     if (node.inverse_mass > 0) sum += forces_[n].force.dot(node.v);
   }
   return sum;
+}
+
+Vec3 FacePress::way(double dt) const noexcept {
+  const double pressed = borne_.dot(normal_);
+  if (!(pressed < 0)) return Vec3::Zero();
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t n = 0; n < forces_.size(); ++n) {
+    const Node& node = nodes_[bears_[n]];
+    const Vec3 at_end = moving_.position(node.cell) + dt * dt * node.inverse_mass * forces_[n].force;
+    sum += forces_[n].force.dot(normal_) / pressed * (at_end - node.began);
+  }
+  return sum - dt * dt * mobility() * borne_;
+}
+
+double FacePress::mobility() const noexcept {
+  double sum = 0;
+  for (std::size_t n = 0; n < forces_.size(); ++n) {
+    const double along = forces_[n].force.dot(normal_);
+    sum += along * along * nodes_[bears_[n]].inverse_mass;
+  }
+  const double pressed = borne_.dot(normal_);
+  return pressed < 0 ? sum / (pressed * pressed) : 0;
 }
 
 void FacePress::release() noexcept {

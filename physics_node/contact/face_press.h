@@ -28,14 +28,17 @@
 
 namespace palpate::physics {
 
-/// Where a shape is: its tip, and its axes as columns. It goes into tissue along the third, downwards.
+/// Where a shape is: its tip, and a frame around that, whose axes are the columns. It goes into tissue along the third, downwards.
 struct ShapePose {
   Vec3 tip = Vec3::Zero();
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  /// Axes of the shape in that frame.
+  Eigen::Matrix3d attitude = Eigen::Matrix3d::Identity();
   Vec3 normal() const { return axes.col(2); }
 };
-/// With this third axis; the others are any.
+/// With this third axis; the others are any. @param attitude  of the shape in the world
 ShapePose pose_along(const Vec3& tip, const Vec3& normal) noexcept;
+ShapePose pose_along(const Vec3& tip, const Vec3& normal, const Eigen::Matrix3d& attitude) noexcept;
 
 class FacePress {
  public:
@@ -66,10 +69,15 @@ class FacePress {
   void shift(double by) noexcept { z_ += by; }
   /// Adds to that what sums up to `force`, in the proportions of the pressure: friction, and what holds the shape where it is sideways.
   void spread(const Vec3& force) noexcept;
-  /// Before a step: remembers how fast the nodes are that it lists.
-  void note_velocities(bool verlet) noexcept;
+  /// Before a step: remembers where the nodes are that it lists, and how fast.
+  void note_motion(bool verlet) noexcept;
   /// Of forces() with these velocities. [W]
   double power_before() const noexcept;
+  /// Before spread(): what the shape lies on moves by in this step of dt, weighted by the pressure, if forces() add up to nothing: spreading F
+  /// moves it by dt^2 mobility() F more. Scenery stands [m].
+  Vec3 way(double dt) const noexcept;
+  /// Of what the shape lies on, to a force that is spread as the pressure is: sum s^2 / m [1/kg].
+  double mobility() const noexcept;
   /// It is out of contact: the next one begins from outside.
   void release() noexcept;
 
@@ -77,6 +85,8 @@ class FacePress {
   std::span<const NodalForce> forces() const noexcept { return forces_; }
   double depth() const noexcept { return z_; }    // of the tip below the pose's, along -normal [m]
   double area() const noexcept { return area_; }  // of the faces, at rest, that are in contact [m^2]
+  /// Where it bears: the middle of the pressure, in the world [m].
+  const Vec3& centre() const noexcept { return centre_; }
   /// How deep samples are in the shape, weighted by their pressure [m].
   double overlap() const noexcept { return overlap_; }
   /// From the pose's tip to the centroids of all faces that it may meet in a frame, as deep as it is [m].
@@ -93,8 +103,8 @@ class FacePress {
          f = Vec3::Zero();      // before contact, and by contact, in the frame of the pose [m], [N]
     Vec3 moved = Vec3::Zero();  // x + dt^2 f / m [m]
     Vec3 seen = Vec3::Zero();   // the same when all samples were looked at last [m]
-    Vec3 v = Vec3::Zero();      // see note_velocities() [m/s]
-    double theta = 0;           // dt^2 K / m
+    Vec3 began = Vec3::Zero(), v = Vec3::Zero();  // see note_motion(), in the world [m], [m/s]
+    double theta = 0;                             // dt^2 K / m
   };
   struct Face {
     std::array<std::uint32_t, 4> node{};
@@ -119,6 +129,7 @@ class FacePress {
     double force = 0, slope = 0;  // along -n [N], [N/m]
   };
   using Weights = std::array<double, 4>;
+  RigidShape::Distance distance(const Vec3& p) const noexcept;
   Weights weights(const Face& face, std::uint32_t at) const noexcept;
   Vec3 at(const Face& face, const Weights& w) const noexcept;
   double around() const noexcept;
@@ -144,6 +155,8 @@ class FacePress {
   const Boundary& surface_;
   const NodeMotion& moving_;
   RigidShape shape_;
+  bool turns_;  // a shape whose attitude makes a difference
+  Eigen::Matrix3d attitude_ = Eigen::Matrix3d::Identity();
   double k_;       // of an area [N/m^3]
   double margin_;  // by which the depth may change before samples are collected anew [m]
   std::span<const std::uint32_t> candidates_;
@@ -158,6 +171,7 @@ class FacePress {
   std::vector<NodalForce> forces_;
   std::vector<std::uint32_t> bears_;                    // the node of each force
   Vec3 borne_ = Vec3::Zero(), normal_ = Vec3::UnitZ();  // of the last press, scenery's part included
+  Vec3 centre_ = Vec3::Zero();
   double z_ = 0, collected_z_ = 0, area_ = 0, overlap_ = 0;
   double way_ = 0;  // see list()
   bool touching_ = false;

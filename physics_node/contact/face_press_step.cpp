@@ -35,14 +35,14 @@ void FacePress::collect() noexcept {
                &d = nodes_[face.node[3]].x;
     const Vec3 middle = 0.25 * (a + b + c + d) + z_ * Vec3::UnitZ();
     // Why more than the reach: corners have moved since the frame began.
-    if (shape_.distance(middle).distance > 1.1 * face.reach + 2 * margin_) continue;
+    if (distance(middle).distance > 1.1 * face.reach + 2 * margin_) continue;
     face.normal = (c - a).cross(d - b).normalized();
     const int n = face.n * face.n;
     for (int at_n = 0; at_n < n && samples_.size() < most_samples; ++at_n) {
       const Weights w = weights(face, static_cast<std::uint32_t>(at_n));
       Sample sample{.face = f, .w = w};
       sample.x = w[0] * a + w[1] * b + w[2] * c + w[3] * d;
-      sample.clear = shape_.distance(sample.x + z_ * Vec3::UnitZ()).distance;
+      sample.clear = distance(sample.x + z_ * Vec3::UnitZ()).distance;
       if (sample.clear > 2 * margin_) continue;
       // The map of a square on a triangle, whose last corners are one.
       const double density = face.triangle ? 2 * (w[0] + w[1]) : 1;
@@ -79,7 +79,7 @@ void FacePress::look_at_all(double z) noexcept {
   for (Sample& sample : samples_) {
     sample.x = at(faces_[sample.face], sample.w);
     sample.part = part(sample);
-    sample.clear = shape_.distance(sample.x + z * Vec3::UnitZ()).distance;
+    sample.clear = distance(sample.x + z * Vec3::UnitZ()).distance;
   }
   seen_z_ = z, moved_by_ = 0;
   keep_near(near_in_margin * margin_);
@@ -91,7 +91,7 @@ FacePress::Balance FacePress::look(double z) noexcept {
   Balance sum;
   for (const std::uint32_t s : near_) {
     Sample& sample = samples_[s];
-    const RigidShape::Distance d = shape_.distance(sample.x + z * Vec3::UnitZ());
+    const RigidShape::Distance d = distance(sample.x + z * Vec3::UnitZ());
     sample.o = d.outward;
     sample.c = std::clamp(-lets_go_by * d.outward.dot(faces_[sample.face].normal), 0.0, 1.0);
     const double k = sample.part * sample.k * sample.c;
@@ -111,7 +111,7 @@ double FacePress::nearest() const noexcept {
                             .cross(nodes_[face.node[3]].x - nodes_[face.node[1]].x);
     for (int n = 0; n < face.n * face.n; ++n) {
       const Vec3 x = at(face, weights(face, static_cast<std::uint32_t>(n)));
-      const RigidShape::Distance d = shape_.distance(x + z_ * Vec3::UnitZ());
+      const RigidShape::Distance d = distance(x + z_ * Vec3::UnitZ());
       if (d.outward.z() < 0 && d.outward.dot(normal) < 0) least = std::min(least, d.distance);
     }
   }
@@ -207,14 +207,17 @@ void FacePress::share_out(const ShapePose& pose) noexcept {
     bears_.push_back(n);
   }
   double sum = 0;
+  Vec3 centre = Vec3::Zero();
   for (const std::uint32_t s : near_) {
     const Sample& sample = samples_[s];
     if (sample.p <= 0) continue;
+    centre += sample.p * sample.x;
     area_ += sample.k / k_;
     sum += sample.p;
     overlap_ += sample.p * sample.p / (sample.k * sample.c);
   }
   overlap_ /= sum;
+  centre_ = pose.tip + pose.axes * (centre / sum);
 }
 
 void FacePress::spread(const Vec3& force) noexcept {
@@ -232,6 +235,7 @@ bool FacePress::press(const ShapePose& pose, const PressBy& by, double dt) noexc
   forces_.clear();
   bears_.clear();
   area_ = overlap_ = 0;
+  attitude_ = pose.attitude;
   auto found = Found::elsewhere;
   for (int start = 0; start < most_starts && found == Found::elsewhere; ++start) {
     read_nodes(pose);

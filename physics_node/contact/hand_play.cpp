@@ -33,14 +33,17 @@ bool HandPlay::take(const ToolState* state) noexcept {
   path_[0] = path_[n_ - 1];
   n_ = 1;
   begin_ = last_;
+  turned_[0] = turned_[1];
   if (state == nullptr || state->sample == last_ || state->sample == 0) {
     path_[0].v.setZero();
     return true;
   }
   const Vec3 newest = vec(state->p_WT);
+  turned_[1] = Eigen::Quaterniond(state->q_WT[0], state->q_WT[1], state->q_WT[2], state->q_WT[3]);
   const bool goes_on = seen() && state->sample > last_;
   if (!goes_on) {
     path_[0] = {newest, Vec3::Zero()};
+    turned_[0] = turned_[1];
     begin_ = last_ = state->sample;
     return false;
   }

@@ -2,6 +2,7 @@
 // The recorded motion of a hand, played to tissue in the hand's own time: a frame goes from the last sample that has been played
 // to the newest that has come, however many lie between. So late and lost messages change when tissue is pressed, not how.
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 
@@ -29,6 +30,10 @@ class HandPlay {
   bool take(const ToolState* state) noexcept;
   /// @param share  of the frame, from 0 to 1
   Moment at(double share) const noexcept;
+  /// Of the handle: of its newest sample alone each state tells that.
+  Eigen::Quaterniond attitude(double share) const noexcept { return turned_[0].slerp(share, turned_[1]); }
+  /// That it turns by in the frame [rad].
+  double turn() const noexcept { return turned_[0].angularDistance(turned_[1]); }
   /// Way of the tip in the frame, straight [m].
   double way() const noexcept { return (path_[n_ - 1].x - path_[0].x).norm(); }
 
@@ -45,6 +50,7 @@ class HandPlay {
   std::uint64_t first_ = 0;             // of path_[1]: more than one after begin_ where some are lost
   std::size_t n_ = 1;
   std::array<Moment, max_told_samples + 2> path_{};
+  std::array<Eigen::Quaterniond, 2> turned_{Eigen::Quaterniond::Identity(), Eigen::Quaterniond::Identity()};
 };
 
 }  // namespace palpate::physics

@@ -26,7 +26,7 @@ void add_point(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
   for (const auto& body : bodies) body->prepare_for(Disturbance::forces);
 }
 
-/// A point that the hand's motion presses. @param n  of the tool
+/// A rigid tool that the hand's motion presses. @param n  of the tool
 void add_tissue(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
                 const std::vector<TouchableBody>& touchable, Toolbox& box) {
   const ToolSpec& spec = scene.tools[n];
@@ -35,10 +35,10 @@ void add_tissue(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
         spec.place.text() +
         ": force_model = \"tissue\" presses step by step, which \"backward_euler\" does not; write "
         "force_model = \"norton\", or integrator = \"symplectic_euler\"");
-  auto point = std::make_unique<TissueTool>(spec, n, touchable, 1 / scene.device(spec.device).rate_Hz,
-                                            scene.physics->integrator);
-  box.pressing.push_back(point.get());
-  box.tools.push_back(std::move(point));
+  auto tool = std::make_unique<TissueTool>(spec, n, touchable, 1 / scene.device(spec.device).rate_Hz,
+                                           scene.physics->integrator);
+  box.pressing.push_back(tool.get());
+  box.tools.push_back(std::move(tool));
   for (const auto& body : bodies) body->prepare_for(Disturbance::forces);
 }
 

@@ -160,7 +160,7 @@ void PointTool::find_faces() noexcept {
 
 void PointTool::begin_step() noexcept {
   if (pressed_by_faces() && !force_.isZero())
-    faces_[touched_]->note_velocities(integrator_ == Integrator::velocity_verlet);
+    faces_[touched_]->note_motion(integrator_ == Integrator::velocity_verlet);
 }
 
 double PointTool::press(double dt) noexcept {

@@ -17,30 +17,39 @@ namespace {
 
 constexpr double lets_go_in = 0.2;       // after silence [s]
 constexpr double rest_smoothing = 5e-3;  // of what modes do not tell [s]
-constexpr double smallest_patch = 0.25;  // of the radius: where a touch begins
-constexpr double smallest_shape = 1e-9;  // of a mode that the tip does not feel [kg^-1/2]
+constexpr double smallest_patch = 0.25;  // of the shape's size: where a touch begins
+// Of a rigid patch on a half space, across its plane to along its normal: (2 - nu) / (2 - 2 nu), nu = 1/3.
+constexpr double across_to_along = 1.25;
 
-void refuse_coarse(const ToolSpec& tool, const Body& body) {
-  if (FacePress::is_resolved(tool.radius, body.spacing())) return;
+void refuse_coarse(const ToolSpec& tool, double size, const Body& body) {
+  if (FacePress::is_resolved(size, body.spacing())) return;
+  const bool boxes = tool.shape == ToolShape::box;
   throw InputError(
       tool.place.text() +
-      fmt::format(": force_model = \"tissue\" presses a sphere on the faces of \"{}\", whose cells of "
-                  "{:.3g} mm do not follow one of radius_mm = {:.3g}; write spacing_mm = {:.3g} or less, "
-                  "or a larger radius",
-                  body.name, 1e3 * body.spacing(), 1e3 * tool.radius, 2e3 * tool.radius));
+      fmt::format(
+          ": force_model = \"tissue\" presses the tool on the faces of \"{}\", whose cells of "
+          "{:.3g} mm do not follow one of {} = {:.3g}; write spacing_mm = {:.3g} or less, or a larger {}",
+          body.name, 1e3 * body.spacing(), boxes ? "half a side" : "radius_mm", 1e3 * size, 2e3 * size,
+          boxes ? "side" : "radius"));
 }
 
 }  // namespace
 
 TissueTool::TissueTool(const ToolSpec& tool, std::uint32_t index, const std::vector<TouchableBody>& bodies,
                        double period, Integrator integrator, const Crew& crew)
-    : PressingTool(index, tool.set_point), radius_(tool.radius), integrator_(integrator), play_(period) {
+    : PressingTool(index, tool.set_point),
+      held_(held_shape(tool)),
+      integrator_(integrator),
+      play_(period),
+      rubbing_(tool.friction) {
   for (const auto& body : bodies) {
     const Body& shape = body.moving->body();
-    refuse_coarse(tool, shape);
+    const double size = held_.shape.size();
+    refuse_coarse(tool, size, shape);
     bodies_.push_back(std::make_unique<Touchable>(
-        Touchable{body.moving, ToolContact(*body.surface, *body.moving, tool.radius),
-                  FacePress(*body.surface, *body.moving, RigidShape::sphere(tool.radius)),
+        Touchable{body.moving,
+                  ToolContact(*body.surface, *body.moving, size, held_.turns() ? held_.half_diagonal() : 0.0),
+                  FacePress(*body.surface, *body.moving, held_.shape),
                   BodyModes(shape, static_cast<int>(max_tissue_modes), crew)}));
   }
   candidates_.reserve(FacePress::most_facets);
@@ -48,6 +57,7 @@ TissueTool::TissueTool(const ToolSpec& tool, std::uint32_t index, const std::vec
 
 void TissueTool::let_go() noexcept {
   force_ = 0;
+  rubbing_.release();
   if (touched_ < bodies_.size()) bodies_[touched_]->faces.release();
 }
 
@@ -57,7 +67,6 @@ void TissueTool::reset() noexcept {
   engaged_ = found_ = false;
   keep_ = 1;
   told_at_ = 0;
-  normal_.setZero();
 }
 
 void TissueTool::take(const ToolState* state, double dt) noexcept {
@@ -74,50 +83,76 @@ void TissueTool::take(const ToolState* state, double dt) noexcept {
   spring_.most = state->force_limit;
 }
 
+/// Puts the shape, without what presses it out of the tissue, where it is in the frame.
+void TissueTool::place(double share) noexcept {
+  hand_ = play_.at(share);
+  pose_.tip = hand_.x + rubbing_.lag();
+  if (!held_.turns()) return;
+  const Eigen::Matrix3d axes = held_.axes(play_.attitude(share));
+  pose_.tip = held_.origin(pose_.tip, axes);
+  pose_.attitude = pose_.axes.transpose() * axes;
+}
+
+/// Finds the nearest body. @return a point of its surface, or near it, where the tool touches it or would
+std::optional<Vec3> TissueTool::look(const Vec3& tip, double t) noexcept {
+  const Eigen::Matrix3d axes = held_.axes(play_.attitude(0));
+  const Vec3 origin = held_.origin(tip, axes), middle = origin + axes * held_.shape.bounds().center();
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t nearest = touched_;
+  ToolContact::Nearest at;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    ToolContact& contact = bodies_[b]->contact;
+    contact.look(held_.turns() ? middle : tip, t);
+    const auto now = held_.turns() ? contact.nearest_to(held_.shape, origin, axes)
+                                   : ToolContact::Nearest{contact.nearest_distance(tip), tip, tip};
+    if (now.distance < least) least = now.distance, nearest = b, at = now;
+  }
+  if (!std::isfinite(least)) return std::nullopt;
+  if (nearest != touched_) let_go(), touched_ = nearest, told_at_ = 0;
+  if (force_ > 0 && held_.turns()) return tip + arm_;
+  arm_ = at.on_shape - tip;
+  return at.point;
+}
+
 void TissueTool::find_contact(double t) noexcept {
   found_ = false;
   if (!play_.seen() || bodies_.empty()) return let_go();
   hand_ = play_.at(0);
-  // The sphere stays in the tissue when the hand goes deeper than its spring lets it.
-  const Vec3 tip = force_ > 0 ? Vec3(hand_.x - depth_ * pose_.normal()) : hand_.x;
-  double least = std::numeric_limits<double>::infinity();
-  std::size_t nearest = touched_;
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    bodies_[b]->contact.look(tip, t);
-    const double distance = bodies_[b]->contact.nearest_distance(tip);
-    if (distance < least) least = distance, nearest = b;
-  }
-  if (!std::isfinite(least)) return let_go();
-  if (nearest != touched_) let_go(), touched_ = nearest, told_at_ = 0;
+  // The tool stays in the tissue when the hand goes deeper than its spring lets it.
+  const Vec3 tip = force_ > 0 ? tip_now() : hand_.x;
+  const std::optional<Vec3> under = look(tip, t);
+  if (!under) return let_go();
   Touchable& body = *bodies_[touched_];
-  plane_ = body.contact.plane_under(tip);
+  plane_ = body.contact.plane_under(*under);
   if (!plane_.found) return let_go();
   found_ = true;
   const bool at_rest = remembers_rest(body.moving->body()) && !plane_.rest_normal.isZero();
   pose_ = pose_along(hand_.x, at_rest ? plane_.rest_normal : plane_.normal);
-  if (!at_rest) plane_.rest = plane_.point;
-  if (force_ <= 0) body.contact.find_shares(tip);
+  place(0);
+  if (force_ <= 0) body.contact.find_shares(*under);
   candidates_.clear();
-  body.contact.facets_within(tip, body.faces.reach() + play_.way(), candidates_);
-  body.faces.list(pose_, candidates_, play_.way());
+  const double way = play_.way() + 2 * held_.half_diagonal() * play_.turn();
+  body.contact.facets_within(tip, body.faces.reach() + way, candidates_);
+  body.faces.list(pose_, candidates_, way);
   if (force_ > 0) return;
   depth_ = body.faces.depth();
   if (!std::isfinite(depth_)) let_go(), found_ = false;  // no face is near
 }
 
 void TissueTool::begin_step() noexcept {
-  if (found_) bodies_[touched_]->faces.note_velocities(integrator_ == Integrator::velocity_verlet);
+  if (found_) bodies_[touched_]->faces.note_motion(integrator_ == Integrator::velocity_verlet);
 }
 
 double TissueTool::press(double dt) noexcept {
   if (!found_) return 0;
   FacePress& faces = bodies_[touched_]->faces;
   elapsed_ += dt;
-  const HandPlay::Moment now = play_.at(elapsed_ / frame_dt_);
+  const double share = elapsed_ / frame_dt_;
+  const HandPlay::Moment now = play_.at(share);
   const Vec3& n = pose_.normal();
   const double way = (hand_.x - now.x).dot(n);
-  hand_ = now;
-  pose_.tip = now.x;
+  if (force_ > 0) rubbing_.lead(now.x - hand_.x, n);
+  place(share);
   PressBy by = spring_;
   by.stiffness *= keep_, by.damping *= keep_;
   by.dt = dt;
@@ -131,74 +166,106 @@ double TissueTool::press(double dt) noexcept {
   force_ = 0;
   if (!engaged_ || !faces.press(pose_, by, dt)) {
     faces.release();
+    rubbing_.release();
     return 0;
   }
   depth_ = faces.depth();
   force_ = by.at(depth_);
-  faces.spread(-force_ * n);
+  if (rubbing_.sticks()) rubbing_.pull(faces.way(dt), n, by.stiffness, force_, faces.mobility(), dt);
+  if (held_.turns()) arm_ = faces.centre() - tip_now();
+  faces.spread(rubbing_.force() - force_ * n);
   return faces.power_before();
 }
 
-TissueTool::Modal TissueTool::find_shapes(const Touchable& body) const noexcept {
-  Modal phi{};
-  const Vec3 into = -pose_.normal();
+/// Where the tip lies, or would if it touched.
+Vec3 TissueTool::tip_now() const noexcept { return hand_.x + rubbing_.lag() - depth_ * pose_.normal(); }
+
+/// Along the normal by what the pressure does on a mode, whose forces lean with the sphere; across it by the proportions of the pressure.
+TissueTool::Shapes TissueTool::find_shapes(const Touchable& body) const noexcept {
+  Shapes psi;
+  const Vec3& n = pose_.normal();
   for (std::size_t i = 0; i < body.modes.size(); ++i) {
-    if (forces().empty())
+    psi[i].setZero();
+    if (forces().empty()) {
       for (const MassShare& share : body.contact.shares())
-        phi[i] += share.share * into.dot(body.modes.shape(i, share.cell));
-    else
-      for (const NodalForce& nodal : forces())
-        phi[i] += nodal.force.dot(body.modes.shape(i, nodal.cell)) / force_;
+        psi[i] += share.share * body.modes.shape(i, share.cell);
+      continue;
+    }
+    double load = 0;
+    for (const NodalForce& nodal : forces()) {
+      const Vec3 shape = body.modes.shape(i, nodal.cell);
+      psi[i] -= nodal.force.dot(n) / force_ * shape;
+      load += nodal.force.dot(shape);
+    }
+    const Vec3 across = psi[i] - psi[i].dot(n) * n;
+    psi[i] = across + (across.dot(rubbing_.force()) - load) / force_ * n;
   }
-  return phi;
+  return psi;
 }
 
 /// Of a half space under what bears: 2 E a / (1 - nu^2) [N/m].
 double TissueTool::stiffness_of_patch(const Touchable& body) const noexcept {
-  const double a = std::max(smallest_patch * radius_, std::sqrt(body.faces.area() / std::numbers::pi));
+  const double a =
+      std::max(smallest_patch * held_.shape.size(), std::sqrt(body.faces.area() / std::numbers::pi));
   return half_space_stiffness(body.moving->body(), a);
 }
 
-/// Of modes signs do not matter: the copy has them with phi above 0.
+/// What does not follow the modes is learnt along the normal, and while it goes along that rather than across: where it slides, forces change with
+/// the place.
+void TissueTool::follow_compliance(const Touchable& body, const Shapes& psi, const Told& now) noexcept {
+  const Vec3& n = pose_.normal();
+  const double k = stiffness_of_patch(body);
+  double moved = 0;
+  for (std::size_t i = 0; i < body.modes.size(); ++i) moved -= psi[i].dot(n) * (now.q[i] - told_.q[i]);
+  const double since = static_cast<double>(play_.sample() - told_at_) * play_.period();
+  if (told_at_ > 0 && now.force > 0 && told_.force > 0 && since > 0) {
+    const Vec3 way = now.tip - told_.tip;
+    const double in = -way.dot(n);
+    if ((way + in * n).norm() <= std::abs(in))
+      residual_.follow(k, now.force - told_.force, in - moved, since);
+  } else if (now.force <= 0 || told_at_ == 0) {
+    residual_.begin(k);
+  }
+}
+
 void TissueTool::tell(TouchedTissue& tissue) noexcept {
   Touchable& body = *bodies_[touched_];
-  const Modal phi = find_shapes(body);
+  const Vec3& n = pose_.normal();
+  const Shapes psi = find_shapes(body);
   Told now;
-  now.depth = (plane_.rest - hand_.x).dot(pose_.normal()) + depth_;
+  now.tip = tip_now();
   now.force = force_;
   body.modes.measure(*body.moving, now.q, now.w);
-  const double k = stiffness_of_patch(body);
-  double modal = 0, moved = 0;
-  for (std::size_t i = 0; i < body.modes.size(); ++i) {
-    modal += phi[i] * now.q[i];
-    moved += phi[i] * (now.q[i] - told_.q[i]);
-  }
-  const bool goes_on = told_at_ > 0 && now.force > 0 && told_.force > 0;
-  // From the last frame's point: the depth it would have had from this one.
-  const double shifted = (plane_.rest - point_).dot(pose_.normal());
+  follow_compliance(body, psi, now);
+  const double residual = std::min(residual_.value(), most_compliance);
+  const double across = std::min(across_to_along * residual, most_compliance);
+  const Vec3 force = rubbing_.force() - force_ * n;
+
+  Vec3 rest = now.tip - across * force - (residual - across) * force.dot(n) * n;
+  for (std::size_t i = 0; i < body.modes.size(); ++i) rest -= now.q[i] * psi[i];
   const double since = static_cast<double>(play_.sample() - told_at_) * play_.period();
-  if (goes_on && since > 0)
-    residual_.follow(k, now.force - told_.force, now.depth - told_.depth - shifted - moved, since);
-  else if (now.force <= 0 || told_at_ == 0)
-    residual_.begin(k);
-  const double rest = now.depth - residual_.value() * now.force - modal;
-  rest_ = goes_on ? rest_ + shifted - std::expm1(-since / rest_smoothing) * (rest - rest_ - shifted) : rest;
+  if (told_at_ > 0 && now.force > 0 && told_.force > 0) {
+    // What has slid has done so at once; the rest is what modes do not tell.
+    const Vec3 slid = rubbing_.sticks() ? rubbing_.take_slid() : Vec3(rest - rest_);
+    rest_ += slid - slid.dot(n) * n;
+    rest_ -= std::expm1(-since / rest_smoothing) * (rest - rest_);
+  } else {
+    rest_ = rest;
+    rubbing_.take_slid();
+  }
   told_ = now;
   told_at_ = play_.sample();
-  point_ = plane_.rest;
 
   tissue.sample = told_at_;
-  tissue.point = array(plane_.rest);
-  tissue.normal = array(pose_.normal());
-  tissue.residual = std::min(residual_.value(), most_compliance);
-  tissue.rest = rest_;
-  tissue.force = now.force;
+  tissue.normal = array(n);
+  tissue.arm = array(arm_);
+  tissue.residual = residual;
+  tissue.residual_across = across;
+  tissue.rest = array(rest_);
+  tissue.force = array(force);
   tissue.n_modes = static_cast<std::uint32_t>(body.modes.size());
-  for (std::size_t i = 0; i < body.modes.size(); ++i) {
-    const double sign = phi[i] < 0 ? -1 : 1;
-    tissue.modes[i] = {std::max(sign * phi[i], smallest_shape), body.modes.omega2(i), body.modes.damping(i),
-                       sign * now.q[i], sign * now.w[i]};
-  }
+  for (std::size_t i = 0; i < body.modes.size(); ++i)
+    tissue.modes[i] = {array(psi[i]), body.modes.omega2(i), body.modes.damping(i), now.q[i], now.w[i]};
   tissue.n_branches = 0;
 }
 

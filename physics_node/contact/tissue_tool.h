@@ -1,21 +1,25 @@
 #pragma once
-// A sphere that presses tissue by the hand's recorded motion, through the spring and damper that the hand feels: what the hand feels and what
+// A rigid shape that presses tissue by the hand's recorded motion, through the spring and damper that the hand feels: what the hand feels and what
 // the tissue bears are one force, of one sample. The hand has no answer to wait for: it presses a copy of the tissue, which is told here, at
 // the end of each frame, with the state that the motion has brought the tissue to.
 //
 //   copy: nine modes of the body (finite elements on a lattice; else none), the compliance of all else, and the depth that both lie on
 //
 // While physics hears nothing the hand stands, and after Hands::silence the spring lets go, within 200 ms.
-// Limits: one normal, without friction. Cells that break or yield leave the modes as they were: the depth that they lie on takes it up.
+// It turns as the handle does and goes along one normal, that of the surface where it bears; it rubs with Coulomb's friction: tip_friction.h.
+// Limits: its turns are known from state to state alone. Cells that break or yield leave the modes as they were: the depth that they lie on takes it up.
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "physics_node/contact/face_press.h"
 #include "physics_node/contact/hand_play.h"
+#include "physics_node/contact/held_shape.h"
 #include "physics_node/contact/point_tool.h"
 #include "physics_node/contact/pressing_tool.h"
 #include "physics_node/contact/residual_compliance.h"
+#include "physics_node/contact/tip_friction.h"
 #include "physics_node/contact/tool_contact.h"
 #include "physics_node/reduced/body_modes.h"
 
@@ -24,7 +28,7 @@ namespace palpate::physics {
 class TissueTool final : public PressingTool {
  public:
   /// @param period  of the hand's samples [s]
-  /// @throws InputError  a body whose cells do not follow a sphere of this size
+  /// @throws InputError  a body whose cells do not follow a shape of this size
   TissueTool(const ToolSpec& tool, std::uint32_t index, const std::vector<TouchableBody>& bodies,
              double period, Integrator integrator, const Crew& crew = {});
 
@@ -49,11 +53,11 @@ class TissueTool final : public PressingTool {
   }
 
   Vec3 tip() const noexcept override { return hand_.x; }
-  Wrench wrench() const noexcept override { return {borne(), (tip() - set_point_).cross(borne())}; }
+  Wrench wrench() const noexcept override { return {borne(), (tip() + arm_ - set_point_).cross(borne())}; }
   Wrench raw_wrench() const noexcept override { return wrench(); }
   std::uint32_t contacts() const noexcept override { return static_cast<std::uint32_t>(forces().size()); }
   Vec3 borne() const noexcept override {
-    return forces().empty() ? Vec3(Vec3::Zero()) : force_ * pose_.normal();
+    return forces().empty() ? Vec3(Vec3::Zero()) : Vec3(force_ * pose_.normal() - rubbing_.force());
   }
   bool knows_tissue_work() const noexcept override { return true; }
   /// Of the hand, that borne() belongs to.
@@ -61,23 +65,29 @@ class TissueTool final : public PressingTool {
 
  private:
   using Modal = std::array<double, max_tissue_modes>;
+  using Shapes = std::array<Vec3, max_tissue_modes>;  // psi
   struct Touchable {
     const NodeMotion* moving;
     ToolContact contact;
     FacePress faces;
     BodyModes modes;
   };
-  /// z - sum phi q, and what it is made of, at the end of a frame.
+  /// At the end of a frame.
   struct Told {
-    double depth = 0, force = 0;  // z, F [m], [N]
+    Vec3 tip = Vec3::Zero();  // where it lies [m]
+    double force = 0;         // along the normal [N]
     Modal q{}, w{};
   };
   void let_go() noexcept;
-  Modal find_shapes(const Touchable& body) const noexcept;
+  void place(double share) noexcept;
+  std::optional<Vec3> look(const Vec3& tip, double t) noexcept;
+  Vec3 tip_now() const noexcept;
+  Shapes find_shapes(const Touchable& body) const noexcept;
+  void follow_compliance(const Touchable& body, const Shapes& psi, const Told& now) noexcept;
   double stiffness_of_patch(const Touchable& body) const noexcept;
   void tell(TouchedTissue& tissue) noexcept;
 
-  double radius_;
+  HeldShape held_;
   Integrator integrator_;
   HandPlay play_;
   std::vector<std::unique_ptr<Touchable>> bodies_;
@@ -87,16 +97,17 @@ class TissueTool final : public PressingTool {
   double keep_ = 1;                    // of the spring, after silence
   double frame_dt_ = 0, elapsed_ = 0;  // of it [s]
   HandPlay::Moment hand_;              // now
-  double depth_ = 0;                   // of the sphere below the hand; out of contact of the surface [m]
-  double force_ = 0;                   // [N]
+  double depth_ = 0;                   // of the tip below the hand; out of contact of the surface [m]
+  double force_ = 0;                   // along the normal [N]
+  TipFriction rubbing_;
+  Vec3 arm_ = Vec3::Zero();  // from the tip to where it bears; 0 of a sphere [m]
   std::size_t touched_ = 0;
   bool found_ = false;  // a surface, in this frame
   LocalPlane plane_;
   ShapePose pose_;
   std::uint64_t told_at_ = 0;  // the sample of the last answer
   Told told_;
-  double rest_ = 0;                                    // that was told, low-passed [m]
-  Vec3 point_ = Vec3::Zero(), normal_ = Vec3::Zero();  // and from where
+  Vec3 rest_ = Vec3::Zero();  // that was told, low-passed [m]
   ResidualCompliance residual_;
 };
 

@@ -33,11 +33,11 @@ void merge_equal_masses(std::vector<MassShare>& shares) noexcept {
 
 }  // namespace
 
-ToolContact::ToolContact(const Boundary& surface, const NodeMotion& moving, double radius)
+ToolContact::ToolContact(const Boundary& surface, const NodeMotion& moving, double radius, double farther)
     : surface_(surface), moving_(moving) {
   const double coarse = moving.body().spacing();
   radius_ = std::max(2 * radius, 2 * coarse);
-  reach_ = radius_ + search_margin;
+  reach_ = radius_ + farther + search_margin;
   near_.reserve(8 * room);
   facets_.reserve(room);
   shares_.reserve(4 * room);
@@ -93,6 +93,18 @@ const ToolContact::Facet* ToolContact::nearest(const Vec3& p) const noexcept {
 double ToolContact::nearest_distance(const Vec3& p) const noexcept {
   const Facet* facet = nearest(p);
   return facet == nullptr ? std::numeric_limits<double>::infinity() : (facet->centroid - p).norm();
+}
+
+ToolContact::Nearest ToolContact::nearest_to(const RigidShape& shape, const Vec3& origin,
+                                             const Eigen::Matrix3d& axes) const noexcept {
+  Nearest best{std::numeric_limits<double>::infinity()};
+  for (const Facet& facet : facets_) {
+    const RigidShape::Distance d = shape.distance(axes.transpose() * (facet.centroid - origin));
+    const Vec3 out = axes * d.outward;
+    if (d.distance >= best.distance || facet.normal.dot(out) >= 0) continue;
+    best = {d.distance, facet.centroid, facet.centroid - d.distance * out};
+  }
+  return best;
 }
 
 void ToolContact::facets_within(const Vec3& p, double radius,

@@ -6,6 +6,7 @@
 #include "common/message/messages.h"
 #include "physics_node/body/mass_share.h"
 #include "physics_node/boundary/boundary.h"
+#include "physics_node/contact/rigid_shape.h"
 
 namespace palpate::physics {
 
@@ -22,7 +23,8 @@ struct LocalPlane {
 class ToolContact {
  public:
   /// @param radius  of the tip: its force fades out smoothly over twice that, and over two cells at least [m]
-  ToolContact(const Boundary& surface, const NodeMotion& moving, double radius);
+  /// @param farther  that facets are looked for beyond it [m]
+  ToolContact(const Boundary& surface, const NodeMotion& moving, double radius, double farther = 0);
 
   /// Looks for facets around `p`; keeps what it found until the tool or the tissue may have left it, or one has opened nearby.
   void look(const Vec3& p, double t) noexcept;
@@ -43,6 +45,13 @@ class ToolContact {
   /// Distance from p to the nearest facet's centroid; infinite where none is near [m].
   double nearest_distance(const Vec3& p) const noexcept;
   double reach() const { return radius_; }  // R [m]
+  struct Nearest {
+    double distance = 0;           // infinite where none is near [m]
+    Vec3 point = Vec3::Zero();     // centroid of the facet [m]
+    Vec3 on_shape = Vec3::Zero();  // nearest to that [m]
+  };
+  /// The facet that is nearest to a shape, of those that look at it. @param origin, axes  of the shape
+  Nearest nearest_to(const RigidShape& shape, const Vec3& origin, const Eigen::Matrix3d& axes) const noexcept;
   /// Appends the facets of the last look whose centroid lies within `radius` of p, up to the room that `out` has.
   void facets_within(const Vec3& p, double radius, std::vector<std::uint32_t>& out) const noexcept;
 

@@ -28,6 +28,7 @@ std::string what_needs_steps(const Scene& scene) {
       return fmt::format("[material.{}] {}", material.name, what);
   }
   for (const ToolSpec& tool : scene.tools) {
+    if (is_solid_tip(tool.shape)) return fmt::format("tool \"{}\" presses faces step by step", tool.name);
     if (tool.shape == ToolShape::stick)
       return fmt::format("tool \"{}\" is a stick, which moves masses step by step", tool.name);
     if (tool.shape == ToolShape::point && asks_for_faces(tool, any_cells(scene)))

@@ -12,6 +12,7 @@
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
 #include "physics_node/contact/face_press.h"
+#include "physics_node/contact/held_shape.h"
 #include "physics_node/remarks/enclosure.h"
 #include "physics_node/remarks/remarks.h"
 
@@ -38,7 +39,7 @@ std::vector<Vec3> samples_of(const DeviceSpec& device, double apart) {
   return samples;
 }
 
-/// Of a tool, about its tip: the tip, points along a stick, or the surface of its body.
+/// Of a tool, about its tip: the tip, points along a stick, corners of what has flat ends, or the surface of its body.
 std::vector<Vec3> shape_of(const ToolSpec& tool, const Scene& scene, const Bodies& bodies, double apart) {
   if (tool.shape == ToolShape::point) return {Vec3::Zero()};
   std::vector<Vec3> points;
@@ -46,6 +47,13 @@ std::vector<Vec3> shape_of(const ToolSpec& tool, const Scene& scene, const Bodie
     const Vec3 axis = -(tool.attitude * Vec3::UnitZ());
     for (double s = 0; s < tool.length; s += apart) points.push_back(s * axis);
     points.push_back(tool.length * axis);
+    return points;
+  }
+  if (is_solid_tip(tool.shape)) {
+    const HeldShape held = held_shape(tool);
+    const Eigen::AlignedBox3d box = held.shape.bounds();
+    for (int c = 0; c < 8; ++c)
+      points.push_back(held.attitude * box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(c)));
     return points;
   }
   for (std::size_t b = 0; b < bodies.size(); ++b) {

@@ -43,6 +43,13 @@ Painter::Painter(const Scene& scene, const ViewModel& model)
     const auto& device = scene.device(scene.tools[i].device);
     tools_[i].radius = scene.tools[i].radius;
     tools_[i].axis = stick_axis(device);
+    tools_[i].shape = scene.tools[i].shape;
+    if (is_solid_tip(scene.tools[i].shape)) {
+      tools_[i].attitude = scene.tools[i].attitude;
+      tools_[i].size = scene.tools[i].size;
+      tools_[i].axis = scene.tools[i].attitude * Eigen::Vector3d::UnitZ();
+      tools_[i].length = scene.tools[i].shape == ToolShape::box ? tools_[i].size.z() : scene.tools[i].length;
+    }
     if (scene.tools[i].shape == ToolShape::stick) {
       // B = A - L R e_z, as physics has it.
       tools_[i].axis = -(scene.tools[i].attitude * Eigen::Vector3d::UnitZ());
@@ -61,8 +68,16 @@ void Painter::adapt_sizes(const Eigen::AlignedBox3d& box) {
   double limit = 0;
   for (auto& tool : tools_) {
     const auto radius = static_cast<float>(tool.radius);
-    tool.stick.shape(tool.length > 0 ? capsule_outline(radius, static_cast<float>(tool.length))
-                                     : stick_outline(radius, static_cast<float>(1.2 * size_)));
+    const auto length = static_cast<float>(tool.length);
+    if (tool.shape == ToolShape::box)
+      tool.stick.shape_box(tool.size.cast<float>());
+    else if (tool.shape == ToolShape::cylinder)
+      tool.stick.shape(cylinder_outline(radius, length));
+    else if (tool.shape == ToolShape::cone)
+      tool.stick.shape(cone_outline(radius, length));
+    else
+      tool.stick.shape(tool.length > 0 ? capsule_outline(radius, length)
+                                       : stick_outline(radius, static_cast<float>(1.2 * size_)));
     limit = std::max(limit, tool.force_limit);
   }
   if (limit > 0 && size_ > 0) metres_per_newton_ = palpate::render::arrow_metres_per_newton(limit, size_);
@@ -144,7 +159,10 @@ void Painter::draw_tool(Tool& tool, const ToolView& view, const ViewModel& model
   if (options.tool && !tool.body) {
     if (options.wire) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
     at_pixels_.finish(0.30F, 1.0F);
-    tool.stick.draw(at_pixels_, pose_along(at, axis), steel);
+    Eigen::Matrix4f pose = pose_along(at, axis);
+    if (tool.shape == ToolShape::box)
+      pose.topLeftCorner<3, 3>() = (view.attitude * tool.attitude).cast<float>();
+    tool.stick.draw(at_pixels_, pose, steel);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   }
   if (options.force) draw_arrow(tool, pushed_at(tool, view, model, at, axis), view.force);

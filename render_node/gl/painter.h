@@ -8,6 +8,7 @@
 
 #include "common/math/vec3.h"
 #include "common/scene/scene_fwd.h"
+#include "common/scene/tool_spec.h"
 #include "render_node/gl/backdrop_drawing.h"
 #include "render_node/gl/lit_program.h"
 #include "render_node/gl/solid_drawing.h"
@@ -35,12 +36,15 @@ class Painter {
 
  private:
   struct Tool {
-    double radius = 0;       // of the tip [m]
-    Eigen::Vector3d axis;    // from the tip up the stick, unit; of a stick, where the handle is not turned
-    double length = 0;       // of the stick [m]; 0: as the picture needs
-    double force_limit = 0;  // of its device [N]
-    std::optional<std::size_t> body;  // that it is, drawn as such, without a stick
-    bool at_hand = false;             // is where the hand is, not at the proxy
+    double radius = 0;     // of the tip [m]
+    Eigen::Vector3d axis;  // from the tip up the stick, unit; of a stick, where the handle is not turned
+    double length = 0;     // of the stick, or what it is instead [m]; 0: as the picture needs
+    ToolShape shape = ToolShape::point;
+    Eigen::Vector3d size = Eigen::Vector3d::Zero();          // of a box [m]
+    Eigen::Matrix3d attitude = Eigen::Matrix3d::Identity();  // of a box, where the handle is not turned
+    double force_limit = 0;                                  // of its device [N]
+    std::optional<std::size_t> body;                         // that it is, drawn as such, without a stick
+    bool at_hand = false;                                    // is where the hand is, not at the proxy
     SolidDrawing stick, arrow;
   };
   void adapt_sizes(const Eigen::AlignedBox3d& box);

@@ -8,15 +8,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <utility>
 
 namespace palpate::render {
 namespace {
 
 constexpr std::uint32_t n_sides = 40;
-
-struct SolidVertex {
-  std::array<float, 3> position, normal;
-};
 
 // A ring pair stands where the outline has an edge: each segment brings its own normals, unless the outline is smooth.
 void add_segment(const Ring& a, const Ring& b, const Eigen::Vector2f& normal_a,
@@ -84,6 +81,12 @@ std::vector<Ring> capsule_outline(float radius, float length) {
   return outline;
 }
 
+std::vector<Ring> cylinder_outline(float radius, float length) {
+  return {{0, 0}, {radius, 0}, {radius, length}, {0, length}};
+}
+
+std::vector<Ring> cone_outline(float radius, float length) { return {{0, 0}, {radius, length}, {0, length}}; }
+
 std::vector<Ring> arrow_outline(float radius, float length) {
   const float head = std::min(5 * radius, 0.6F * length);
   return {{0, 0}, {radius, 0}, {radius, length - head}, {2.4F * radius, length - head}, {0, length}};
@@ -118,10 +121,33 @@ void SolidDrawing::shape(const std::vector<Ring>& outline) {
     add_segment(outline[i], outline[i + 1], shared_normal(normals[i], before),
                 shared_normal(normals[i], after), vertices, indices);
   }
+  upload(vertices, indices);
+}
+
+void SolidDrawing::upload(std::span<const SolidVertex> vertices, std::span<const std::uint32_t> indices) {
   array_.bind();
-  vertices_.upload(std::span<const SolidVertex>(vertices));
-  indices_.upload(std::span<const std::uint32_t>(indices));
+  vertices_.upload(vertices);
+  indices_.upload(indices);
   n_indices_ = indices.size();
+}
+
+void SolidDrawing::shape_box(const Eigen::Vector3f& size) {
+  std::vector<SolidVertex> vertices;
+  std::vector<std::uint32_t> indices;
+  const Eigen::Vector3f half(0.5F * size.x(), 0.5F * size.y(), 0.5F * size.z());
+  for (int axis = 0; axis < 3; ++axis)
+    for (const float side : {-1.0F, 1.0F}) {
+      const Eigen::Vector3f normal = side * Eigen::Vector3f::Unit(axis);
+      const Eigen::Vector3f u = Eigen::Vector3f::Unit((axis + 1) % 3), v = normal.cross(u);
+      const auto first = static_cast<std::uint32_t>(vertices.size());
+      for (const auto& [a, b] : {std::pair{-1.0F, -1.0F}, {1.0F, -1.0F}, {1.0F, 1.0F}, {-1.0F, 1.0F}}) {
+        const Eigen::Vector3f at =
+            half.cwiseProduct(normal + a * u + b * v) + half.z() * Eigen::Vector3f::UnitZ();
+        vertices.push_back({{at.x(), at.y(), at.z()}, {normal.x(), normal.y(), normal.z()}});
+      }
+      indices.insert(indices.end(), {first, first + 1, first + 2, first, first + 2, first + 3});
+    }
+  upload(vertices, indices);
 }
 
 void SolidDrawing::draw(const LitProgram& program, const Eigen::Matrix4f& pose,

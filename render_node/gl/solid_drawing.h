@@ -1,8 +1,11 @@
 #pragma once
-// Bodies of revolution about z: the tool and the force arrow.
+// Bodies of revolution about z, and boxes: tools and the force arrow.
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "render_node/gl/buffer.h"
@@ -19,19 +22,31 @@ struct Ring {
 std::vector<Ring> stick_outline(float tip_radius, float length);
 /// Axis from 0 to `length`, round ends beyond.
 std::vector<Ring> capsule_outline(float radius, float length);
+/// From the origin up, with sharp edges.
+std::vector<Ring> cylinder_outline(float radius, float length);
+/// Its apex is the origin.
+std::vector<Ring> cone_outline(float radius, float length);
 /// An arrow from the origin to (0, 0, length). [m]
 std::vector<Ring> arrow_outline(float radius, float length);
 
 /// World from a model whose z axis becomes `axis` and whose origin becomes `at`.
 Eigen::Matrix4f pose_along(const Eigen::Vector3d& at, const Eigen::Vector3d& axis);
 
+struct SolidVertex {
+  std::array<float, 3> position, normal;
+};
+
 class SolidDrawing {
  public:
   SolidDrawing();
   void shape(const std::vector<Ring>& outline);
+  /// A box that stands on the origin. [m]
+  void shape_box(const Eigen::Vector3f& size);
   void draw(const LitProgram& program, const Eigen::Matrix4f& pose, const Eigen::Vector3f& rgb) const;
 
  private:
+  void upload(std::span<const SolidVertex> vertices, std::span<const std::uint32_t> indices);
+
   VertexArray array_;
   Buffer vertices_{Buffer::Kind::vertices};
   Buffer indices_{Buffer::Kind::indices};

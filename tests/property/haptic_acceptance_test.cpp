@@ -43,9 +43,11 @@ INSTANTIATE_TEST_SUITE_P(
         std::pair{"UnrulyLinksToRealTissue", &world_bears_unruly_links},
         std::pair{"TrueForceOfRealTissue", &world_force_is_true},
         std::pair{"PressedTissueIsStable", &world_tissue_is_stable},
-        std::pair{"PressedTissueIsTrue", &world_tissue_is_true}, std::pair{"Stick", &stick_is_steady},
-        std::pair{"StickWithTorques", &stick_with_torques_is_steady}, std::pair{"TrueForce", &force_is_true},
-        std::pair{"Pulse", &pulse_is_felt}),
+        std::pair{"PressedTissueIsTrue", &world_tissue_is_true},
+        std::pair{"PressedTissueSlides", &world_tissue_slides},
+        std::pair{"PressedTissueBearsAStick", &world_tissue_bears_a_stick},
+        std::pair{"Stick", &stick_is_steady}, std::pair{"StickWithTorques", &stick_with_torques_is_steady},
+        std::pair{"TrueForce", &force_is_true}, std::pair{"Pulse", &pulse_is_felt}),
     [](const auto& which) { return std::string(which.param.first); });
 
 INSTANTIATE_TEST_SUITE_P(

@@ -65,6 +65,21 @@ TEST_F(ShippedScenes, ClayKeepsItsDent) {
   EXPECT_GT(summary["energy"]["plastic"].get<double>(), 1e-3);
 }
 
+/// Pressed, turned and drawn along with friction, a stick is felt as it is borne, with its lever; the hand's work goes into friction.
+TEST_F(ShippedScenes, StickIsFeltAsItIsBorne) {
+  const auto summary = simulate("fem_stick", "");
+  const auto& stick = summary["tools"]["stick"];
+  EXPECT_LT(stick["felt_off_rms"].get<double>(), 0.05);
+  EXPECT_NEAR(stick["felt_over_true_rms"].get<double>(), 1, 0.03);
+  const double lever =
+      summary["haptic"]["torque_max_N_m"].get<double>() / summary["haptic"]["force_max_N"].get<double>();
+  EXPECT_NEAR(lever, 0.056, 0.006)
+      << "50 mm from the tip to the middle of the block, and more where the far end is deeper";
+  const double rubbed = 0.3 * 0.43 * 0.012;  // mu F d
+  EXPECT_NEAR(stick["hand_work"].get<double>(), rubbed, 0.15 * rubbed);
+  EXPECT_LT(std::abs(stick["tissue_work"].get<double>()), 0.1 * rubbed) << "elastic tissue keeps nothing";
+}
+
 TEST_F(ShippedScenes, VesselPushedAsideReturns) {
   const auto summary = simulate("vessel_push", "");
   // Let go at 2 s; its length is 1 m.

@@ -19,7 +19,7 @@ struct Row {
   bool warns = false;  // without torques
 };
 
-constexpr std::array<Row, 15> table{{
+constexpr std::array<Row, 20> table{{
     {ToolShape::point, std::nullopt, true, norton, norton, norton},
     {ToolShape::point, norton, true, norton, norton, norton},
     {ToolShape::point, tangent, false, tangent, tangent, tangent},
@@ -35,6 +35,11 @@ constexpr std::array<Row, 15> table{{
     {ToolShape::body, tangent, true, tangent, tangent, tangent},
     {ToolShape::body, raw_planes, false, raw_planes, raw_planes, raw_planes},
     {ToolShape::body, direct, true, direct, direct, direct},
+    {ToolShape::body, tissue, false, tissue, tissue, tissue},
+    {ToolShape::stick, tissue, true, tissue, tissue, tissue},
+    {ToolShape::cylinder, std::nullopt, true, tissue, tissue, tissue},
+    {ToolShape::cone, tissue, true, tissue, tissue, tissue},
+    {ToolShape::box, direct, false, tissue, tissue, tissue},
 }};
 
 TEST(ForceModel, IsDecidedByShapeSceneAndTorques) {

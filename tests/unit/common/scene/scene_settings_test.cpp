@@ -81,7 +81,7 @@ TEST(SceneSettings, ReachBodiesAndToolsByName) {
   EXPECT_EQ(with({"tool.tip.friction=0.3"}).tools[0].friction, 0.3);
   EXPECT_THAT(complaint("tool.tip.friction=-0.1"), HasSubstr("write a number from 0 to 2"));
   EXPECT_THAT(complaints_about(full_scene, {"tool.tip.friction=0.3", "tool.tip.force_model=direct"}),
-              ElementsAre(HasSubstr("friction is felt with force_model = \"norton\" only")));
+              ElementsAre(HasSubstr("friction is felt with force_model = \"norton\" or \"tissue\" only")));
 }
 
 TEST(SceneSettings, ReachIntoInlineTables) {

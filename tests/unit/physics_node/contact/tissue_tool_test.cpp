@@ -44,10 +44,14 @@ struct Session {
   ContactPatch patch;
 };
 
-double depth_told(const TouchedTissue& told) {
-  double z = told.rest + told.residual * told.force;
-  for (std::uint32_t i = 0; i < told.n_modes; ++i) z += told.modes[i].phi * told.modes[i].q;
-  return z;
+double pressed(const TouchedTissue& told) { return -vec(told.normal).dot(vec(told.force)); }
+
+/// Where the told surface is.
+Vec3 surface_told(const TouchedTissue& told) {
+  const Vec3 n = vec(told.normal), force = vec(told.force), along = n.dot(force) * n;
+  Vec3 at = vec(told.rest) + told.residual * along + told.residual_across * (force - along);
+  for (std::uint32_t i = 0; i < told.n_modes; ++i) at += told.modes[i].q * vec(told.modes[i].psi);
+  return at;
 }
 
 TEST(TissueTool, BearsWhatTheSpringOfTheHandPressesWith) {
@@ -58,12 +62,12 @@ TEST(TissueTool, BearsWhatTheSpringOfTheHandPressesWith) {
     const TouchedTissue& told = session.patch.tissues[0];
     ASSERT_EQ(session.patch.n_tissues, 1u);
     EXPECT_EQ(told.sample, 600u);
-    EXPECT_GT(told.force, 0.1) << model;
-    EXPECT_NEAR(session.borne().z(), told.force, 1e-9 + 1e-3 * told.force)
-        << "on the tool, out of the tissue";
-    EXPECT_NEAR(total(forces_of_tool(session.world)).z(), -told.force, 1e-6 + 1e-3 * told.force);
-    const double x = vec(told.normal).dot(vec(told.point) - held(1));
-    EXPECT_NEAR(told.force, 500 * (x - depth_told(told)), 0.005 * told.force) << "K (x - z), at rest";
+    const double force = pressed(told);
+    EXPECT_GT(force, 0.1) << model;
+    EXPECT_NEAR(session.borne().z(), force, 1e-9 + 1e-3 * force) << "on the tool, out of the tissue";
+    EXPECT_NEAR(total(forces_of_tool(session.world)).z(), -force, 1e-6 + 1e-3 * force);
+    const double depth = vec(told.normal).dot(surface_told(told) - held(1));
+    EXPECT_NEAR(force, 500 * depth, 0.005 * force) << "K (x - z), at rest";
     EXPECT_EQ(told.n_modes, std::string(model) == "fem" ? 9u : 0u);
   }
 }
@@ -73,9 +77,9 @@ TEST(TissueTool, BearsTheSameForceAtASampleAtAnyRate) {
   Session often(palpated_slab(1000)), seldom(palpated_slab(20));
   double off2 = 0, all2 = 0;
   for (std::uint64_t n = 1; n <= 650; ++n) {
-    const double force = often.to(n).force;
+    const double force = pressed(often.to(n));
     if (n % 50 != 0 || n < 100) continue;
-    const double other = seldom.to(n).force;
+    const double other = pressed(seldom.to(n));
     off2 += (force - other) * (force - other), all2 += force * force;
   }
   EXPECT_GT(all2, 0.1);
@@ -87,7 +91,7 @@ TEST(TissueTool, BearsNothingFromTheFirstSampleThatIsClear) {
   std::uint64_t n = 1;
   double most = 0;
   for (; n < 650 || palpation(1e-3 * static_cast<double>(n)).z() < slab_top + 1e-4; ++n)
-    most = std::max<double>(most, session.to(n).force);
+    most = std::max<double>(most, pressed(session.to(n)));
   EXPECT_GT(most, 0.1);
   for (const std::uint64_t end = n + 200; n < end; ++n) {
     session.to(n);
@@ -104,11 +108,104 @@ TEST(TissueTool, TellsOfTissueOnlyWhereItKnowsWhereItIs) {
         session.to(n, [](double t) { return Vec3(0, 0, slab_top + 0.03 - 0.08 * t); });
     if (session.patch.n_tissues == 0) continue;
     ++told;
-    ASSERT_TRUE(std::isfinite(tissue.rest)) << n;
-    if (tissue.force > 0) continue;
-    EXPECT_NEAR(vec(tissue.point).z() - depth_told(tissue), slab_top, 3e-4) << n;
+    ASSERT_TRUE(vec(tissue.rest).allFinite()) << n;
+    if (pressed(tissue) > 0) continue;
+    EXPECT_NEAR(surface_told(tissue).z(), slab_top, 3e-4) << n;
   }
   EXPECT_GT(told, 50);
+}
+
+/// Of all nodal forces about a point [N m].
+Vec3 moment_on_tissue(const World& world, const Vec3& about) {
+  Vec3 moment = Vec3::Zero();
+  for (const NodalForce& nodal : forces_of_tool(world))
+    moment += (world.body(0).position(nodal.cell) - about).cross(nodal.force);
+  return moment;
+}
+
+/// By a tool of these keys, with force_model = "tissue".
+Recipe palpated_by(const std::string& keys) {
+  Recipe recipe = palpated_slab(1000);
+  recipe.world = "[[tool]]\nname = \"tip\"\ndevice = \"hand\"\nforce_model = \"tissue\"\n" + keys +
+                 "\n[device.hand]\ndriver = \"simulated\"\nwaypoints = [[0, 0, 0, 50], [1, 0, 0, 40]]\n";
+  return recipe;
+}
+
+/// Whatever its shape, tissue bears the force of the hand's spring and its moment: that at the end of the told arm.
+TEST(TissueTool, PressesWithTheShapeThatAToolHas) {
+  struct Pressed {
+    const char* words;
+    Vec3 tip;    // above the middle of what comes to bear [m]
+    double arm;  // sideways [m]
+  };
+  for (const Pressed& shape :
+       {Pressed{"shape = \"cylinder\"\nradius_mm = 6\nlength_mm = 30", Vec3::Zero(), 0},
+        Pressed{"shape = \"cone\"\nradius_mm = 12\nlength_mm = 12", Vec3::Zero(), 0},
+        Pressed{"shape = \"box\"\nsize_mm = [16, 12, 5]", Vec3::Zero(), 0},
+        Pressed{"shape = \"stick\"\nradius_mm = 3\nlength_mm = 60\ntheta_deg = [0, -90, 0]",
+                Vec3(-0.055, 0, 0.003), 0.03}}) {
+    Session session(palpated_by(shape.words));
+    const auto held = [&](double t) { return Vec3(palpation(std::min(t, 0.15)) + shape.tip); };
+    for (std::uint64_t n = 1; n <= 350; ++n) session.to(n, held);
+    const TouchedTissue& told = session.patch.tissues[0];
+    ASSERT_EQ(session.patch.n_tissues, 1u) << shape.words;
+    const double force = pressed(told);
+    EXPECT_GT(force, 0.1) << shape.words;
+    const Vec3 on_tissue = total(forces_of_tool(session.world)), tip = vec(told.rest),
+               lies = surface_told(told);
+    EXPECT_NEAR((on_tissue - vec(told.force)).norm(), 0, 2e-3 * force) << shape.words;
+    const Vec3 moment = moment_on_tissue(session.world, lies), by_arm = vec(told.arm).cross(vec(told.force));
+    EXPECT_NEAR((moment - by_arm).norm(), 0, force * 1e-3) << shape.words << " within 1 mm of the arm";
+    EXPECT_GE(std::hypot(told.arm[0], told.arm[1]), shape.arm) << shape.words;
+    EXPECT_NEAR(force, 500 * vec(told.normal).dot(lies - held(1)), 0.01 * force) << "K (x - z)";
+    EXPECT_TRUE(tip.allFinite());
+  }
+}
+
+/// A stick that lies on the block and turns about its tip goes deeper at its other end.
+TEST(TissueTool, TurnsWithTheHandle) {
+  Session session(palpated_by("shape = \"stick\"\nradius_mm = 3\nlength_mm = 60\ntheta_deg = [0, -90, 0]"));
+  const Vec3 tip(-0.055, 0.0005, slab_top + 0.0035);
+  double before = -1;
+  for (std::uint64_t n = 1; n <= 400; ++n) {
+    std::optional<ToolState> hand = recorded_hand([&](double) { return tip; }, n);
+    const double angle = 0.06 * std::clamp((static_cast<double>(n) - 50) / 200, 0.0, 1.0);
+    const Eigen::Quaterniond q(Eigen::AngleAxisd(angle, Vec3::UnitY()));
+    hand->q_WT = {q.w(), q.x(), q.y(), q.z()};
+    session.world.frame(std::span(&hand, 1));
+    session.world.tool(0).write_patch(session.patch, 1, 0);
+    if (n == 50) before = session.borne().norm();
+  }
+  EXPECT_EQ(before, 0);
+  EXPECT_GT(session.borne().z(), 0.1);
+  EXPECT_GT(vec(session.patch.tissues[0].arm).x(), 0.03);
+}
+
+/// Led aside, the tip sticks until Coulomb's cone is reached, and then slides; tissue bears what the spring pulls with.
+TEST(TissueTool, RubsWithCoulombsFriction) {
+  for (const double friction : {0.0, 0.2, 2.0}) {
+    Recipe recipe = palpated_slab(1000);
+    const std::string shape = "shape = \"point\"";
+    recipe.world.insert(recipe.world.find(shape) + shape.size(), "\nfriction = " + std::to_string(friction));
+    Session session(recipe);
+    constexpr double aside = 2e-3;
+    const auto path = [&](double t) {
+      return Vec3(palpation(std::min(t, 0.15)) + Vec3(aside * std::clamp((t - 0.3) / 0.2, 0.0, 1.0), 0, 0));
+    };
+    for (std::uint64_t n = 1; n <= 900; ++n) session.to(n, path);
+    const TouchedTissue& told = session.patch.tissues[0];
+    const Vec3 force = vec(told.force), on_tissue = total(forces_of_tool(session.world));
+    EXPECT_NEAR((force - on_tissue).norm(), 0, 1e-6 + 2e-3 * force.norm());
+    EXPECT_NEAR((force + session.borne()).norm(), 0, 1e-9);
+    if (friction < 1) {
+      EXPECT_NEAR(force.x(), friction * pressed(told), 1e-3 * pressed(told)) << "it has slid";
+    } else {
+      EXPECT_GT(force.x(), 0.2 * pressed(told));
+    }
+    EXPECT_LE(std::hypot(force.x(), force.y()), friction * pressed(told) + 1e-9);
+    const Vec3 spring = 500 * (path(1) - surface_told(told));
+    EXPECT_NEAR((spring - force).x(), 0, 0.01 * pressed(told)) << "K (x - a), at rest: " << friction;
+  }
 }
 
 TEST(TissueTool, LetsGoOfTissueWhereTheHandIsSilent) {
@@ -148,7 +245,7 @@ TEST(TissueTool, BeginsAnewAfterAReset) {
   for (std::uint64_t n = 1; n <= 200; ++n) session.to(n);
   session.world.reset();
   EXPECT_EQ(session.borne(), Vec3(Vec3::Zero()));
-  EXPECT_EQ(session.to(1).force, 0) << "from outside again";
+  EXPECT_EQ(pressed(session.to(1)), 0) << "from outside again";
 }
 
 }  // namespace
