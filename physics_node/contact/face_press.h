@@ -46,10 +46,6 @@ class FacePress {
   /// Why: three leave 1 % of what the first leaves, see docs/benchmarks.md.
   static constexpr int sweeps = 3;
 
-  /// Do cells of this spacing follow a shape of this size? Why half: on cells of twice its radius a sphere presses within 10 % of Hertz's
-  /// force; on those of two and a half times it slips between the samples of a face.
-  static bool is_resolved(double size, double spacing) noexcept { return size >= 0.5 * spacing; }
-
   /// @param surface, moving  outlive it
   FacePress(const Boundary& surface, const NodeMotion& moving, const RigidShape& shape);
 

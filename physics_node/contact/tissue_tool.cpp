@@ -16,13 +16,16 @@ namespace palpate::physics {
 namespace {
 
 constexpr double lets_go_in = 0.2;       // after silence [s]
+// A touch begins outside: what is deeper in the tissue without bearing has got there otherwise, and would be thrown out.
+constexpr double begins_within = 0.5e-3;  // [m]
 constexpr double rest_smoothing = 5e-3;  // of what modes do not tell [s]
 constexpr double smallest_patch = 0.25;  // of the shape's size: where a touch begins
 // Of a rigid patch on a half space, across its plane to along its normal: (2 - nu) / (2 - 2 nu), nu = 1/3.
 constexpr double across_to_along = 1.25;
 
+/// A scene that leaves the force model out gets a remark instead: tool_remarks.
 void refuse_coarse(const ToolSpec& tool, double size, const Body& body) {
-  if (FacePress::is_resolved(size, body.spacing())) return;
+  if (!tool.force_model || follows_shape(body.spacing(), size)) return;
   const bool boxes = tool.shape == ToolShape::box;
   throw InputError(
       tool.place.text() +
@@ -32,6 +35,9 @@ void refuse_coarse(const ToolSpec& tool, double size, const Body& body) {
           body.name, 1e3 * body.spacing(), boxes ? "half a side" : "radius_mm", 1e3 * size, 2e3 * size,
           boxes ? "side" : "radius"));
 }
+
+/// Of what nothing holds none: it swings about where it goes, and what it lies on is not known to its modes.
+int modes_of(const Body& body) noexcept { return body.n_held > 0 ? static_cast<int>(max_tissue_modes) : 0; }
 
 }  // namespace
 
@@ -50,7 +56,7 @@ TissueTool::TissueTool(const ToolSpec& tool, std::uint32_t index, const std::vec
         Touchable{body.moving,
                   ToolContact(*body.surface, *body.moving, size, held_.turns() ? held_.half_diagonal() : 0.0),
                   FacePress(*body.surface, *body.moving, held_.shape),
-                  BodyModes(shape, static_cast<int>(max_tissue_modes), crew)}));
+                  BodyModes(shape, modes_of(shape), crew)}));
   }
   candidates_.reserve(FacePress::most_facets);
 }
@@ -119,7 +125,8 @@ void TissueTool::find_contact(double t) noexcept {
   if (!play_.seen() || bodies_.empty()) return let_go();
   hand_ = play_.at(0);
   // The tool stays in the tissue when the hand goes deeper than its spring lets it.
-  const Vec3 tip = force_ > 0 ? tip_now() : hand_.x;
+  const bool touched = force_ > 0;  // of whatever body
+  const Vec3 tip = touched ? tip_now() : hand_.x;
   const std::optional<Vec3> under = look(tip, t);
   if (!under) return let_go();
   Touchable& body = *bodies_[touched_];
@@ -136,7 +143,7 @@ void TissueTool::find_contact(double t) noexcept {
   body.faces.list(pose_, candidates_, way);
   if (force_ > 0) return;
   depth_ = body.faces.depth();
-  if (!std::isfinite(depth_)) let_go(), found_ = false;  // no face is near
+  if (!std::isfinite(depth_) || (!touched && -depth_ > begins_within)) let_go(), found_ = false;
 }
 
 void TissueTool::begin_step() noexcept {

@@ -13,7 +13,7 @@ constexpr double shift_of_modes = 100;  // of what nothing holds [1/s^2]
 }  // namespace
 
 BodyModes::BodyModes(const Body& body, int most, const Crew& crew) : body_(&body), beta_(damper_time(body)) {
-  if (!body.solid) return;
+  if (!body.solid || most <= 0) return;
   LinearAnswer answer(body, shift_of_modes, crew);
   const VibrationModes modes = lowest_modes(answer, {.n = most}, crew);
   if (!modes.converged) return;

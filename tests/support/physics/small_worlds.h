@@ -36,6 +36,7 @@ Recipe pair_of_masses(const std::string& material);
 
 /// [floor] and a tool "tip" on a device, as further tables of a scene.
 std::string floor_at(double height_mm);
+/// It feels planes, so that a ToolState says what it presses with.
 std::string point_tool(double radius_mm);
 
 /// A body of tissue that breaks soon.

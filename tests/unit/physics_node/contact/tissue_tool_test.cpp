@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "common/error/error.h"
+#include "common/scene/load_scene.h"
+#include "common/scene/scene.h"
 #include "tests/support/physics/pressed_world.h"
 #include "tests/support/physics/recorded_hand.h"
 
@@ -17,8 +19,8 @@ Recipe palpated_slab(double frame_Hz, const std::string& model = "fem") {
   Recipe recipe = pressed_slab_recipe();
   recipe.body += "\nmodel = \"" + model + "\"";
   recipe.physics = "frame_Hz = " + std::to_string(frame_Hz);
-  const std::string shape = "shape = \"point\"";
-  recipe.world.insert(recipe.world.find(shape) + shape.size(), "\nforce_model = \"tissue\"");
+  const std::string planes = "\"norton\"";
+  recipe.world.replace(recipe.world.find(planes), planes.size(), "\"tissue\"");
   return recipe;
 }
 
@@ -205,6 +207,77 @@ TEST(TissueTool, RubsWithCoulombsFriction) {
     EXPECT_LE(std::hypot(force.x(), force.y()), friction * pressed(told) + 1e-9);
     const Vec3 spring = 500 * (path(1) - surface_told(told));
     EXPECT_NEAR((spring - force).x(), 0, 0.01 * pressed(told)) << "K (x - a), at rest: " << friction;
+  }
+}
+
+/// A tip that is in the tissue without having come in bears nothing until it has been outside: what it would throw out is no touch.
+TEST(TissueTool, BeginsOutsideOnly) {
+  Session session(palpated_slab(1000));
+  const auto path = [](double t) {
+    return Vec3(0.0005, 0.0005, slab_top - 0.003 * std::abs(std::cos(M_PI * t / 0.4)));
+  };
+  bool came_out = false, touched = false;
+  for (std::uint64_t n = 1; n <= 400; ++n) {
+    const TouchedTissue& told = session.to(n, path);
+    const double t = 1e-3 * static_cast<double>(n);
+    if (t > 0.17) came_out = true;
+    if (!came_out) {
+      ASSERT_EQ(session.patch.n_tissues, 0u) << n;
+      ASSERT_EQ(session.borne(), Vec3(Vec3::Zero())) << n;
+    }
+    touched = touched || (session.patch.n_tissues > 0 && pressed(told) > 0.1);
+  }
+  EXPECT_TRUE(touched) << "the second time it comes from outside";
+}
+
+/// What nothing holds has no modes to tell: it lies on things that they do not know.
+TEST(TissueTool, TellsNoModesOfAFreeBody) {
+  Recipe recipe = palpated_slab(1000);
+  recipe.body.replace(recipe.body.find("fixed = [\"-z\"]"), 14, "");
+  Session session(recipe);
+  for (std::uint64_t n = 1; n <= 60; ++n) session.to(n);
+  ASSERT_EQ(session.patch.n_tissues, 1u);
+  EXPECT_EQ(session.patch.tissues[0].n_modes, 0u);
+}
+
+/// Over a wall of 4 mm above a cavity the tip is felt where it touches: the far side of the wall is not what it is pressed on.
+TEST(TissueTool, TouchesAThinWallWhereItIs) {
+  for (const char* model : {"fem", "springs"}) {
+    World world(parse_scene(std::string(R"(
+title = "wall"
+gravity_m_per_s2 = [0, 0, 0]
+[material.soft]
+density_kg_per_m3 = 1000
+modulus_kPa = 20
+viscosity_Pa_s = 5
+[[tool]]
+name = "tip"
+radius_mm = 5
+force_model = "tissue"
+device = "hand"
+[device.hand]
+driver = "simulated"
+waypoints = [[0, 0, 0, 50], [1, 0, 0, 40]]
+[[body]]
+name = "block"
+lattice = "voxel"
+spacing_mm = 2
+shape = "box"
+size_mm = [40, 40, 24]
+at_mm = [0, 0, -12]
+fixed = ["-z"]
+material = "soft"
+model = ")") + model + "\"\n[[body.cavity]]\nbox_min_mm = [-12, -12, -18]\nbox_max_mm = [12, 12, -4]\n",
+                            "wall"));
+    const auto path = [](double t) { return Vec3(0, 0, 2e-3 - 1e-2 * t); };
+    double first = 1;
+    for (std::uint64_t n = 1; n <= 260 && first == 1; ++n) {
+      std::optional<ToolState> hand = recorded_hand(path, n);
+      world.frame(std::span(&hand, 1));
+      if (world.tool(0).borne().norm() > 1e-4) first = hand->p_WT[2];
+    }
+    EXPECT_LE(first, 0) << model;
+    EXPECT_GE(first, -2e-4) << model;
   }
 }
 
