@@ -19,6 +19,7 @@ namespace palpate::physics {
 namespace {
 
 constexpr int most_substeps = 256;  // of a frame in which something fast is near
+constexpr int most_times = 8;       // as many as at rest, where those are many
 
 }  // namespace
 
@@ -230,12 +231,12 @@ int World::substeps_of_frame() noexcept {
   constexpr double held_s = 0.2;
   // Why not its root, as a frequency goes: a cell that is crushed is also where the step errs most, and with the root a fall onto
   // the floor at 3 m/s keeps its books to 2.5 %, with this to 1 %.
-  const double stiff =
-      std::ceil(std::min<double>(n_substeps_ * unrounded_ * stiffening_, most_substeps) - 1e-9);
+  const double most = std::max(most_substeps, most_times * n_substeps_);
+  const double stiff = std::ceil(std::min(n_substeps_ * unrounded_ * stiffening_, most) - 1e-9);
   if (stiff >= held_substeps_ || t_ >= held_until_) held_substeps_ = stiff, held_until_ = t_ + held_s;
   double wanted = held_substeps_;
   if (near_) wanted = std::max(wanted, frame_dt_ / collisions_->wanted_step());
-  return std::max(n_substeps_, static_cast<int>(std::ceil(std::min<double>(wanted, most_substeps))));
+  return std::max(n_substeps_, static_cast<int>(std::ceil(std::min(wanted, most))));
 }
 
 /// As many steps as the frame needs when it begins; where elements stiffen meanwhile, what is left of it is divided anew.

@@ -15,11 +15,12 @@
 namespace palpate::physics {
 namespace {
 
-constexpr double lets_go_in = 0.2;       // after silence [s]
+constexpr double lets_go_in = 0.2;  // after silence [s]
 // A touch begins outside: what is deeper in the tissue without bearing has got there otherwise, and would be thrown out.
 constexpr double begins_within = 0.5e-3;  // [m]
-constexpr double rest_smoothing = 5e-3;  // of what modes do not tell [s]
-constexpr double smallest_patch = 0.25;  // of the shape's size: where a touch begins
+constexpr double rest_smoothing = 5e-3;   // of what modes do not tell [s]
+// Of the shape's size: where a touch begins. A stick lies on more than a ball does, a flat end on all of it.
+constexpr double smallest_of_ball = 0.25, smallest_of_others = 1;
 // Of a rigid patch on a half space, across its plane to along its normal: (2 - nu) / (2 - 2 nu), nu = 1/3.
 constexpr double across_to_along = 1.25;
 
@@ -52,11 +53,10 @@ TissueTool::TissueTool(const ToolSpec& tool, std::uint32_t index, const std::vec
     const Body& shape = body.moving->body();
     const double size = held_.shape.size();
     refuse_coarse(tool, size, shape);
-    bodies_.push_back(std::make_unique<Touchable>(
-        Touchable{body.moving,
-                  ToolContact(*body.surface, *body.moving, size, held_.turns() ? held_.half_diagonal() : 0.0),
-                  FacePress(*body.surface, *body.moving, held_.shape),
-                  BodyModes(shape, modes_of(shape), crew)}));
+    bodies_.push_back(std::make_unique<Touchable>(Touchable{
+        body.moving,
+        ToolContact(*body.surface, *body.moving, size, held_.turns() ? held_.half_diagonal() : 0.0),
+        FacePress(*body.surface, *body.moving, held_.shape), BodyModes(shape, modes_of(shape), crew)}));
   }
   candidates_.reserve(FacePress::most_facets);
 }
@@ -212,8 +212,8 @@ TissueTool::Shapes TissueTool::find_shapes(const Touchable& body) const noexcept
 
 /// Of a half space under what bears: 2 E a / (1 - nu^2) [N/m].
 double TissueTool::stiffness_of_patch(const Touchable& body) const noexcept {
-  const double a =
-      std::max(smallest_patch * held_.shape.size(), std::sqrt(body.faces.area() / std::numbers::pi));
+  const double a = std::max((held_.turns() ? smallest_of_others : smallest_of_ball) * held_.shape.size(),
+                            std::sqrt(body.faces.area() / std::numbers::pi));
   return half_space_stiffness(body.moving->body(), a);
 }
 

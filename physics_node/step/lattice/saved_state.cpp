@@ -69,11 +69,11 @@ void SavedState<Real>::take(const Body& body, const LatticeState<Real>& state) n
 
 template <class Real>
 void SavedState<Real>::bring_back(const Body& body, LatticeState<Real>& state) const noexcept {
+  // Storage between rows too: what is not a number there, nothing times infinity, would come back with the next step.
   for (std::size_t a = 0; a < 3; ++a) {
+    for (auto* three : {&state.u, &state.v, &state.v_half, &state.f})
+      std::fill_n((*three)[a].data(), (*three)[a].size(), Real(0));
     copy_rows(body, u_[a], state.u[a]);
-    for (auto* three : {&state.v, &state.v_half, &state.f})
-      for (const RowSegment& row : body.lattice.rows)
-        if ((*three)[a].size() > 0) std::fill_n((*three)[a].data() + row.first, row.count, Real(0));
   }
   for (std::size_t m = 0; m < remembered_.size(); ++m) copy_rows(body, remembered_[m], state.remembered[m]);
   state.forget_last_step();

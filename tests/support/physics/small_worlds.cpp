@@ -46,7 +46,8 @@ std::string floor_at(double height_mm) { return fmt::format("[floor]\nheight_mm 
 
 std::string point_tool(double radius_mm) {
   return fmt::format(
-      "[[tool]]\nname = \"tip\"\nshape = \"point\"\nforce_model = \"norton\"\ndevice = \"hand\"\nradius_mm = {}\n"
+      "[[tool]]\nname = \"tip\"\nshape = \"point\"\nforce_model = \"norton\"\ndevice = \"hand\"\nradius_mm = "
+      "{}\n"
       "[device.hand]\ndriver = \"simulated\"\nwaypoints = [[0, 0, 0, 50], [1, 0, 0, 40]]\n",
       radius_mm);
 }

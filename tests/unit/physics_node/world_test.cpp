@@ -87,6 +87,26 @@ TEST(World, TakesAStepBelowTheStableOne) {
   EXPECT_TRUE(world.remarks().empty());
 }
 
+/// Of elements too, whose numbers are nothing anywhere by then: also where storage holds no cell.
+TEST(World, RecoversElementsThatWereNotNumbers) {
+  for (const char* precision : {"single", "double"}) {
+    Recipe recipe;
+    recipe.lattice = "voxel";
+    recipe.shape = Recipe::box(10, 10, 40);
+    recipe.spacing_mm = 2.5;
+    recipe.material = "density_kg_per_m3 = 1000\nmodulus_kPa = 10\npoisson_ratio = 0.45\nviscosity_Pa_s = 1";
+    recipe.body = "model = \"fem\"\nfixed = [\"+z\"]";
+    recipe.physics = std::string("frame_Hz = 100\nstep_ms = 1\nprecision = \"") + precision + "\"";
+    recipe.gravity = "[0, 0, -9.81]";
+    World world(scene_of(recipe));
+    run_alone(world, 50);
+    EXPECT_GT(world.report().nonfinite, 0) << precision;
+    EXPECT_LE(world.report().halved, 3) << precision;
+    EXPECT_GT(world.t(), 0.4) << precision;
+    EXPECT_TRUE(world.body(0).is_finite());
+  }
+}
+
 TEST(World, BringsTheLastGoodStateBackWhenNumbersBlowUp) {
   Recipe recipe;
   recipe.material = "mass_g = 1\nk1_N_per_m = 20000";
