@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/surroundings_spec.h"
 
@@ -23,6 +24,14 @@ constexpr double most_generated =
 /// Energy that steps and contact have put in: booked, so that the balance does not tell. [J]
 double generated(const EnergyLedger& ledger) {
   return std::max(0.0, -ledger.numerical) + std::max(0.0, -ledger.contact);
+}
+
+/// In steps of some microseconds nodes move by less than single precision tells: smaller ones make it worse.
+const char* remedy_of_balance(const World& world) {
+  constexpr double short_step = 2e-5;  // [s]
+  const bool rounds =
+      world.scene().physics->precision == Precision::single_ && world.step_seconds() < short_step;
+  return rounds ? "write precision = \"double\" in [physics]" : "set a smaller physics.step_ms";
 }
 
 std::string remedy(const World& world) {
@@ -67,8 +76,8 @@ const Kind kinds[] = {
        return fmt::format(
            "the energy does not balance: {:.2g} J of {:.2g} J exchanged, {:.2g} %, came from nowhere or got "
            "lost; what "
-           "summary.json says under energy is off by that; set a smaller physics.step_ms",
-           std::abs(ledger.missing()), ledger.exchanged, 100 * ledger.balance_error());
+           "summary.json says under energy is off by that; {}",
+           std::abs(ledger.missing()), ledger.exchanged, 100 * ledger.balance_error(), remedy_of_balance(w));
      }},
     {[](const World& w) noexcept {
        if (!w.is_watched()) return false;

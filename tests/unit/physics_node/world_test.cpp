@@ -96,7 +96,8 @@ TEST(World, RecoversElementsThatWereNotNumbers) {
     recipe.spacing_mm = 2.5;
     recipe.material = "density_kg_per_m3 = 1000\nmodulus_kPa = 10\npoisson_ratio = 0.45\nviscosity_Pa_s = 1";
     recipe.body = "model = \"fem\"\nfixed = [\"+z\"]";
-    recipe.physics = std::string("frame_Hz = 100\nstep_ms = 1\nprecision = \"") + precision + "\"";
+    recipe.physics = "frame_Hz = 100\nstep_ms = 1";
+    recipe.precision = precision;
     recipe.gravity = "[0, 0, -9.81]";
     World world(scene_of(recipe));
     run_alone(world, 50);
