@@ -1,11 +1,5 @@
 #include "common/scene/force_model.h"
 
-#include <algorithm>
-
-#include "common/scene/body_spec.h"
-#include "common/scene/physics_spec.h"
-#include "common/scene/scene.h"
-
 namespace palpate {
 
 const char* word_of(ForceModel model) noexcept {
@@ -31,25 +25,9 @@ bool can_feel(ToolShape shape, ForceModel model) noexcept {
   return (shape == ToolShape::point) == (model != ForceModel::tangent);
 }
 
-void settle_force_models(Scene& scene) {
-  const auto bears_by_faces = [](const BodySpec& body) {
-    return body.model == ElementModel::fem || std::holds_alternative<MeshShape>(body.shape);
-  };
-  const bool steps = scene.physics->integrator != Integrator::backward_euler;
-  const bool faces = !scene.bodies.empty() && std::ranges::all_of(scene.bodies, bears_by_faces);
-  for (ToolSpec& tool : scene.tools) {
-    const auto follows = [&](const BodySpec& body) {
-      return !body.spacing || follows_shape(*body.spacing, tool.radius);
-    };
-    if (tool.shape == ToolShape::point && tool.contact != PointContact::nodes && steps && faces &&
-        std::ranges::all_of(scene.bodies, follows))
-      tool.own_model = ForceModel::tissue;
-  }
-}
-
 ForceModel force_model_of(const ToolSpec& tool) noexcept {
   if (is_solid_tip(tool.shape)) return ForceModel::tissue;
-  return tool.force_model.value_or(tool.shape == ToolShape::point ? tool.own_model : ForceModel::tangent);
+  return tool.force_model.value_or(tool.shape == ToolShape::point ? ForceModel::norton : ForceModel::tangent);
 }
 
 ForceModelChoice felt_force_model(const ToolSpec& tool, double torque_limit) noexcept {

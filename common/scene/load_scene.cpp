@@ -10,7 +10,6 @@
 #include "common/error/error.h"
 #include "common/math/hash.h"
 #include "common/scene/apply_settings.h"
-#include "common/scene/force_model.h"
 #include "common/scene/read_parts.h"
 #include "common/scene/scene.h"
 #include "common/scene/table_reader.h"
@@ -84,7 +83,6 @@ Scene parse_scene(std::string_view text, const std::string& path, const std::vec
   ReadContext context{scene, complaints};
   read_root(table, context);
   complaints.throw_if_any();
-  settle_force_models(scene);
   return scene;
 }
 

@@ -18,6 +18,8 @@ namespace {
 constexpr double lets_go_in = 0.2;  // after silence [s]
 // A touch begins outside: what is deeper in the tissue without bearing has got there otherwise, and would be thrown out.
 constexpr double begins_within = 0.5e-3;  // [m]
+// Of what holds modes where their force does not: weight, what a body lies on, other tools, a law that is curved. Why: slower than a hand palpates.
+constexpr double offset_smoothing = 0.1;  // [s]
 constexpr double rest_smoothing = 5e-3;   // of what modes do not tell [s]
 // Of the shape's size: where a touch begins. A stick lies on more than a ball does, a flat end on all of it.
 constexpr double smallest_of_ball = 0.25, smallest_of_others = 1;
@@ -235,6 +237,20 @@ void TissueTool::follow_compliance(const Touchable& body, const Shapes& psi, con
   }
 }
 
+/// A copy that stands must not move: told is how far modes are out from where they would rest without the tool's force, q - o with o the slow
+/// part of q - psi . F / omega^2.
+void TissueTool::take_offsets(const Touchable& body, const Shapes& psi, const Told& now, Modal& q) noexcept {
+  const Vec3 force = rubbing_.force() - now.force * pose_.normal();
+  const double since = static_cast<double>(play_.sample() - told_at_) * play_.period();
+  const double part = told_at_ > 0 ? -std::expm1(-since / offset_smoothing) : 1.0;
+  for (std::size_t i = 0; i < body.modes.size(); ++i) {
+    const double stiffness = body.modes.omega2(i);
+    const double rests = stiffness > 0 ? psi[i].dot(force) / stiffness : 0.0;
+    offsets_[i] += part * (q[i] - rests - offsets_[i]);
+    q[i] -= offsets_[i];
+  }
+}
+
 void TissueTool::tell(TouchedTissue& tissue) noexcept {
   Touchable& body = *bodies_[touched_];
   const Vec3& n = pose_.normal();
@@ -244,12 +260,14 @@ void TissueTool::tell(TouchedTissue& tissue) noexcept {
   now.force = force_;
   body.modes.measure(*body.moving, now.q, now.w);
   follow_compliance(body, psi, now);
+  Modal q = now.q;
+  take_offsets(body, psi, now, q);
   const double residual = std::min(residual_.value(), most_compliance);
   const double across = std::min(across_to_along * residual, most_compliance);
   const Vec3 force = rubbing_.force() - force_ * n;
 
   Vec3 rest = now.tip - across * force - (residual - across) * force.dot(n) * n;
-  for (std::size_t i = 0; i < body.modes.size(); ++i) rest -= now.q[i] * psi[i];
+  for (std::size_t i = 0; i < body.modes.size(); ++i) rest -= q[i] * psi[i];
   const double since = static_cast<double>(play_.sample() - told_at_) * play_.period();
   if (told_at_ > 0 && now.force > 0 && told_.force > 0) {
     // What has slid has done so at once; the rest is what modes do not tell.
@@ -272,7 +290,7 @@ void TissueTool::tell(TouchedTissue& tissue) noexcept {
   tissue.force = array(force);
   tissue.n_modes = static_cast<std::uint32_t>(body.modes.size());
   for (std::size_t i = 0; i < body.modes.size(); ++i)
-    tissue.modes[i] = {array(psi[i]), body.modes.omega2(i), body.modes.damping(i), now.q[i], now.w[i]};
+    tissue.modes[i] = {array(psi[i]), body.modes.omega2(i), body.modes.damping(i), q[i], now.w[i]};
   tissue.n_branches = 0;
 }
 

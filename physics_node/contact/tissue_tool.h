@@ -83,6 +83,7 @@ class TissueTool final : public PressingTool {
   std::optional<Vec3> look(const Vec3& tip, double t) noexcept;
   Vec3 tip_now() const noexcept;
   Shapes find_shapes(const Touchable& body) const noexcept;
+  void take_offsets(const Touchable& body, const Shapes& psi, const Told& now, Modal& q) noexcept;
   void follow_compliance(const Touchable& body, const Shapes& psi, const Told& now) noexcept;
   double stiffness_of_patch(const Touchable& body) const noexcept;
   void tell(TouchedTissue& tissue) noexcept;
@@ -107,6 +108,7 @@ class TissueTool final : public PressingTool {
   ShapePose pose_;
   std::uint64_t told_at_ = 0;  // the sample of the last answer
   Told told_;
+  Modal offsets_{};           // o
   Vec3 rest_ = Vec3::Zero();  // that was told, low-passed [m]
   ResidualCompliance residual_;
 };

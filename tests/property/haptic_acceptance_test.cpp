@@ -1,33 +1,10 @@
 // The acceptance rows of the haptic loop, with some of their cases: `palpate bench haptic` runs all. docs/haptics.md has
 // the figures.
 
-#include <gtest/gtest.h>
-
-#include "bench/haptic/rows_surface.h"
-#include "bench/haptic/rows_touch.h"
+#include "tests/property/acceptance_rows.h"
 
 namespace palpate::bench {
 namespace {
-
-Runs quick() {
-  Runs runs;
-  runs.effort = Effort::quick;
-  return runs;
-}
-
-void expect(const Row& row) {
-  EXPECT_TRUE(row.pass) << row.id << ": " << row.what << "\n  limit: " << row.limit << "\n  " << row.figure;
-}
-
-using MatrixRow = Row (*)(Runs&);
-
-class InAMatrix : public ::testing::TestWithParam<std::pair<const char*, MatrixRow>> {};
-
-TEST_P(InAMatrix, KeepsItsLimitsAndItsForceSteps) {
-  Runs runs = quick();
-  expect(GetParam().second(runs));
-  if (!runs.seen.empty()) expect(force_steps_are_small(runs));
-}
 
 INSTANTIATE_TEST_SUITE_P(
     HapticLoop, InAMatrix,
@@ -41,42 +18,10 @@ INSTANTIATE_TEST_SUITE_P(
         std::pair{"RealWall", &world_wall_is_stable}, std::pair{"PulseOfRealPhysics", &world_pulse_is_felt},
         std::pair{"StiffSpringOnRealTissue", &world_bears_a_stiff_spring},
         std::pair{"UnrulyLinksToRealTissue", &world_bears_unruly_links},
-        std::pair{"TrueForceOfRealTissue", &world_force_is_true},
-        std::pair{"PressedTissueIsStable", &world_tissue_is_stable},
-        std::pair{"PressedTissueIsTrue", &world_tissue_is_true},
-        std::pair{"PressedTissueSlides", &world_tissue_slides},
-        std::pair{"PressedTissueBearsAStick", &world_tissue_bears_a_stick},
-        std::pair{"Stick", &stick_is_steady}, std::pair{"StickWithTorques", &stick_with_torques_is_steady},
-        std::pair{"TrueForce", &force_is_true}, std::pair{"Pulse", &pulse_is_felt}),
+        std::pair{"TrueForceOfRealTissue", &world_force_is_true}, std::pair{"Stick", &stick_is_steady},
+        std::pair{"StickWithTorques", &stick_with_torques_is_steady}, std::pair{"TrueForce", &force_is_true},
+        std::pair{"Pulse", &pulse_is_felt}),
     [](const auto& which) { return std::string(which.param.first); });
-
-INSTANTIATE_TEST_SUITE_P(
-    CopyOfTissue, InAMatrix,
-    ::testing::Values(std::pair{"Sines", &sines_are_felt_as_borne},
-                      std::pair{"LumpOfAChain", &lump_of_a_chain_is_seen_through},
-                      std::pair{"SinesOnElements", &sines_on_elements_are_felt_as_borne},
-                      std::pair{"OneModeOfElements", &one_mode_of_elements_is_seen_through},
-                      std::pair{"TapsOnElements", &taps_on_elements_are_felt_as_borne},
-                      std::pair{"Taps", &taps_are_felt_as_borne},
-                      std::pair{"Relaxation", &relaxation_is_felt},
-                      std::pair{"ClearTip", &clear_tip_bears_nothing}, std::pair{"Cuts", &cuts_are_felt},
-                      std::pair{"TissueThatYields", &copy_is_stable},
-                      std::pair{"NoHand", &copy_gains_nothing_without_a_hand},
-                      std::pair{"WrongModels", &copy_bears_wrong_models},
-                      std::pair{"WrongFirstTouch", &copy_bears_a_wrong_first_touch},
-                      std::pair{"AnyModel", &copy_keeps_energy_with_any_model},
-                      std::pair{"ExtrapolatedForce", &extrapolated_force_is_unstable},
-                      std::pair{"Pulse", &pulse_is_felt_by_copy}),
-    [](const auto& which) { return std::string(which.param.first); });
-
-INSTANTIATE_TEST_SUITE_P(CopyOfASurface, InAMatrix,
-                         ::testing::Values(std::pair{"Taps", &surface_taps_are_felt_as_borne},
-                                           std::pair{"Slides", &slides_are_felt_as_borne},
-                                           std::pair{"Frozen", &frozen_surface_is_seen_through},
-                                           std::pair{"ModesAlone", &modes_alone_are_seen_through},
-                                           std::pair{"Hold", &hold_after_a_slide_is_still},
-                                           std::pair{"NoHand", &surface_gives_nothing_to_a_handle}),
-                         [](const auto& which) { return std::string(which.param.first); });
 
 TEST(HapticLoop, PushesGentlyWhenPlanesTeleport) { expect(teleports_push_gently()); }
 TEST(HapticLoop, FeelsEdgesAndCornersAsTheyAre) { expect(edges_and_corners()); }

@@ -163,10 +163,11 @@ INSTANTIATE_TEST_SUITE_P(
     Tools, SceneMistakes,
     testing::ValuesIn(std::vector<Mistake>{
         {"shape = \"point\"", "shape = \"rod\"", "74:9",
-         "\"shape\" in [[tool]] \"tip\" is \"rod\"; write \"point\", \"stick\", \"knife\" or \"needle\", or "
+         "\"shape\" in [[tool]] \"tip\" is \"rod\"; write \"point\", \"stick\", \"cylinder\", \"cone\", "
+         "\"box\", \"knife\" or \"needle\", or "
          "body = the name of a [[body]]"},
         {"shape = \"point\"", "shape = \"stick\"", "72:1",
-         "[[tool]] \"tip\" lacks \"length_mm\"; give the stick a length"},
+         "[[tool]] \"tip\" lacks \"length_mm\"; give it a length"},
         {"shape = \"point\"", "shape = \"point\"\nforce_model = \"tangent\"", "75:15",
          "a point feels planes; write \"norton\""},
         {"device = \"right\"", "device = \"rihgt\"", "75:10",
