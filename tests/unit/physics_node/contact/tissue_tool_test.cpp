@@ -240,6 +240,25 @@ TEST(TissueTool, TellsNoModesOfAFreeBody) {
   EXPECT_EQ(session.patch.tissues[0].n_modes, 0u);
 }
 
+/// Told modes rest where the tip's force holds them, whatever else loads the body: a copy that is stepped on stands.
+TEST(TissueTool, TellsModesThatStandUnderWeight) {
+  Recipe recipe = palpated_slab(1000);
+  recipe.gravity = "[0, 0, -9.81]";
+  Session session(recipe);
+  const auto held = [](double t) { return palpation(std::min(t, 0.15)); };
+  for (std::uint64_t n = 1; n <= 900; ++n) session.to(n, held);
+  const TouchedTissue& told = session.patch.tissues[0];
+  ASSERT_GT(told.n_modes, 0u);
+  ASSERT_GT(pressed(told), 0.1);
+  double pushes = 0, off = 0;
+  for (std::uint32_t i = 0; i < told.n_modes; ++i) {
+    const double by_tip = vec(told.modes[i].psi).dot(vec(told.force));
+    pushes = std::max(pushes, std::abs(by_tip));
+    off = std::max(off, std::abs(told.modes[i].stiffness * told.modes[i].q - by_tip));
+  }
+  EXPECT_LT(off, 0.02 * pushes);
+}
+
 /// Over a wall of 4 mm above a cavity the tip is felt where it touches: the far side of the wall is not what it is pressed on.
 TEST(TissueTool, TouchesAThinWallWhereItIs) {
   for (const char* model : {"fem", "springs"}) {
