@@ -15,8 +15,8 @@ const char* word_of(ForceModel model) noexcept;
 /// May a scene ask for it? Planes are of points; a tangent is of sticks and bodies; a copy of tissue of all but bodies.
 bool can_feel(ToolShape shape, ForceModel model) noexcept;
 
-/// As the scene has it, else planes for a point, a copy of tissue for cylinders, cones and boxes, a tangent for all others. Physics and the window go by this: they do
-/// not know the device, and answer alike whichever of `tangent` and `norton` felt_force_model() makes of it.
+/// As the scene has it, else planes for a point, a copy of tissue for cylinders, cones and boxes, a tangent for all others.
+/// Physics and the window go by this: they do not know the device, and answer alike whichever of `tangent` and `norton` felt_force_model() makes of it.
 ForceModel force_model_of(const ToolSpec& tool) noexcept;
 
 struct ForceModelChoice {

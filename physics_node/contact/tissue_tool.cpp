@@ -26,9 +26,8 @@ constexpr double smallest_of_ball = 0.25, smallest_of_others = 1;
 // Of a rigid patch on a half space, across its plane to along its normal: (2 - nu) / (2 - 2 nu), nu = 1/3.
 constexpr double across_to_along = 1.25;
 
-/// A scene that leaves the force model out gets a remark instead: tool_remarks.
 void refuse_coarse(const ToolSpec& tool, double size, const Body& body) {
-  if (!tool.force_model || follows_shape(body.spacing(), size)) return;
+  if (follows_shape(body.spacing(), size)) return;
   const bool boxes = tool.shape == ToolShape::box;
   throw InputError(
       tool.place.text() +
@@ -132,11 +131,11 @@ void TissueTool::find_contact(double t) noexcept {
   const std::optional<Vec3> under = look(tip, t);
   if (!under) return let_go();
   Touchable& body = *bodies_[touched_];
-  plane_ = body.contact.plane_under(*under);
-  if (!plane_.found) return let_go();
+  const LocalPlane plane = body.contact.plane_under(*under);
+  if (!plane.found) return let_go();
   found_ = true;
-  const bool at_rest = remembers_rest(body.moving->body()) && !plane_.rest_normal.isZero();
-  pose_ = pose_along(hand_.x, at_rest ? plane_.rest_normal : plane_.normal);
+  const bool at_rest = remembers_rest(body.moving->body()) && !plane.rest_normal.isZero();
+  pose_ = pose_along(hand_.x, at_rest ? plane.rest_normal : plane.normal);
   place(0);
   if (force_ <= 0) body.contact.find_shares(*under);
   candidates_.clear();
@@ -182,7 +181,7 @@ double TissueTool::press(double dt) noexcept {
   force_ = by.at(depth_);
   if (rubbing_.sticks()) rubbing_.pull(faces.way(dt), n, by.stiffness, force_, faces.mobility(), dt);
   if (held_.turns()) arm_ = faces.centre() - tip_now();
-  faces.spread(rubbing_.force() - force_ * n);
+  faces.spread(on_tissue());
   return faces.power_before();
 }
 
@@ -226,12 +225,11 @@ void TissueTool::follow_compliance(const Touchable& body, const Shapes& psi, con
   const double k = stiffness_of_patch(body);
   double moved = 0;
   for (std::size_t i = 0; i < body.modes.size(); ++i) moved -= psi[i].dot(n) * (now.q[i] - told_.q[i]);
-  const double since = static_cast<double>(play_.sample() - told_at_) * play_.period();
-  if (told_at_ > 0 && now.force > 0 && told_.force > 0 && since > 0) {
+  if (told_at_ > 0 && now.force > 0 && told_.force > 0 && since_told() > 0) {
     const Vec3 way = now.tip - told_.tip;
     const double in = -way.dot(n);
     if ((way + in * n).norm() <= std::abs(in))
-      residual_.follow(k, now.force - told_.force, in - moved, since);
+      residual_.follow(k, now.force - told_.force, in - moved, since_told());
   } else if (now.force <= 0 || told_at_ == 0) {
     residual_.begin(k);
   }
@@ -239,10 +237,9 @@ void TissueTool::follow_compliance(const Touchable& body, const Shapes& psi, con
 
 /// A copy that stands must not move: told is how far modes are out from where they would rest without the tool's force, q - o with o the slow
 /// part of q - psi . F / omega^2.
-void TissueTool::take_offsets(const Touchable& body, const Shapes& psi, const Told& now, Modal& q) noexcept {
-  const Vec3 force = rubbing_.force() - now.force * pose_.normal();
-  const double since = static_cast<double>(play_.sample() - told_at_) * play_.period();
-  const double part = told_at_ > 0 ? -std::expm1(-since / offset_smoothing) : 1.0;
+void TissueTool::take_offsets(const Touchable& body, const Shapes& psi, Modal& q) noexcept {
+  const Vec3 force = on_tissue();
+  const double part = told_at_ > 0 ? -std::expm1(-since_told() / offset_smoothing) : 1.0;
   for (std::size_t i = 0; i < body.modes.size(); ++i) {
     const double stiffness = body.modes.omega2(i);
     const double rests = stiffness > 0 ? psi[i].dot(force) / stiffness : 0.0;
@@ -261,19 +258,18 @@ void TissueTool::tell(TouchedTissue& tissue) noexcept {
   body.modes.measure(*body.moving, now.q, now.w);
   follow_compliance(body, psi, now);
   Modal q = now.q;
-  take_offsets(body, psi, now, q);
+  take_offsets(body, psi, q);
   const double residual = std::min(residual_.value(), most_compliance);
   const double across = std::min(across_to_along * residual, most_compliance);
-  const Vec3 force = rubbing_.force() - force_ * n;
+  const Vec3 force = on_tissue();
 
   Vec3 rest = now.tip - across * force - (residual - across) * force.dot(n) * n;
   for (std::size_t i = 0; i < body.modes.size(); ++i) rest -= q[i] * psi[i];
-  const double since = static_cast<double>(play_.sample() - told_at_) * play_.period();
   if (told_at_ > 0 && now.force > 0 && told_.force > 0) {
     // What has slid has done so at once; the rest is what modes do not tell.
     const Vec3 slid = rubbing_.sticks() ? rubbing_.take_slid() : Vec3(rest - rest_);
     rest_ += slid - slid.dot(n) * n;
-    rest_ -= std::expm1(-since / rest_smoothing) * (rest - rest_);
+    rest_ -= std::expm1(-since_told() / rest_smoothing) * (rest - rest_);
   } else {
     rest_ = rest;
     rubbing_.take_slid();

@@ -56,9 +56,7 @@ class TissueTool final : public PressingTool {
   Wrench wrench() const noexcept override { return {borne(), (tip() + arm_ - set_point_).cross(borne())}; }
   Wrench raw_wrench() const noexcept override { return wrench(); }
   std::uint32_t contacts() const noexcept override { return static_cast<std::uint32_t>(forces().size()); }
-  Vec3 borne() const noexcept override {
-    return forces().empty() ? Vec3(Vec3::Zero()) : Vec3(force_ * pose_.normal() - rubbing_.force());
-  }
+  Vec3 borne() const noexcept override { return forces().empty() ? Vec3(Vec3::Zero()) : Vec3(-on_tissue()); }
   bool knows_tissue_work() const noexcept override { return true; }
   /// Of the hand, that borne() belongs to.
   std::uint64_t sample() const noexcept { return play_.sample(); }
@@ -82,8 +80,13 @@ class TissueTool final : public PressingTool {
   void place(double share) noexcept;
   std::optional<Vec3> look(const Vec3& tip, double t) noexcept;
   Vec3 tip_now() const noexcept;
+  Vec3 on_tissue() const noexcept { return rubbing_.force() - force_ * pose_.normal(); }  // F [N]
+  /// Of the hand, since the last answer [s].
+  double since_told() const noexcept {
+    return static_cast<double>(play_.sample() - told_at_) * play_.period();
+  }
   Shapes find_shapes(const Touchable& body) const noexcept;
-  void take_offsets(const Touchable& body, const Shapes& psi, const Told& now, Modal& q) noexcept;
+  void take_offsets(const Touchable& body, const Shapes& psi, Modal& q) noexcept;
   void follow_compliance(const Touchable& body, const Shapes& psi, const Told& now) noexcept;
   double stiffness_of_patch(const Touchable& body) const noexcept;
   void tell(TouchedTissue& tissue) noexcept;
@@ -104,7 +107,6 @@ class TissueTool final : public PressingTool {
   Vec3 arm_ = Vec3::Zero();  // from the tip to where it bears; 0 of a sphere [m]
   std::size_t touched_ = 0;
   bool found_ = false;  // a surface, in this frame
-  LocalPlane plane_;
   ShapePose pose_;
   std::uint64_t told_at_ = 0;  // the sample of the last answer
   Told told_;

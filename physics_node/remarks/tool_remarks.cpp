@@ -8,11 +8,9 @@
 
 #include "common/scene/body_spec.h"
 #include "common/scene/device_spec.h"
-#include "common/scene/force_model.h"
 #include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
-#include "physics_node/contact/face_press.h"
 #include "physics_node/contact/held_shape.h"
 #include "physics_node/remarks/enclosure.h"
 #include "physics_node/remarks/remarks.h"
@@ -181,16 +179,11 @@ void add_tiny(const Scene& scene, const Bodies& bodies, const ToolSpec& tool, Re
     const double spacing = body->body().spacing();
     if (!asks_for_faces(tool, is_of_finite_elements(body->body())) || follows_shape(spacing, tool.radius))
       continue;
-    const char* how =
-        force_model_of(tool) == ForceModel::tissue
-            ? "{}: tool \"{}\", a tip of {:.3g} mm, slips between what bears of cells of {:.3g} mm of body "
-              "\"{}\"; cells of "
-              "at most {:.3g} mm follow it"
-            : "{}: tool \"{}\", a tip of {:.3g} mm, presses cells of {:.3g} mm of body \"{}\" at their "
-              "corners, "
-              "as if it were two of them wide; cells of at most {:.3g} mm bear it by their faces";
-    found.push_back(fmt::format(fmt::runtime(how), tool.place.text(), tool.name, 1e3 * tool.radius,
-                                1e3 * spacing, body->body().name, 2e3 * tool.radius));
+    found.push_back(fmt::format(
+        "{}: tool \"{}\", a tip of {:.3g} mm, presses cells of {:.3g} mm of body \"{}\" at their corners, "
+        "as if it were two of them wide; cells of at most {:.3g} mm bear it by their faces",
+        tool.place.text(), tool.name, 1e3 * tool.radius, 1e3 * spacing, body->body().name,
+        2e3 * tool.radius));
   }
 }
 

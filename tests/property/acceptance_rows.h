@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
 #include <utility>
 
 #include "bench/haptic/rows.h"
@@ -20,6 +21,8 @@ inline void expect(const Row& row) {
 }
 
 using MatrixRow = Row (*)(Runs&);
+
+inline const auto by_name = [](const auto& which) { return std::string(which.param.first); };
 
 class InAMatrix : public ::testing::TestWithParam<std::pair<const char*, MatrixRow>> {};
 

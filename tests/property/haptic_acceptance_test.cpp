@@ -21,7 +21,7 @@ INSTANTIATE_TEST_SUITE_P(
         std::pair{"TrueForceOfRealTissue", &world_force_is_true}, std::pair{"Stick", &stick_is_steady},
         std::pair{"StickWithTorques", &stick_with_torques_is_steady}, std::pair{"TrueForce", &force_is_true},
         std::pair{"Pulse", &pulse_is_felt}),
-    [](const auto& which) { return std::string(which.param.first); });
+    by_name);
 
 TEST(HapticLoop, PushesGentlyWhenPlanesTeleport) { expect(teleports_push_gently()); }
 TEST(HapticLoop, FeelsEdgesAndCornersAsTheyAre) { expect(edges_and_corners()); }

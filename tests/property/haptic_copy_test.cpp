@@ -14,7 +14,7 @@ INSTANTIATE_TEST_SUITE_P(RealTissue, InAMatrix,
                                            std::pair{"PressedTissueSlides", &world_tissue_slides},
                                            std::pair{"PressedTissueBearsAStick",
                                                      &world_tissue_bears_a_stick}),
-                         [](const auto& which) { return std::string(which.param.first); });
+                         by_name);
 
 INSTANTIATE_TEST_SUITE_P(
     CopyOfTissue, InAMatrix,
@@ -33,7 +33,7 @@ INSTANTIATE_TEST_SUITE_P(
                       std::pair{"AnyModel", &copy_keeps_energy_with_any_model},
                       std::pair{"ExtrapolatedForce", &extrapolated_force_is_unstable},
                       std::pair{"Pulse", &pulse_is_felt_by_copy}),
-    [](const auto& which) { return std::string(which.param.first); });
+    by_name);
 
 INSTANTIATE_TEST_SUITE_P(CopyOfASurface, InAMatrix,
                          ::testing::Values(std::pair{"Taps", &surface_taps_are_felt_as_borne},
@@ -42,7 +42,7 @@ INSTANTIATE_TEST_SUITE_P(CopyOfASurface, InAMatrix,
                                            std::pair{"ModesAlone", &modes_alone_are_seen_through},
                                            std::pair{"Hold", &hold_after_a_slide_is_still},
                                            std::pair{"NoHand", &surface_gives_nothing_to_a_handle}),
-                         [](const auto& which) { return std::string(which.param.first); });
+                         by_name);
 
 }  // namespace
 }  // namespace palpate::bench
