@@ -19,6 +19,7 @@ bool TissueTouch::take(const TissueAnswer& answer) noexcept {
   shadow_.step = TissueStep(answer.model, spring_, settings_.period);
   shadow_.state = answer.state;
   shadow_at_ = answer.stamp;
+  age_ = std::max(age_, settings_.period * static_cast<double>(history_.newest() - answer.stamp));
   while (shadow_at_ < history_.newest())
     shadow_.step.advance(shadow_.state, history_.at(++shadow_at_).point(arm_));
   return true;
@@ -87,9 +88,10 @@ Vec3 TissueTouch::tick(const Vec3& tip, const Eigen::Quaterniond& q, double gain
   } else if (began_) {
     work = felt_.step.advance(felt_.state, before, point);
     if (gain > gain_) weaken(gain_ / gain, x);
-    put_in = fade_.pass(felt_, shadow_, x, slew * settings_.period, tank_);
+    put_in = fade_.pass(felt_, shadow_, x, slew * settings_.period, tank_, age_);
   }
   gain_ = gain;
+  age_ *= 1 - settings_.period / remembered;
   made_ -= std::min(0.0, work.dissipated);
   // The tank fills again after a rest in which nothing was put into the copy either.
   tank_.pass(settings_.period, touching() || put_in > 0);

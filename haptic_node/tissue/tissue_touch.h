@@ -29,7 +29,8 @@ class TissueTouch {
  public:
   static constexpr double slew = 80.0;  // of F by corrections [N/s]
   /// A force acts from one to two ticks after its sample: 1.5 ticks later in the mean.
-  static constexpr double hold = 1.5;  // [ticks]
+  static constexpr double hold = 1.5;        // [ticks]
+  static constexpr double remembered = 0.5;  // of late answers [s]
 
   explicit TissueTouch(const TouchSettings& settings) noexcept;
 
@@ -88,6 +89,7 @@ class TissueTouch {
   ContactSpring spring_;         // what that left of it
   Vec3 given_ = Vec3::Zero(), felt_force_ = Vec3::Zero();
   double share_ = 1, made_ = 0;
+  double age_ = 0;  // of answers, the most that is remembered [s]
 };
 
 }  // namespace palpate::haptic

@@ -26,10 +26,10 @@ int ticks_to(TissueCopy felt, const TissueCopy& shadow, int alternate = 0) {
   above.state.force = felt.state.force + down(2 * ModelFade::ripple_force);
   for (int n = 0; n < alternate; ++n) {
     TissueCopy stays = felt;
-    fade.pass(stays, above, x, 0.08, tank);
+    fade.pass(stays, above, x, 0.08, tank, 1);
   }
   for (int n = 1; n < 5000; ++n) {
-    fade.pass(felt, shadow, x, 1.0, tank);
+    fade.pass(felt, shadow, x, 1.0, tank, 1);
     if ((felt.state.force - shadow.state.force).norm() < 0.05) return n;
   }
   return 5000;
@@ -41,7 +41,7 @@ TEST(ModelFade, LeavesWhatIsTheSame) {
     TissueCopy felt = shadow;
     WorkTank tank;
     ModelFade fade;
-    EXPECT_NEAR(fade.pass(felt, shadow, x, 0.08, tank), 0, 1e-15);
+    EXPECT_NEAR(fade.pass(felt, shadow, x, 0.08, tank, 1), 0, 1e-15);
     EXPECT_NEAR(felt.state.q[0], shadow.state.q[0], 1e-15);
     EXPECT_NEAR((felt.state.force - shadow.state.force).norm(), 0, 1e-12);
   }
@@ -66,7 +66,7 @@ TEST(ModelFade, IsPaidByTheTank) {
   ASSERT_LT(force, pressed(shadow.state));
   for (int n = 0; n < 3000; ++n) {
     const double level = tank.level();
-    const double put_in = fade.pass(felt, shadow, x, 0.02, tank);
+    const double put_in = fade.pass(felt, shadow, x, 0.02, tank, 1);
     EXPECT_NEAR(felt.step.held(felt.state, x).energy - before, put_in, 1e-15);
     EXPECT_LE(put_in, level + 1e-18);
     EXPECT_LE(std::abs(pressed(felt.state) - force), 0.02 + 1e-12);
@@ -98,7 +98,7 @@ TEST(ModelFade, TurnsTheNormalPaid) {
   for (int n = 0; n < 2000; ++n) {
     const double before = felt.step.held(felt.state, x).energy;
     const Vec3 force = felt.state.force;
-    const double put_in = fade.pass(felt, shadow, x, 0.05, tank);
+    const double put_in = fade.pass(felt, shadow, x, 0.05, tank, 1);
     EXPECT_NEAR(felt.step.held(felt.state, x).energy - before, put_in, 1e-12);
     EXPECT_LE((felt.state.force - force).norm(), 0.05 + 1e-12);
     EXPECT_NEAR(felt.step.model().normal.norm(), 1, 1e-12);
@@ -115,14 +115,14 @@ TEST(ModelFade, IsPaidInTheAirToo) {
   WorkTank empty;
   empty.book(WorkTank::capacity);
   ModelFade fade;
-  EXPECT_EQ(fade.pass(felt, shadow, above, 0.08, empty), 0);
+  EXPECT_EQ(fade.pass(felt, shadow, above, 0.08, empty, 1), 0);
   EXPECT_NEAR(felt.state.rest.z(), 1e-3 * std::expm1(-h / ModelFade::slow), 1e-12);
   shadow.state.w[0] = 1;  // half a joule
   TissueCopy held = felt;
-  fade.pass(held, shadow, above, 0.08, empty);
+  fade.pass(held, shadow, above, 0.08, empty, 1);
   EXPECT_EQ(tissue_energy(held.step.model(), held.state), 0);
   WorkTank full;
-  const double put_in = fade.pass(felt, shadow, above, 0.08, full);
+  const double put_in = fade.pass(felt, shadow, above, 0.08, full, 1);
   EXPECT_NEAR(tissue_energy(felt.step.model(), felt.state), put_in, 1e-15);
   EXPECT_GT(put_in, 0.9 * WorkTank::capacity);
   EXPECT_LE(put_in, WorkTank::capacity);
