@@ -1,5 +1,11 @@
 #include "common/scene/force_model.h"
 
+#include <algorithm>
+
+#include "common/scene/body_spec.h"
+#include "common/scene/physics_spec.h"
+#include "common/scene/scene.h"
+
 namespace palpate {
 
 const char* word_of(ForceModel model) noexcept {
@@ -25,9 +31,21 @@ bool can_feel(ToolShape shape, ForceModel model) noexcept {
   return (shape == ToolShape::point) == (model != ForceModel::tangent);
 }
 
+void settle_force_models(Scene& scene) {
+  const bool steps = scene.physics->integrator != Integrator::backward_euler;
+  for (ToolSpec& tool : scene.tools) {
+    const auto copied = [&](const BodySpec& body) {
+      return body.model == ElementModel::fem && body.spacing && follows_shape(*body.spacing, tool.radius);
+    };
+    if (tool.shape == ToolShape::point && tool.contact != PointContact::nodes && steps &&
+        !scene.bodies.empty() && std::ranges::all_of(scene.bodies, copied))
+      tool.own_model = ForceModel::tissue;
+  }
+}
+
 ForceModel force_model_of(const ToolSpec& tool) noexcept {
   if (is_solid_tip(tool.shape)) return ForceModel::tissue;
-  return tool.force_model.value_or(tool.shape == ToolShape::point ? ForceModel::norton : ForceModel::tangent);
+  return tool.force_model.value_or(tool.shape == ToolShape::point ? tool.own_model : ForceModel::tangent);
 }
 
 ForceModelChoice felt_force_model(const ToolSpec& tool, double torque_limit) noexcept {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/scene/kinds.h"
+#include "common/scene/scene_fwd.h"
 #include "common/scene/tool_spec.h"
 
 namespace palpate {
@@ -15,7 +16,11 @@ const char* word_of(ForceModel model) noexcept;
 /// May a scene ask for it? Planes are of points; a tangent is of sticks and bodies; a copy of tissue of all but bodies.
 bool can_feel(ToolShape shape, ForceModel model) noexcept;
 
-/// As the scene has it, else planes for a point, a copy of tissue for cylinders, cones and boxes, a tangent for all others.
+/// Puts into each point what it feels where the scene does not say: a copy of tissue where all bodies are finite elements whose cells follow the tip and
+/// steps are explicit, else planes.
+void settle_force_models(Scene& scene);
+
+/// As the scene has it, else as settled for a point, a copy of tissue for cylinders, cones and boxes, a tangent for all others.
 /// Physics and the window go by this: they do not know the device, and answer alike whichever of `tangent` and `norton` felt_force_model() makes of it.
 ForceModel force_model_of(const ToolSpec& tool) noexcept;
 

@@ -10,6 +10,7 @@
 #include "common/error/error.h"
 #include "common/math/hash.h"
 #include "common/scene/apply_settings.h"
+#include "common/scene/force_model.h"
 #include "common/scene/read_parts.h"
 #include "common/scene/scene.h"
 #include "common/scene/table_reader.h"
@@ -83,6 +84,7 @@ Scene parse_scene(std::string_view text, const std::string& path, const std::vec
   ReadContext context{scene, complaints};
   read_root(table, context);
   complaints.throw_if_any();
+  settle_force_models(scene);
   return scene;
 }
 

@@ -37,8 +37,9 @@ struct ToolSpec {
   double torque_limit = 0.1;            // [N m]
   /// Of the hand between two answers of physics, as the scene has it; who goes by it asks force_model.h.
   std::optional<ForceModel> force_model;
-  double length = 0.1;       // from tip to end [m]; of a stick, cylinder, cone
-  Vec3 size = Vec3::Zero();  // of a box [m]
+  ForceModel own_model = ForceModel::norton;  // of a point, where the scene has none: settle_force_models()
+  double length = 0.1;                        // from tip to end [m]; of a stick, cylinder, cone
+  Vec3 size = Vec3::Zero();                   // of a box [m]
   /// Where the handle is not turned; of all but points and bodies.
   Eigen::Matrix3d attitude = Eigen::Matrix3d::Identity();
   Place place;
@@ -53,7 +54,7 @@ inline bool meets_facets(const ToolSpec& tool) { return tool.shape != ToolShape:
 /// Does a point press the faces of a body, as far as the scene says? Finite elements have a surface, whose faces bear; a spring's masses are
 /// all that there is of it, as the papers have them. A hand's motion presses faces whatever they are of.
 inline bool asks_for_faces(const ToolSpec& tool, bool of_finite_elements) noexcept {
-  return tool.force_model == ForceModel::tissue || is_solid_tip(tool.shape) ||
+  return tool.force_model.value_or(tool.own_model) == ForceModel::tissue || is_solid_tip(tool.shape) ||
          tool.contact.value_or(of_finite_elements ? PointContact::faces : PointContact::nodes) ==
              PointContact::faces;
 }

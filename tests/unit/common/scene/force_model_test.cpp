@@ -5,6 +5,10 @@
 
 #include <array>
 
+#include "common/scene/load_scene.h"
+#include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
+
 namespace palpate::test {
 namespace {
 
@@ -67,6 +71,32 @@ TEST(ForceModel, IsDecidedByShapeSceneAndTorques) {
     for (const ForceModel felt : {with.model, without.model})
       for (const ForceModel own : {direct, raw_planes}) EXPECT_EQ(felt == own, row.physics == own);
   }
+}
+
+/// What a point feels where its scene does not say.
+TEST(ForceModel, OfAPointIsTissueWhereFacesOfElementsBear) {
+  const auto model_of = [](const std::string& body, const std::string& tool,
+                           const std::string& physics = "") {
+    const Scene scene = parse_scene(
+        "title = \"t\"\n" + physics +
+            "[material.m]\ndensity_kg_per_m3 = 1000\nmodulus_kPa = 10\n[[body]]\nname = \"b\"\nlattice = "
+            "\"voxel\"\nspacing_mm = 4\n"
+            "shape = \"box\"\nsize_mm = [20, 20, 20]\nfixed = [\"-z\"]\nmaterial = \"m\"\n" +
+            body + "\n[[tool]]\nname = \"tip\"\ndevice = \"hand\"\n" + tool +
+            "\n[device.hand]\ndriver = \"simulated\"\nwaypoints = [[0, 0, 0, 50], [1, 0, 0, 40]]\n",
+        "t");
+    return force_model_of(scene.tools[0]);
+  };
+  const std::string fem = "model = \"fem\"";
+  EXPECT_EQ(model_of(fem, ""), tissue);
+  EXPECT_EQ(model_of(fem, "", "[physics]\nintegrator = \"auto\"\n"), tissue);
+  EXPECT_EQ(model_of(fem, "friction = 0.3"), tissue);
+  EXPECT_EQ(model_of(fem, "force_model = \"norton\""), norton);
+  EXPECT_EQ(model_of(fem, "contact = \"nodes\""), norton);
+  EXPECT_EQ(model_of(fem, "radius_mm = 1.9"), norton) << "cells are too coarse for its faces";
+  EXPECT_EQ(model_of(fem, "", "[physics]\nintegrator = \"backward_euler\"\n"), norton);
+  EXPECT_EQ(model_of("", ""), norton) << "springs, as the papers have them";
+  EXPECT_EQ(model_of(fem, "shape = \"stick\"\nlength_mm = 40"), tangent);
 }
 
 }  // namespace
