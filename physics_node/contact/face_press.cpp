@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "physics_node/collision/point_triangle.h"
+
 namespace palpate::physics {
 namespace {
 
@@ -114,6 +116,26 @@ void FacePress::find_depth(const ShapePose& pose) noexcept {
   }
 }
 
+FacePress::WayOut FacePress::way_out(const Vec3& from,
+                                     std::span<const std::uint32_t> candidates) const noexcept {
+  WayOut out{far};
+  for (const std::uint32_t facet : candidates) {
+    if (!surface_.exists(facet)) continue;
+    const auto [centroid, area] = surface_.centroid_and_area(facet, moving_);
+    // Why twice the spacing: from the middle of a face to its corners, stretched.
+    if ((centroid - from).norm() > out.distance + 2 * moving_.body().spacing()) continue;
+    std::array<Vec3, 4> corner;
+    for (std::size_t c = 0; c < 4; ++c) corner[c] = surface_.position(facet, c, moving_);
+    for (const Triangle& half :
+         {Triangle{corner[0], corner[1], corner[2]}, Triangle{corner[0], corner[2], corner[3]}}) {
+      const ClosestPoint to = closest_point(from, half);
+      if (to.distance < out.distance && to.distance > 0 && to.away.dot(area) > 0)
+        out = {to.distance, to.away / to.distance};
+    }
+  }
+  return out;
+}
+
 void FacePress::list(const ShapePose& pose, std::span<const std::uint32_t> candidates, double way) noexcept {
   way_ = way;
   attitude_ = pose.attitude;
@@ -189,7 +211,7 @@ double FacePress::power_before() const noexcept {
   return sum;
 }
 
-Vec3 FacePress::way(double dt) const noexcept {
+Vec3 FacePress::way(double dt, const Vec3& force) const noexcept {
   const double pressed = borne_.dot(normal_);
   if (!(pressed < 0)) return Vec3::Zero();
   Vec3 sum = Vec3::Zero();
@@ -198,7 +220,7 @@ Vec3 FacePress::way(double dt) const noexcept {
     const Vec3 at_end = moving_.position(node.cell) + dt * dt * node.inverse_mass * forces_[n].force;
     sum += forces_[n].force.dot(normal_) / pressed * (at_end - node.began);
   }
-  return sum - dt * dt * mobility() * borne_;
+  return sum + dt * dt * mobility() * (force - borne_);
 }
 
 double FacePress::mobility() const noexcept {
@@ -214,7 +236,7 @@ double FacePress::mobility() const noexcept {
 void FacePress::release() noexcept {
   touching_ = false;
   z_ = 0;
-  area_ = overlap_ = 0;
+  area_ = overlap_ = across_ = 0;
   forces_.clear();
   bears_.clear();
 }

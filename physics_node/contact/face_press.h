@@ -69,9 +69,9 @@ class FacePress {
   void note_motion(bool verlet) noexcept;
   /// Of forces() with these velocities. [W]
   double power_before() const noexcept;
-  /// Before spread(): what the shape lies on moves by in this step of dt, weighted by the pressure, if forces() add up to nothing: spreading F
-  /// moves it by dt^2 mobility() F more. Scenery stands [m].
-  Vec3 way(double dt) const noexcept;
+  /// Before spread(): what the shape lies on moves by in this step of dt, weighted by the pressure, if forces() add up to `force`:
+  /// spreading F in its place moves it by dt^2 mobility() (F - force) more. Scenery stands [m].
+  Vec3 way(double dt, const Vec3& force) const noexcept;
   /// Of what the shape lies on, to a force that is spread as the pressure is: sum s^2 / m [1/kg].
   double mobility() const noexcept;
   /// It is out of contact: the next one begins from outside.
@@ -83,6 +83,17 @@ class FacePress {
   double area() const noexcept { return area_; }  // of the faces, at rest, that are in contact [m^2]
   /// Where it bears: the middle of the pressure, in the world [m].
   const Vec3& centre() const noexcept { return centre_; }
+  /// On tissue and scenery by the last press, before spread() [N].
+  const Vec3& borne() const noexcept { return borne_; }
+  /// Of what presses, across the pose's normal: the mean of both directions [N/m].
+  double across_stiffness() const noexcept { return across_; }
+  struct WayOut {
+    double distance =
+        0;  // of the nearest point of these faces, of those that look at it; infinite where there is none [m]
+    Vec3 direction = Vec3::Zero();  // from there, unit
+  };
+  /// From faces to a point outside.
+  WayOut way_out(const Vec3& from, std::span<const std::uint32_t> candidates) const noexcept;
   /// How deep samples are in the shape, weighted by their pressure [m].
   double overlap() const noexcept { return overlap_; }
   /// From the pose's tip to the centroids of all faces that it may meet in a frame, as deep as it is [m].
@@ -168,7 +179,7 @@ class FacePress {
   std::vector<std::uint32_t> bears_;                    // the node of each force
   Vec3 borne_ = Vec3::Zero(), normal_ = Vec3::UnitZ();  // of the last press, scenery's part included
   Vec3 centre_ = Vec3::Zero();
-  double z_ = 0, collected_z_ = 0, area_ = 0, overlap_ = 0;
+  double z_ = 0, collected_z_ = 0, area_ = 0, overlap_ = 0, across_ = 0;
   double way_ = 0;  // see list()
   bool touching_ = false;
 };

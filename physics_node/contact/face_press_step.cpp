@@ -213,6 +213,7 @@ void FacePress::share_out(const ShapePose& pose) noexcept {
     if (sample.p <= 0) continue;
     centre += sample.p * sample.x;
     area_ += sample.k / k_;
+    across_ += 0.5 * sample.part * sample.k * sample.c * sample.o.head<2>().squaredNorm();
     sum += sample.p;
     overlap_ += sample.p * sample.p / (sample.k * sample.c);
   }
@@ -234,7 +235,7 @@ bool FacePress::press(const ShapePose& pose, const PressBy& by, double dt) noexc
   }
   forces_.clear();
   bears_.clear();
-  area_ = overlap_ = 0;
+  area_ = overlap_ = across_ = 0;
   attitude_ = pose.attitude;
   auto found = Found::elsewhere;
   for (int start = 0; start < most_starts && found == Found::elsewhere; ++start) {

@@ -29,15 +29,17 @@ void HandPlay::add(const Vec3& x, std::uint64_t number) noexcept {
   last_ = number;
 }
 
-bool HandPlay::take(const ToolState* state) noexcept {
+bool HandPlay::take(const ToolState* state, double dt) noexcept {
   path_[0] = path_[n_ - 1];
   n_ = 1;
   begin_ = last_;
   turned_[0] = turned_[1];
   if (state == nullptr || state->sample == last_ || state->sample == 0) {
-    path_[0].v.setZero();
+    stood_ += dt;
+    if (stood_ > may_be_late * period_) path_[0].v.setZero();
     return true;
   }
+  stood_ = 0;
   const Vec3 newest = vec(state->p_WT);
   turned_[1] = Eigen::Quaterniond(state->q_WT[0], state->q_WT[1], state->q_WT[2], state->q_WT[3]);
   const bool goes_on = seen() && state->sample > last_;

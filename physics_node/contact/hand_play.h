@@ -25,9 +25,11 @@ class HandPlay {
   /// @param period  between samples [s]
   explicit HandPlay(double period) noexcept;
 
-  /// The coming frame plays up to the sample of this state; none, or one that has been played: the hand stands.
+  /// The coming frame plays up to the sample of this state; none, or one that has been played: the hand stands. A sample that is late by no more
+  /// than one leaves it its speed, so that frames as short as that do not shake the damper.
+  /// @param dt  of the frame [s]
   /// @return false: a hand that begins anew, at its newest sample
-  bool take(const ToolState* state) noexcept;
+  bool take(const ToolState* state, double dt) noexcept;
   /// @param share  of the frame, from 0 to 1
   Moment at(double share) const noexcept;
   /// Of the handle: of its newest sample alone each state tells that.
@@ -45,7 +47,10 @@ class HandPlay {
  private:
   void add(const Vec3& x, std::uint64_t number) noexcept;
 
+  static constexpr double may_be_late = 1.5;  // samples
+
   double period_, share_;
+  double stood_ = 0;                    // since a frame played something [s]
   std::uint64_t begin_ = 0, last_ = 0;  // samples at both ends of the frame
   std::uint64_t first_ = 0;             // of path_[1]: more than one after begin_ where some are lost
   std::size_t n_ = 1;

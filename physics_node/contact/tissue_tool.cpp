@@ -6,11 +6,13 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "common/error/error.h"
 #include "common/message/vec3.h"
 #include "common/scene/tool_spec.h"
 #include "physics_node/contact/secant_stiffness.h"
+#include "physics_node/contact/tip_lean.h"
 
 namespace palpate::physics {
 namespace {
@@ -19,8 +21,13 @@ constexpr double lets_go_in = 0.2;  // after silence [s]
 // A touch begins outside: what is deeper in the tissue without bearing has got there otherwise, and would be thrown out.
 constexpr double begins_within = 0.5e-3;  // [m]
 // Of what holds modes where their force does not: weight, what a body lies on, other tools, a law that is curved. Why: slower than a hand palpates.
-constexpr double offset_smoothing = 0.1;  // [s]
-constexpr double rest_smoothing = 5e-3;   // of what modes do not tell [s]
+constexpr double offset_smoothing = 0.1;   // [s]
+constexpr int looks_around = 12;           // a frame; the next one goes on
+constexpr double faces_within = 1 - 1e-6;  // cosine
+constexpr double other_is_nearer =
+    0.25;  // of the size: by how much another body has to be, to be touched instead
+constexpr double comes_over_within = 0.1;  // after it has left another body [s]
+constexpr double rest_smoothing = 5e-3;    // of what modes do not tell [s]
 // Of the shape's size: where a touch begins. A stick lies on more than a ball does, a flat end on all of it.
 constexpr double smallest_of_ball = 0.25, smallest_of_others = 1;
 // Of a rigid patch on a half space, across its plane to along its normal: (2 - nu) / (2 - 2 nu), nu = 1/3.
@@ -64,6 +71,7 @@ TissueTool::TissueTool(const ToolSpec& tool, std::uint32_t index, const std::vec
 
 void TissueTool::let_go() noexcept {
   force_ = 0;
+  on_tissue_.setZero();
   rubbing_.release();
   if (touched_ < bodies_.size()) bodies_[touched_]->faces.release();
 }
@@ -71,7 +79,8 @@ void TissueTool::let_go() noexcept {
 void TissueTool::reset() noexcept {
   let_go();
   play_.reset();
-  engaged_ = found_ = false;
+  engaged_ = found_ = faces_ = comes_over_ = false;
+  left_for_ = comes_over_within;
   keep_ = 1;
   told_at_ = 0;
 }
@@ -79,7 +88,7 @@ void TissueTool::reset() noexcept {
 void TissueTool::take(const ToolState* state, double dt) noexcept {
   frame_dt_ = dt;
   elapsed_ = 0;
-  if (!play_.take(state)) let_go(), told_at_ = 0;
+  if (!play_.take(state, dt)) let_go(), told_at_ = 0;
   // What was let go takes hold again as it went.
   keep_ = std::clamp(keep_ + (state == nullptr ? -dt : dt) / lets_go_in, 0.0, 1.0);
   if (state == nullptr) return;
@@ -94,10 +103,52 @@ void TissueTool::take(const ToolState* state, double dt) noexcept {
 void TissueTool::place(double share) noexcept {
   hand_ = play_.at(share);
   pose_.tip = hand_.x + rubbing_.lag();
-  if (!held_.turns()) return;
+  if (!held_.turns()) {
+    pose_.tip += held_.shape.size() * (up_ - pose_.normal());
+    return;
+  }
   const Eigen::Matrix3d axes = held_.axes(play_.attitude(share));
   pose_.tip = held_.origin(pose_.tip, axes);
   pose_.attitude = pose_.axes.transpose() * axes;
+}
+
+/// Another third axis; the others turn no more than they must.
+void TissueTool::turn_to(const Vec3& normal) noexcept {
+  const Vec3 first = pose_.axes.col(0) - pose_.axes.col(0).dot(normal) * normal;
+  if (!(first.norm() > 0.1)) {
+    pose_ = pose_along(pose_.tip, normal);
+    return;
+  }
+  pose_.axes.col(2) = normal;
+  pose_.axes.col(0) = first.normalized();
+  pose_.axes.col(1) = normal.cross(pose_.axes.col(0));
+}
+
+/// Out of contact the middle of a ball lies where it is farthest from the tissue: on a face above the tip, in a corner between its walls.
+void TissueTool::face(const Touchable& body, const Vec3& tip) noexcept {
+  if (held_.turns()) return;
+  const auto at = [&](const Vec3& up) {
+    return body.faces.way_out(tip + held_.shape.size() * up, candidates_);
+  };
+  FacePress::WayOut here = at(up_);
+  double step = 1;
+  for (int n = 0; n < looks_around && std::isfinite(here.distance); ++n) {
+    if (here.direction.dot(up_) > faces_within) return;
+    const Vec3 up = (up_ + step * here.direction).normalized();
+    const FacePress::WayOut there = at(up);
+    if (std::isfinite(there.distance) && there.distance > here.distance)
+      up_ = up, here = there;
+    else
+      step *= 0.5;
+  }
+}
+
+/// The middle of a ball that slides comes to lie beside the tip where that is pressed, on a way as long as its radius. It moves out of the tissue, so it
+/// gives no energy. @param slid  way of the hand across the normal [m]
+void TissueTool::roll(double slid) noexcept {
+  if (held_.turns()) return;
+  const Vec3 up = up_ + std::min(1.0, slid / held_.shape.size()) * (pose_.normal() - up_);
+  if (up.norm() > 0.1) up_ = up.normalized();
 }
 
 /// Finds the nearest body. @return a point of its surface, or near it, where the tool touches it or would
@@ -112,16 +163,25 @@ std::optional<Vec3> TissueTool::look(const Vec3& tip, double t) noexcept {
     contact.look(held_.turns() ? middle : tip, t);
     const auto now = held_.turns() ? contact.nearest_to(held_.shape, origin, axes)
                                    : ToolContact::Nearest{contact.nearest_distance(tip), tip, tip};
-    if (now.distance < least) least = now.distance, nearest = b, at = now;
+    const double given = force_ > 0 && b == touched_ ? other_is_nearer * held_.shape.size() : 0.0;
+    if (now.distance - given < least) least = now.distance - given, nearest = b, at = now;
   }
   if (!std::isfinite(least)) return std::nullopt;
-  if (nearest != touched_) let_go(), touched_ = nearest, told_at_ = 0;
+  if (nearest != touched_) {
+    // From one to the other the tip may come to lie deep in that.
+    comes_over_ = left_for_ < comes_over_within;
+    if (comes_over_) keep_ = 0;
+    let_go(), touched_ = nearest, told_at_ = 0;
+  }
   if (force_ > 0 && held_.turns()) return tip + arm_;
   arm_ = at.on_shape - tip;
   return at.point;
 }
 
 void TissueTool::find_contact(double t) noexcept {
+  const bool faced = std::exchange(faces_, false);
+  left_for_ = force_ > 0 ? 0.0 : left_for_ + frame_dt_;
+  if (left_for_ >= comes_over_within) comes_over_ = false;
   found_ = false;
   if (!play_.seen() || bodies_.empty()) return let_go();
   hand_ = play_.at(0);
@@ -131,20 +191,27 @@ void TissueTool::find_contact(double t) noexcept {
   const std::optional<Vec3> under = look(tip, t);
   if (!under) return let_go();
   Touchable& body = *bodies_[touched_];
+  const double way = play_.way() + 2 * held_.half_diagonal() * play_.turn();
+  candidates_.clear();
+  body.contact.facets_within(tip, body.faces.reach() + way, candidates_);
   const LocalPlane plane = body.contact.plane_under(*under);
-  if (!plane.found) return let_go();
-  found_ = true;
   const bool at_rest = remembers_rest(body.moving->body()) && !plane.rest_normal.isZero();
-  pose_ = pose_along(hand_.x, at_rest ? plane.rest_normal : plane.normal);
+  guide_ = at_rest ? plane.rest_normal : plane.normal;
+  flat_ = plane.found ? plane.flat : 0;
+  if (!touched) {
+    if (!plane.found) return let_go();
+    if (!faced) up_ = plane.normal;
+    face(body, tip);
+    pose_ = pose_along(hand_.x, held_.turns() ? plane.normal : up_);
+  }
+  found_ = faces_ = true;
   place(0);
   if (force_ <= 0) body.contact.find_shares(*under);
-  candidates_.clear();
-  const double way = play_.way() + 2 * held_.half_diagonal() * play_.turn();
-  body.contact.facets_within(tip, body.faces.reach() + way, candidates_);
   body.faces.list(pose_, candidates_, way);
   if (force_ > 0) return;
   depth_ = body.faces.depth();
-  if (!std::isfinite(depth_) || (!touched && -depth_ > begins_within)) let_go(), found_ = false;
+  if (!std::isfinite(depth_) || (!touched && !comes_over_ && -depth_ > begins_within))
+    let_go(), found_ = false;
 }
 
 void TissueTool::begin_step() noexcept {
@@ -157,9 +224,12 @@ double TissueTool::press(double dt) noexcept {
   elapsed_ += dt;
   const double share = elapsed_ / frame_dt_;
   const HandPlay::Moment now = play_.at(share);
-  const Vec3& n = pose_.normal();
+  const Vec3 n = pose_.normal();
   const double way = (hand_.x - now.x).dot(n);
-  if (force_ > 0) rubbing_.lead(now.x - hand_.x, n);
+  if (force_ > 0) {
+    rubbing_.lead(now.x - hand_.x, n);
+    roll((now.x - hand_.x + way * n).norm());
+  }
   place(share);
   PressBy by = spring_;
   by.stiffness *= keep_, by.damping *= keep_;
@@ -173,15 +243,18 @@ double TissueTool::press(double dt) noexcept {
     depth_ -= way;
   force_ = 0;
   if (!engaged_ || !faces.press(pose_, by, dt)) {
-    faces.release();
-    rubbing_.release();
+    let_go();
     return 0;
   }
   depth_ = faces.depth();
   force_ = by.at(depth_);
-  if (rubbing_.sticks()) rubbing_.pull(faces.way(dt), n, by.stiffness, force_, faces.mobility(), dt);
+  const Vec3 pressure = TipLean::borne(guide_, faces.borne(), flat_);
+  if (rubbing_.sticks())
+    rubbing_.pull(faces.way(dt, pressure), n, by.stiffness, force_, faces.mobility(), dt);
   if (held_.turns()) arm_ = faces.centre() - tip_now();
-  faces.spread(on_tissue());
+  on_tissue_ = pressure + rubbing_.force();
+  faces.spread(on_tissue_);
+  turn_to(TipLean::turned(n, pressure, -depth_, faces.across_stiffness(), by.stiffness, dt));
   return faces.power_before();
 }
 
@@ -191,10 +264,11 @@ Vec3 TissueTool::tip_now() const noexcept { return hand_.x + rubbing_.lag() - de
 /// Along the normal by what the pressure does on a mode, whose forces lean with the sphere; across it by the proportions of the pressure.
 TissueTool::Shapes TissueTool::find_shapes(const Touchable& body) const noexcept {
   Shapes psi;
-  const Vec3& n = pose_.normal();
+  const Vec3 n = pose_.normal();
+  const double pressed = -on_tissue_.dot(n);
   for (std::size_t i = 0; i < body.modes.size(); ++i) {
     psi[i].setZero();
-    if (forces().empty()) {
+    if (!(pressed > 0)) {
       for (const MassShare& share : body.contact.shares())
         psi[i] += share.share * body.modes.shape(i, share.cell);
       continue;
@@ -202,11 +276,11 @@ TissueTool::Shapes TissueTool::find_shapes(const Touchable& body) const noexcept
     double load = 0;
     for (const NodalForce& nodal : forces()) {
       const Vec3 shape = body.modes.shape(i, nodal.cell);
-      psi[i] -= nodal.force.dot(n) / force_ * shape;
+      psi[i] -= nodal.force.dot(n) / pressed * shape;
       load += nodal.force.dot(shape);
     }
     const Vec3 across = psi[i] - psi[i].dot(n) * n;
-    psi[i] = across + (across.dot(rubbing_.force()) - load) / force_ * n;
+    psi[i] = across + (across.dot(on_tissue_) - load) / pressed * n;
   }
   return psi;
 }
@@ -238,7 +312,7 @@ void TissueTool::follow_compliance(const Touchable& body, const Shapes& psi, con
 /// A copy that stands must not move: told is how far modes are out from where they would rest without the tool's force, q - o with o the slow
 /// part of q - psi . F / omega^2.
 void TissueTool::take_offsets(const Touchable& body, const Shapes& psi, Modal& q) noexcept {
-  const Vec3 force = on_tissue();
+  const Vec3& force = on_tissue_;
   const double part = told_at_ > 0 ? -std::expm1(-since_told() / offset_smoothing) : 1.0;
   for (std::size_t i = 0; i < body.modes.size(); ++i) {
     const double stiffness = body.modes.omega2(i);
@@ -250,18 +324,18 @@ void TissueTool::take_offsets(const Touchable& body, const Shapes& psi, Modal& q
 
 void TissueTool::tell(TouchedTissue& tissue) noexcept {
   Touchable& body = *bodies_[touched_];
-  const Vec3& n = pose_.normal();
+  const Vec3 n = pose_.normal();
   const Shapes psi = find_shapes(body);
   Told now;
   now.tip = tip_now();
-  now.force = force_;
+  now.force = -on_tissue_.dot(n);
   body.modes.measure(*body.moving, now.q, now.w);
   follow_compliance(body, psi, now);
   Modal q = now.q;
   take_offsets(body, psi, q);
   const double residual = std::min(residual_.value(), most_compliance);
   const double across = std::min(across_to_along * residual, most_compliance);
-  const Vec3 force = on_tissue();
+  const Vec3& force = on_tissue_;
 
   Vec3 rest = now.tip - across * force - (residual - across) * force.dot(n) * n;
   for (std::size_t i = 0; i < body.modes.size(); ++i) rest -= q[i] * psi[i];
@@ -274,7 +348,8 @@ void TissueTool::tell(TouchedTissue& tissue) noexcept {
     rest_ = rest;
     rubbing_.take_slid();
   }
-  told_ = now;
+  // In a frame without a sample the hand stands: what changes then is learnt with the next.
+  if (told_at_ == 0 || since_told() > 0) told_ = now;
   told_at_ = play_.sample();
 
   tissue.sample = told_at_;

@@ -6,7 +6,8 @@
 //   copy: nine modes of the body (finite elements on a lattice; else none), the compliance of all else, and the depth that both lie on
 //
 // While physics hears nothing the hand stands, and after Hands::silence the spring lets go, within 200 ms.
-// It turns as the handle does and goes along one normal, that of the surface where it bears; it rubs with Coulomb's friction: tip_friction.h.
+// It turns as the handle does. It is led by the same spring in all directions and goes where the pressure pushes it (tip_lean.h); it rubs with Coulomb's
+// friction (tip_friction.h). A ball has its middle on the handle a radius from the tip, on the side where it has come to a surface; where it slides that follows the surface.
 // Limits: its turns are known from state to state alone. Cells that break or yield leave the modes as they were: the depth that they lie on takes it up.
 
 #include <memory>
@@ -56,7 +57,7 @@ class TissueTool final : public PressingTool {
   Wrench wrench() const noexcept override { return {borne(), (tip() + arm_ - set_point_).cross(borne())}; }
   Wrench raw_wrench() const noexcept override { return wrench(); }
   std::uint32_t contacts() const noexcept override { return static_cast<std::uint32_t>(forces().size()); }
-  Vec3 borne() const noexcept override { return forces().empty() ? Vec3(Vec3::Zero()) : Vec3(-on_tissue()); }
+  Vec3 borne() const noexcept override { return forces().empty() ? Vec3(Vec3::Zero()) : Vec3(-on_tissue_); }
   bool knows_tissue_work() const noexcept override { return true; }
   /// Of the hand, that borne() belongs to.
   std::uint64_t sample() const noexcept { return play_.sample(); }
@@ -78,9 +79,11 @@ class TissueTool final : public PressingTool {
   };
   void let_go() noexcept;
   void place(double share) noexcept;
+  void face(const Touchable& body, const Vec3& tip) noexcept;
+  void turn_to(const Vec3& normal) noexcept;
+  void roll(double slid) noexcept;
   std::optional<Vec3> look(const Vec3& tip, double t) noexcept;
   Vec3 tip_now() const noexcept;
-  Vec3 on_tissue() const noexcept { return rubbing_.force() - force_ * pose_.normal(); }  // F [N]
   /// Of the hand, since the last answer [s].
   double since_told() const noexcept {
     return static_cast<double>(play_.sample() - told_at_) * play_.period();
@@ -103,12 +106,19 @@ class TissueTool final : public PressingTool {
   HandPlay::Moment hand_;              // now
   double depth_ = 0;                   // of the tip below the hand; out of contact of the surface [m]
   double force_ = 0;                   // along the normal [N]
+  Vec3 on_tissue_ = Vec3::Zero();      // F [N]
   TipFriction rubbing_;
   Vec3 arm_ = Vec3::Zero();  // from the tip to where it bears; 0 of a sphere [m]
   std::size_t touched_ = 0;
-  bool found_ = false;  // a surface, in this frame
+  bool found_ = false;       // a surface, in this frame
+  bool faces_ = false;       // it has an up_ and a normal from the frame before
+  bool comes_over_ = false;  // from another body, not from outside
+  double left_for_ = 1;      // since it touched any [s]
   ShapePose pose_;
-  std::uint64_t told_at_ = 0;  // the sample of the last answer
+  Vec3 guide_ = Vec3::UnitZ();  // normal of the faces around
+  double flat_ = 0;             // of these: LocalPlane
+  Vec3 up_ = Vec3::UnitZ();     // of a ball, from its tip to its middle, unit
+  std::uint64_t told_at_ = 0;   // the sample of the last answer
   Told told_;
   Modal offsets_{};           // o
   Vec3 rest_ = Vec3::Zero();  // that was told, low-passed [m]

@@ -142,6 +142,7 @@ LocalPlane ToolContact::plane_at(const Vec3& q, const Vec3& facing) const noexce
   plane.point = point / sum;
   plane.normal = normal.normalized();
   plane.rest = rest / sum;
+  plane.flat = rest_normal.norm() / sum;
   if (rest_normal.norm() >= 0.1 * sum) plane.rest_normal = rest_normal.normalized();
   return plane;
 }

@@ -18,6 +18,7 @@ struct LocalPlane {
   // The same weights over the facets at rest, where they were before any force:
   Vec3 rest = Vec3::Zero();         // point [m]
   Vec3 rest_normal = Vec3::Zero();  // unit, or 0 where they face all ways
+  double flat = 0;                  // |sum w n| / sum w at rest: 1 where all face one way
 };
 
 class ToolContact {

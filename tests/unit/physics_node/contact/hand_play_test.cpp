@@ -22,9 +22,9 @@ ToolState at_sample(std::uint64_t sample) { return recorded_hand(swing, sample, 
 TEST(HandPlay, GoesFromOneMessageToTheNextThroughAllSamplesBetween) {
   HandPlay play(h);
   auto state = at_sample(10);
-  EXPECT_FALSE(play.take(&state)) << "a hand begins";
+  EXPECT_FALSE(play.take(&state, h)) << "a hand begins";
   state = at_sample(50);
-  EXPECT_TRUE(play.take(&state));
+  EXPECT_TRUE(play.take(&state, h));
   EXPECT_EQ(play.sample(), 50u);
   for (int n = 0; n <= 40; ++n)
     EXPECT_LT((play.at(n / 40.0).x - swing(h * (10 + n))).norm(), 1e-8) << "sample " << 10 + n;
@@ -39,8 +39,8 @@ TEST(HandPlay, PlaysTheSameWhateverIsLost) {
   HandPlay all(h), few(h);
   for (std::uint64_t n = 1; n <= 120; ++n) {
     auto state = at_sample(n);
-    all.take(&state);
-    if (n % 40 == 1 || n == 120) few.take(&state);
+    all.take(&state, h);
+    if (n % 40 == 1 || n == 120) few.take(&state, h);
   }
   EXPECT_EQ(all.sample(), few.sample());
   EXPECT_LT((all.at(1).x - few.at(1).x).norm(), 1e-12);
@@ -50,9 +50,9 @@ TEST(HandPlay, PlaysTheSameWhateverIsLost) {
 TEST(HandPlay, GoesStraightThroughWhatIsForgotten) {
   HandPlay play(h);
   auto state = at_sample(1);
-  play.take(&state);
+  play.take(&state, h);
   state = at_sample(201);  // samples 137 to 200 are told
-  play.take(&state);
+  play.take(&state, h);
   EXPECT_LT((play.at(136.0 / 200).x - swing(h * 137)).norm(), 1e-8);
   EXPECT_LT((play.at(68.0 / 200).x - 0.5 * (swing(h) + swing(h * 137))).norm(), 1e-8);
   EXPECT_LT((play.at(1).x - swing(h * 201)).norm(), 1e-12);
@@ -61,12 +61,12 @@ TEST(HandPlay, GoesStraightThroughWhatIsForgotten) {
 TEST(HandPlay, StandsWhereNothingNewComes) {
   HandPlay play(h);
   auto state = at_sample(10);
-  play.take(&state);
+  play.take(&state, h);
   state = at_sample(12);
-  play.take(&state);
+  play.take(&state, h);
   for (const ToolState* now :
        {static_cast<const ToolState*>(nullptr), static_cast<const ToolState*>(&state)}) {
-    play.take(now);
+    play.take(now, 2 * h);
     for (const double share : {0.0, 0.5, 1.0}) {
       EXPECT_EQ(play.at(share).x, swing(h * 12));
       EXPECT_TRUE(play.at(share).v.isZero());
@@ -75,12 +75,27 @@ TEST(HandPlay, StandsWhereNothingNewComes) {
   EXPECT_EQ(play.way(), 0);
 }
 
+TEST(HandPlay, GoesOnAsFastWhereASampleIsLate) {
+  HandPlay play(h);
+  auto state = at_sample(10);
+  play.take(&state, h);
+  state = at_sample(12);
+  play.take(&state, h);
+  const Vec3 speed = play.at(1).v;
+  EXPECT_GT(speed.norm(), 0);
+  play.take(&state, h);
+  EXPECT_EQ(play.at(0.5).v, speed);
+  EXPECT_EQ(play.at(0.5).x, swing(h * 12));
+  play.take(&state, h);
+  EXPECT_TRUE(play.at(0.5).v.isZero());
+}
+
 TEST(HandPlay, BeginsAnewWithAnotherHand) {
   HandPlay play(h);
   auto state = at_sample(500);
-  play.take(&state);
+  play.take(&state, h);
   state = at_sample(3);
-  EXPECT_FALSE(play.take(&state));
+  EXPECT_FALSE(play.take(&state, h));
   EXPECT_EQ(play.at(0).x, swing(h * 3)) << "it does not fly there";
 }
 
