@@ -58,7 +58,7 @@ TEST_F(ShippedScenes, ClayKeepsItsDent) {
   const auto &block = summary["bodies"]["block"], &ball = summary["bodies"]["ball"];
   EXPECT_EQ(ball["outcome"], "crush");
   EXPECT_GT(ball["yielded_fraction"].get<double>(), 0.5);
-  EXPECT_GT(block["yielded_fraction"].get<double>(), 0.1);
+  EXPECT_GT(block["yielded_fraction"].get<double>(), 0.06);
   EXPECT_LT(block["yielded_fraction"].get<double>(), 0.5) << "only where it was pressed";
   EXPECT_GT(block["shape_rms_m"].get<double>(), 0.1e-3);
   for (const auto& body : {block, ball}) EXPECT_GT(body["min_corner_J"].get<double>(), 0.1);
