@@ -16,8 +16,8 @@ const char* word_of(ForceModel model) noexcept;
 /// May a scene ask for it? Planes are of points; a tangent is of sticks and bodies; a copy of tissue of all but bodies.
 bool can_feel(ToolShape shape, ForceModel model) noexcept;
 
-/// Puts into each point what it feels where the scene does not say: a copy of tissue where all bodies are finite elements whose cells follow the tip and
-/// steps are explicit, else planes.
+/// Puts into each point what it feels where the scene does not say: a copy of tissue where all bodies are finite elements
+/// whose cells follow the tip and steps are explicit, else planes.
 void settle_force_models(Scene& scene);
 
 /// As the scene has it, else as settled for a point, a copy of tissue for cylinders, cones and boxes, a tangent for all others.

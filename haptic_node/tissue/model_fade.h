@@ -5,8 +5,8 @@
 //   beta = the largest in [0, alpha], alpha = 1 - exp(-h / tau), for which H rises by no more than the tank holds, and
 //          F changes by no more than a given step
 //
-// tau is 5 times the age of the answers, at most 50 ms, so that a wrong model stands still: what it does comes back after that age. After an event, which takes force and energy away (a cut, a yield), it
-// is 10 ms: from where S* lies below F by 0.1 N and a quarter, until it has been reached. A ripple is no event: within
+// tau is 5 times the age of the answers, 10 to 50 ms, so that a wrong model stands still: what it does comes back after that
+// age. After an event, which takes force and energy away (a cut, a yield), it is 10 ms: from where S* lies below F by 0.1 N and a quarter, until it has been reached. A ripple is no event: within
 // 0.5 s after S* was above F it does not count.
 // A tip in the air pays as well. A copy that is too soft and heavy runs away from the hand, and what it was given on its way
 // for nothing the hand met when it came back: up to 1.6 mJ each time, and a bouncing handle gained 0.5 J.

@@ -25,8 +25,8 @@ class HandPlay {
   /// @param period  between samples [s]
   explicit HandPlay(double period) noexcept;
 
-  /// The coming frame plays up to the sample of this state; none, or one that has been played: the hand stands. A sample that is late by no more
-  /// than one leaves it its speed, so that frames as short as that do not shake the damper.
+  /// The coming frame plays up to the sample of this state; none, or one that has been played: the hand stands. A sample that
+  /// is late by no more than one leaves it its speed, so that frames as short as that do not shake the damper.
   /// @param dt  of the frame [s]
   /// @return false: a hand that begins anew, at its newest sample
   bool take(const ToolState* state, double dt) noexcept;

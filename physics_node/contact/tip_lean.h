@@ -1,18 +1,22 @@
 #pragma once
-// Which way a massless tip is pressed that hangs on a spring as stiff sideways as along: against the resultant N of the pressure on the tissue. Its middle
-// lies by zeta n from where the hand leads it, and may move sideways, but for a drag that makes it follow within tau:
+// Which way a massless tip is pressed that hangs on a spring as stiff sideways as along: against the resultant N of the
+// pressure on the tissue. Its middle lies by zeta n from where the hand leads it, and may move sideways, but for a drag that
+// makes it follow within tau:
 //
 //   K tau a' = -N_t - K a,    zeta n := zeta n + a
 //
-// N_t is N across n, which tissue bears as it is: so what pushes the tip aside pushes back, and turning gives no energy (the spring keeps its
-// length; what the drag takes is lost). A step is taken as backward Euler's, with the stiffness k_t of the contact across n:
+// N_t is N across n, which tissue bears as it is: so what pushes the tip aside pushes back, and turning gives no energy (the
+// spring keeps its length; what the drag takes is lost). A step is taken as backward Euler's, with the stiffness k_t of the
+// contact across n:
 //
 //   n := n + f lean, made unit,    lean = -N_t / F,    f = dt / (tau + dt (1 + k_t / K))
 //
-// Deviation: on a flat a tip goes as in a guide: N across the normal g of the faces around is left out, by less where they do not face one way. A face
-// between four nodes tilts under a ball beside its middle, by up to 15 degrees, and a hand that slides would feel the lattice.
+// Deviation: on a flat a tip goes as in a guide: N across the normal g of the faces around is left out, by less where they
+// do not face one way. A face between four nodes tilts under a ball beside its middle, by up to 15 degrees, and a hand that
+// slides would feel the lattice.
 //
-// On a flat n is its normal; over an edge the ball rolls as it would on a handle, and falls off where the hand has gone deeper than its middle.
+// On a flat n is its normal; over an edge the ball rolls as it would on a handle, and falls off where the hand has gone
+// deeper than its middle.
 
 #include <algorithm>
 

@@ -79,7 +79,7 @@ void TissueTool::let_go() noexcept {
 void TissueTool::reset() noexcept {
   let_go();
   play_.reset();
-  engaged_ = found_ = faces_ = comes_over_ = false;
+  engaged_ = found_ = knows_up_ = comes_over_ = false;
   left_for_ = comes_over_within;
   keep_ = 1;
   told_at_ = 0;
@@ -112,19 +112,8 @@ void TissueTool::place(double share) noexcept {
   pose_.attitude = pose_.axes.transpose() * axes;
 }
 
-/// Another third axis; the others turn no more than they must.
-void TissueTool::turn_to(const Vec3& normal) noexcept {
-  const Vec3 first = pose_.axes.col(0) - pose_.axes.col(0).dot(normal) * normal;
-  if (!(first.norm() > 0.1)) {
-    pose_ = pose_along(pose_.tip, normal);
-    return;
-  }
-  pose_.axes.col(2) = normal;
-  pose_.axes.col(0) = first.normalized();
-  pose_.axes.col(1) = normal.cross(pose_.axes.col(0));
-}
-
-/// Out of contact the middle of a ball lies where it is farthest from the tissue: on a face above the tip, in a corner between its walls.
+/// Out of contact the middle of a ball lies where it is farthest from the tissue: on a face above the tip, in a corner
+/// between its walls.
 void TissueTool::face(const Touchable& body, const Vec3& tip) noexcept {
   if (held_.turns()) return;
   const auto at = [&](const Vec3& up) {
@@ -143,8 +132,8 @@ void TissueTool::face(const Touchable& body, const Vec3& tip) noexcept {
   }
 }
 
-/// The middle of a ball that slides comes to lie beside the tip where that is pressed, on a way as long as its radius. It moves out of the tissue, so it
-/// gives no energy. @param slid  way of the hand across the normal [m]
+/// The middle of a ball that slides comes to lie beside the tip where that is pressed, on a way as long as its radius. It
+/// moves out of the tissue, so it gives no energy. @param slid  way of the hand across the normal [m]
 void TissueTool::roll(double slid) noexcept {
   if (held_.turns()) return;
   const Vec3 up = up_ + std::min(1.0, slid / held_.shape.size()) * (pose_.normal() - up_);
@@ -179,7 +168,7 @@ std::optional<Vec3> TissueTool::look(const Vec3& tip, double t) noexcept {
 }
 
 void TissueTool::find_contact(double t) noexcept {
-  const bool faced = std::exchange(faces_, false);
+  const bool knew_up = std::exchange(knows_up_, false);
   left_for_ = force_ > 0 ? 0.0 : left_for_ + frame_dt_;
   if (left_for_ >= comes_over_within) comes_over_ = false;
   found_ = false;
@@ -200,11 +189,11 @@ void TissueTool::find_contact(double t) noexcept {
   flat_ = plane.found ? plane.flat : 0;
   if (!touched) {
     if (!plane.found) return let_go();
-    if (!faced) up_ = plane.normal;
+    if (!knew_up) up_ = plane.normal;
     face(body, tip);
     pose_ = pose_along(hand_.x, held_.turns() ? plane.normal : up_);
   }
-  found_ = faces_ = true;
+  found_ = knows_up_ = true;
   place(0);
   if (force_ <= 0) body.contact.find_shares(*under);
   body.faces.list(pose_, candidates_, way);
@@ -254,7 +243,8 @@ double TissueTool::press(double dt) noexcept {
   if (held_.turns()) arm_ = faces.centre() - tip_now();
   on_tissue_ = pressure + rubbing_.force();
   faces.spread(on_tissue_);
-  turn_to(TipLean::turned(n, pressure, -depth_, faces.across_stiffness(), by.stiffness, dt));
+  pose_ = pose_along(pose_.tip,
+                     TipLean::turned(n, pressure, -depth_, faces.across_stiffness(), by.stiffness, dt));
   return faces.power_before();
 }
 

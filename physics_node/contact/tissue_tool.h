@@ -6,8 +6,9 @@
 //   copy: nine modes of the body (finite elements on a lattice; else none), the compliance of all else, and the depth that both lie on
 //
 // While physics hears nothing the hand stands, and after Hands::silence the spring lets go, within 200 ms.
-// It turns as the handle does. It is led by the same spring in all directions and goes where the pressure pushes it (tip_lean.h); it rubs with Coulomb's
-// friction (tip_friction.h). A ball has its middle on the handle a radius from the tip, on the side where it has come to a surface; where it slides that follows the surface.
+// It turns as the handle does. It is led by the same spring in all directions and goes where the pressure pushes it
+// (tip_lean.h); it rubs with Coulomb's friction (tip_friction.h). A ball has its middle on the handle a radius from the tip,
+// on the side where it has come to a surface; where it slides that follows the surface.
 // Limits: its turns are known from state to state alone. Cells that break or yield leave the modes as they were: the depth that they lie on takes it up.
 
 #include <memory>
@@ -80,7 +81,6 @@ class TissueTool final : public PressingTool {
   void let_go() noexcept;
   void place(double share) noexcept;
   void face(const Touchable& body, const Vec3& tip) noexcept;
-  void turn_to(const Vec3& normal) noexcept;
   void roll(double slid) noexcept;
   std::optional<Vec3> look(const Vec3& tip, double t) noexcept;
   Vec3 tip_now() const noexcept;
@@ -111,7 +111,7 @@ class TissueTool final : public PressingTool {
   Vec3 arm_ = Vec3::Zero();  // from the tip to where it bears; 0 of a sphere [m]
   std::size_t touched_ = 0;
   bool found_ = false;       // a surface, in this frame
-  bool faces_ = false;       // it has an up_ and a normal from the frame before
+  bool knows_up_ = false;    // up_ is of the frame before
   bool comes_over_ = false;  // from another body, not from outside
   double left_for_ = 1;      // since it touched any [s]
   ShapePose pose_;

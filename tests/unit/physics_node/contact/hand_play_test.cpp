@@ -19,6 +19,16 @@ Vec3 swing(double t) { return {0.01 * t, 0, 0.002 * std::sin(2 * M_PI * 5 * t)};
 
 ToolState at_sample(std::uint64_t sample) { return recorded_hand(swing, sample, h); }
 
+/// A hand that has been played from one sample to another.
+HandPlay played(std::uint64_t from, std::uint64_t to) {
+  HandPlay play(h);
+  for (const std::uint64_t sample : {from, to}) {
+    const ToolState state = at_sample(sample);
+    play.take(&state, h);
+  }
+  return play;
+}
+
 TEST(HandPlay, GoesFromOneMessageToTheNextThroughAllSamplesBetween) {
   HandPlay play(h);
   auto state = at_sample(10);
@@ -48,22 +58,15 @@ TEST(HandPlay, PlaysTheSameWhateverIsLost) {
 }
 
 TEST(HandPlay, GoesStraightThroughWhatIsForgotten) {
-  HandPlay play(h);
-  auto state = at_sample(1);
-  play.take(&state, h);
-  state = at_sample(201);  // samples 137 to 200 are told
-  play.take(&state, h);
+  const HandPlay play = played(1, 201);  // samples 137 to 200 are told
   EXPECT_LT((play.at(136.0 / 200).x - swing(h * 137)).norm(), 1e-8);
   EXPECT_LT((play.at(68.0 / 200).x - 0.5 * (swing(h) + swing(h * 137))).norm(), 1e-8);
   EXPECT_LT((play.at(1).x - swing(h * 201)).norm(), 1e-12);
 }
 
 TEST(HandPlay, StandsWhereNothingNewComes) {
-  HandPlay play(h);
-  auto state = at_sample(10);
-  play.take(&state, h);
-  state = at_sample(12);
-  play.take(&state, h);
+  HandPlay play = played(10, 12);
+  const ToolState state = at_sample(12);
   for (const ToolState* now :
        {static_cast<const ToolState*>(nullptr), static_cast<const ToolState*>(&state)}) {
     play.take(now, 2 * h);
@@ -76,11 +79,8 @@ TEST(HandPlay, StandsWhereNothingNewComes) {
 }
 
 TEST(HandPlay, GoesOnAsFastWhereASampleIsLate) {
-  HandPlay play(h);
-  auto state = at_sample(10);
-  play.take(&state, h);
-  state = at_sample(12);
-  play.take(&state, h);
+  HandPlay play = played(10, 12);
+  const ToolState state = at_sample(12);
   const Vec3 speed = play.at(1).v;
   EXPECT_GT(speed.norm(), 0);
   play.take(&state, h);

@@ -1,4 +1,5 @@
-// A ball at the edge of a block, on a thin plate, in the seam of two bodies: it is pressed the way it is pushed, and no way round gives energy.
+// A ball at the edge of a block, on a thin plate, in a corner, in the seam of two bodies: it is pressed the way it is
+// pushed, and no way round gives energy.
 
 #include <gtest/gtest.h>
 
@@ -6,7 +7,7 @@
 
 #include "common/scene/load_scene.h"
 #include "common/scene/scene.h"
-#include "tests/support/physics/pressed_world.h"
+#include "tests/support/physics/palpated_slab.h"
 #include "tests/support/physics/recorded_hand.h"
 
 namespace palpate::physics::test {
@@ -14,15 +15,7 @@ namespace {
 
 constexpr double edge = 0.024;  // x of the side of the slab [m]
 
-Recipe slab(const std::string& keys = "") {
-  Recipe recipe = pressed_slab_recipe();
-  recipe.body += "\nmodel = \"fem\"";
-  recipe.physics = "frame_Hz = 1000";
-  recipe.world = "[[tool]]\nname = \"tip\"\ndevice = \"hand\"\nradius_mm = 4\nforce_model = \"tissue\"\n" +
-                 keys +
-                 "\n[device.hand]\ndriver = \"simulated\"\nwaypoints = [[0, 0, 0, 50], [1, 0, 0, 40]]\n";
-  return recipe;
-}
+Recipe slab(const std::string& keys = "") { return palpated_by("radius_mm = 4\n" + keys); }
 
 /// Through these points at a steady pace, after 50 ms at the first.
 std::function<Vec3(double)> through(const std::vector<Vec3>& points, double speed) {

@@ -9,20 +9,11 @@
 #include "common/error/error.h"
 #include "common/scene/load_scene.h"
 #include "common/scene/scene.h"
-#include "tests/support/physics/pressed_world.h"
+#include "tests/support/physics/palpated_slab.h"
 #include "tests/support/physics/recorded_hand.h"
 
 namespace palpate::physics::test {
 namespace {
-
-Recipe palpated_slab(double frame_Hz, const std::string& model = "fem") {
-  Recipe recipe = pressed_slab_recipe();
-  recipe.body += "\nmodel = \"" + model + "\"";
-  recipe.physics = "frame_Hz = " + std::to_string(frame_Hz);
-  const std::string planes = "\"norton\"";
-  recipe.world.replace(recipe.world.find(planes), planes.size(), "\"tissue\"");
-  return recipe;
-}
 
 /// In the air for 50 ms, then down to 2 mm, and 0.5 mm to and fro at 5 Hz until 0.65 s; then away.
 Vec3 palpation(double t) {
@@ -123,14 +114,6 @@ Vec3 moment_on_tissue(const World& world, const Vec3& about) {
   for (const NodalForce& nodal : forces_of_tool(world))
     moment += (world.body(0).position(nodal.cell) - about).cross(nodal.force);
   return moment;
-}
-
-/// By a tool of these keys, with force_model = "tissue".
-Recipe palpated_by(const std::string& keys) {
-  Recipe recipe = palpated_slab(1000);
-  recipe.world = "[[tool]]\nname = \"tip\"\ndevice = \"hand\"\nforce_model = \"tissue\"\n" + keys +
-                 "\n[device.hand]\ndriver = \"simulated\"\nwaypoints = [[0, 0, 0, 50], [1, 0, 0, 40]]\n";
-  return recipe;
 }
 
 /// Whatever its shape, tissue bears the force of the hand's spring and its moment: that at the end of the told arm.
