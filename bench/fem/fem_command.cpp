@@ -26,6 +26,8 @@ namespace {
 struct Options {
   std::string out = "out/bench_fem";
   int rounds = 15;
+  std::string volume;                    // of an image; empty: none
+  std::pair<double, double> keep{0, 0};  // its intensities that are tissue
 };
 
 const char* word_of(HourglassKind hourglass) {
@@ -107,6 +109,22 @@ nlohmann::json beam_rows() {
   return json;
 }
 
+/// V-cycles alone, of the tissue of a volume.
+int run_volume(const Options& options) {
+  const ResultFolder folder(options.out, "fem");
+  nlohmann::json json;
+  json["cycles"] = cycle_rows_of({.file = options.volume,
+                                  .keep_min = options.keep.first,
+                                  .keep_max = options.keep.second,
+                                  .partition = std::nullopt,
+                                  .deformable = {},
+                                  .largest_component = true},
+                                 options.rounds);
+  folder.write_json(json);
+  fmt::print("results: {}\n", options.out);
+  return exit_ok;
+}
+
 int run_fem(const Options& options) {
   const ResultFolder folder(options.out, "fem");
   Table table{{"hourglass", "damper", "precision", "cells_along_a_side", "threads", "ns_per_cell",
@@ -138,7 +156,16 @@ void add_fem(CLI::App& app, int& exit_code) {
   command->add_option("--rounds", options->rounds, "of each row, in turns; the median counts")
       ->capture_default_str()
       ->check(CLI::Range(1, 999));
-  command->callback([options, &exit_code] { exit_code = run_fem(*options); });
+  auto* volume =
+      command->add_option("--volume", options->volume, "nothing but V-cycles of the tissue of this volume")
+          ->check(CLI::ExistingFile);
+  auto* keep =
+      command->add_option("--keep", options->keep, "of the volume: lowest and highest intensity of tissue");
+  volume->needs(keep);
+  keep->needs(volume);
+  command->callback([options, &exit_code] {
+    exit_code = options->volume.empty() ? run_fem(*options) : run_volume(*options);
+  });
 }
 
 }  // namespace palpate::bench

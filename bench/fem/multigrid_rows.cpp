@@ -6,29 +6,14 @@
 
 namespace palpate::bench {
 
-nlohmann::json cycle_rows(int rounds) {
+namespace {
+
+nlohmann::json rows_of(const std::vector<SolidKind>& kinds, int rounds) {
   fmt::print("V-cycles of a push in a frame of 20 ms, 100 kPa, float; least of {} rounds\n", rounds);
   nlohmann::json json;
-  std::vector<SolidKind> kinds{{.cells = 16},
-                               {.cells = 32},
-                               {.cells = 64},
-                               {.cells = 96},
-                               {.cells = 16, .poisson_ratio = 0.49},
-                               {.poisson_ratio = 0.49},
-                               {.cells = 64, .poisson_ratio = 0.49},
-                               {.shape = SolidShape::lump, .cells = 16},
-                               {.shape = SolidShape::lump},
-                               {.shape = SolidShape::lump, .cells = 64},
-                               {.shape = SolidShape::blob, .cells = 24},
-                               {.shape = SolidShape::blob, .cells = 48},
-                               {.shape = SolidShape::blob, .cells = 48, .poisson_ratio = 0.49},
-                               {.shape = SolidShape::tube, .cells = 24},
-                               {.shape = SolidShape::tube, .cells = 48},
-                               {.shape = SolidShape::slit, .cells = 16},
-                               {.shape = SolidShape::slit}};
   for (SolidKind kind : kinds)
     for (const int threads : {1, 2}) {
-      kind.edge = 0.08 / kind.cells;
+      if (!kind.image) kind.edge = 0.08 / kind.cells;
       if (kind.shape == SolidShape::lump) kind.modulus = 10e3;
       const CycleCost cost = measure_cycles(kind, threads, rounds);
       const char* shape = solid_shape_names[static_cast<int>(kind.shape)];
@@ -49,6 +34,36 @@ nlohmann::json cycle_rows(int rounds) {
                       {"ns_per_cell_of_tangent", cost.tangent_ns}});
     }
   return json;
+}
+
+}  // namespace
+
+nlohmann::json cycle_rows(int rounds) {
+  std::vector<SolidKind> kinds{{.cells = 16},
+                               {.cells = 32},
+                               {.cells = 64},
+                               {.cells = 96},
+                               {.cells = 16, .poisson_ratio = 0.49},
+                               {.poisson_ratio = 0.49},
+                               {.cells = 64, .poisson_ratio = 0.49},
+                               {.shape = SolidShape::lump, .cells = 16},
+                               {.shape = SolidShape::lump},
+                               {.shape = SolidShape::lump, .cells = 64},
+                               {.shape = SolidShape::blob, .cells = 24},
+                               {.shape = SolidShape::blob, .cells = 48},
+                               {.shape = SolidShape::blob, .cells = 48, .poisson_ratio = 0.49},
+                               {.shape = SolidShape::tube, .cells = 24},
+                               {.shape = SolidShape::tube, .cells = 48},
+                               {.shape = SolidShape::slit, .cells = 16},
+                               {.shape = SolidShape::slit}};
+  return rows_of(kinds, rounds);
+}
+
+nlohmann::json cycle_rows_of(const VolumeShape& image, int rounds) {
+  std::vector<SolidKind> kinds;
+  for (const double nu : {0.45, 0.49})
+    kinds.push_back({.shape = SolidShape::image, .cells = 0, .poisson_ratio = nu, .image = image});
+  return rows_of(kinds, rounds);
 }
 
 nlohmann::json frame_rows() {

@@ -24,6 +24,7 @@ double stiffness_of(const SolidKind& kind, const physics::Vec3i& at) {
   const double radius = std::hypot(x.x() - 0.5, x.y() - 0.5);
   switch (kind.shape) {
     case SolidShape::cube:
+    case SolidShape::image:
       return 1;
     case SolidShape::lump:
       return (x - Vec3::Constant(0.5)).norm() < 0.22 ? 100 : 1;
@@ -49,15 +50,18 @@ physics::Body make_solid(const SolidKind& kind) {
   spec.name = solid_shape_names[static_cast<int>(kind.shape)];
   spec.lattice = LatticeKind::voxel;
   spec.model = ElementModel::fem;
-  spec.spacing = kind.edge;
+  if (!kind.image) spec.spacing = kind.edge;
   spec.material = "tissue";
   const double side = kind.edge * kind.cells;
-  spec.shape = BoxShape{Vec3::Constant(side)};
+  if (kind.image)
+    spec.shape = *kind.image;
+  else
+    spec.shape = BoxShape{Vec3::Constant(side)};
   spec.fixed_faces[4] = true;  // -z
   if (kind.shape == SolidShape::tube)
     spec.fixed_boxes.push_back({{-side, -side, 0.5 * side - 1.1 * kind.edge}, {side, side, side}});
   physics::Body body = physics::build_body(spec, tissue);
-  if (kind.shape == SolidShape::cube) return body;
+  if (kind.shape == SolidShape::cube || kind.image) return body;
   physics::Vec3i lowest = body.lattice.size;
   for (const physics::Index node : body.nodes()) lowest = lowest.cwiseMin(body.lattice.grid_of(node));
   std::fill(body.solid->mass.begin(), body.solid->mass.end(), 0.0);
