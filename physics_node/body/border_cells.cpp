@@ -56,21 +56,27 @@ class Tissue {
   Between between_;
 };
 
+/// At n^3 places, which all lie at another distance from each face of the cell: of a grid along the axes n^2 would lie in a plane
+/// together, and a face of a box would be off by up to 1 / 2n of a cell.
 double share_of(const Cells& cells, const Tissue& tissue, const Vec3& centre) {
-  const auto count = [&](int n, double first, double step) {
-    int inside = 0;
-    for (int i = 0; i < n * n * n; ++i) {
-      const Vec3 at = Vec3(i % n, i / n % n, i / n / n) * step + Vec3::Constant(first);
-      inside += tissue.at(centre + cells.spacing.cwiseProduct(at)) ? 1 : 0;
-    }
-    return inside;
+  const auto in_tissue = [&](const Vec3& from_centre) {
+    return tissue.at(centre + cells.spacing.cwiseProduct(from_centre)) ? 1 : 0;
   };
   // Just inside its faces, which may lie on those of the shape.
   constexpr double to_face = 0.5 - 1e-6;
-  const int coarse = count(5, -to_face, to_face / 2);
-  if (coarse == 0 || coarse == 125) return coarse / 125;
+  int inside = 0;
+  for (int i = 0; i < 125; ++i)
+    inside += in_tissue(Vec3(i % 5, i / 5 % 5, i / 25) * (to_face / 2) - Vec3::Constant(to_face));
+  if (inside == 0 || inside == 125) return inside / 125;
   const int n = tissue.looks();
-  return count(n, 0.5 / n - 0.5, 1.0 / n) / std::pow(n, 3);
+  const auto along = [n](int first, int second, int third) {
+    return (first + (second + (third + 0.5) / n) / n) / n - 0.5;
+  };
+  inside = 0;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      for (int k = 0; k < n; ++k) inside += in_tissue({along(i, j, k), along(j, k, i), along(k, i, j)});
+  return inside / std::pow(n, 3);
 }
 
 /// May a cell that is not seen hold tissue of this body? It must lie at one that moves; what the image keeps but not the
