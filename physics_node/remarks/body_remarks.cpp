@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/scene/body_spec.h"
 #include "common/scene/scene.h"
@@ -119,6 +120,24 @@ void add_voxels(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
   }
 }
 
+/// Whole cells make a box of another size where its sides are no multiples of them.
+void add_box_of_cells(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
+  constexpr double most_off = 0.15;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const Body& body = bodies[b]->body();
+    const auto* box = std::get_if<BoxShape>(&scene.bodies[b].shape);
+    if (box == nullptr || !body.cells || !body.cells->share.empty() || !scene.bodies[b].cavities.empty())
+      continue;
+    const Cells& cells = *body.cells;
+    const double ratio = static_cast<double>(cells.n_filled()) * cells.spacing.prod() / box->size.prod();
+    if (std::abs(ratio - 1) > most_off)
+      remarks.push_back(
+          fmt::format("{}: its cells make {:.2f} times the volume of its box; choose a spacing_mm that its "
+                      "sides are multiples of{}",
+                      who(scene, b), ratio, body.solid ? ", or border_cells = \"filled\"" : ""));
+  }
+}
+
 void add_planes(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
   struct Behind {
     Vec3 point, normal;
@@ -206,6 +225,7 @@ Remarks body_remarks(const Scene& scene, const Bodies& bodies) {
   add_holds(scene, bodies, remarks);
   add_mended(scene, bodies, remarks);
   add_voxels(scene, bodies, remarks);
+  add_box_of_cells(scene, bodies, remarks);
   add_planes(scene, bodies, remarks);
   add_overlaps(scene, bodies, remarks);
   add_cracks(scene, bodies, remarks);

@@ -56,6 +56,19 @@ std::string all(const Remarks& remarks) {
 
 TEST(Remarks, HaveNothingToSayAboutASoundScene) { EXPECT_EQ(all(remarks_of(sound)), ""); }
 
+/// A box of 10 mm in whole cells of 4 mm is one of 12 mm.
+TEST(Remarks, SayHowMuchLargerCellsMakeABox) {
+  const std::vector<std::string> small = {"body.block.size_mm=[10,10,10]", "body.block.spacing_mm=4"};
+  const std::string said = all(remarks_of(sound, small));
+  EXPECT_NE(said.find("its cells make 1.73 times the volume of its box"), std::string::npos) << said;
+  EXPECT_EQ(said.find("border_cells"), std::string::npos) << "springs have none: " << said;
+  std::vector<std::string> solid = small;
+  solid.emplace_back("body.block.model=\"fem\"");
+  EXPECT_NE(all(remarks_of(sound, solid)).find("border_cells = \"filled\""), std::string::npos);
+  solid.emplace_back("body.block.border_cells=\"filled\"");
+  EXPECT_EQ(all(remarks_of(sound, solid)).find("times the volume"), std::string::npos);
+}
+
 struct Mistake {
   std::string name;
   std::vector<std::string> settings;
