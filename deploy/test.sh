@@ -49,6 +49,7 @@ count_tests() {
 
 must deploy/install_packages.sh deploy/packages.txt deploy/packages-test.txt
 must step "head CT" deploy/fetch_head.sh
+must step "labelled abdomen" deploy/fetch_liver.sh
 must step "configure" cmake --preset ready -DPALPATE_ROOMS=ON
 must step "build" cmake --build --preset ready --parallel "$jobs"
 count_tests "tests" ready -j2

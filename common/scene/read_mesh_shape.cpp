@@ -11,19 +11,28 @@ namespace palpate {
 
 MeshShape read_mesh_shape(TableReader& body, ReadContext& context) {
   MeshShape mesh;
-  body.require("file", "name a mesh of tetrahedra in Gmsh's format MSH 2.2");
-  body.require("unit", "write what one unit of the file is: \"mm\", \"cm\" or \"m\"; a mesh does not say it");
-  constexpr std::array<double, 3> metres = {0.001, 0.01, 1};
-  if (const auto unit = body.read_word("unit", {"mm", "cm", "m"})) mesh.metres = metres[*unit];
+  body.require("file", "name a mesh of tetrahedra: an .h5 of palpate import, or Gmsh's format MSH 2.2");
   const auto file = body.read_text("file");
+  const std::string ending = file ? std::filesystem::path(*file).extension().string() : "";
+  if (ending == ".h5" || ending == ".hdf5") {
+    mesh.metres = 1;
+    if (body.has("unit")) {
+      body.allow({"unit"});
+      body.complain("unit", "a mesh of palpate import is in metres; leave \"unit\" out");
+    }
+  } else {
+    body.require("unit",
+                 "write what one unit of the file is: \"mm\", \"cm\" or \"m\"; a mesh does not say it");
+    constexpr std::array<double, 3> metres = {0.001, 0.01, 1};
+    if (const auto unit = body.read_word("unit", {"mm", "cm", "m"})) mesh.metres = metres[*unit];
+  }
   if (!file) return mesh;
   mesh.file = path_of(body, "file", context.scene.path, *file);
   std::error_code error;
   if (!std::filesystem::is_regular_file(mesh.file, error))
-    body.complain("file",
-                  fmt::format("there is no file {}; save a mesh there as MSH 2.2 in ASCII, or make one with "
-                              "\"palpate import --phantom lobe --out {}\"",
-                              mesh.file, mesh.file));
+    body.complain("file", fmt::format("there is no file {}; save a mesh there, or make one with "
+                                      "\"palpate import --phantom lobe --out {}\"",
+                                      mesh.file, mesh.file));
   return mesh;
 }
 

@@ -54,10 +54,10 @@ struct VolumeShape {
   DeformableRegion deformable;
   bool largest_component = false;  // keep only the largest 6-connected component
 };
-/// Tetrahedra from a file in Gmsh's format MSH 2.2. The middle of the box round them comes to `at`.
+/// Tetrahedra from a file: an .h5 of palpate import, or Gmsh's format MSH 2.2. The middle of the box round them comes to `at`.
 struct MeshShape {
   std::string file;   // found from the folder of the scene file
-  double metres = 0;  // that one unit of the file has
+  double metres = 0;  // that one unit of the file has; of an .h5 1
 };
 using Shape = std::variant<SphereShape, BoxShape, TubeShape, KnifeShape, NeedleShape, VolumeShape, MeshShape>;
 

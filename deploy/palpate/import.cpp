@@ -23,8 +23,9 @@ namespace {
 }  // namespace
 
 void add_import(CLI::App& app, int&) {
-  auto* command = app.add_subcommand(
-      "import", "turn an image (DICOM, NIfTI, NRRD, MHA, .inv3, .inr, raw) or a made phantom into a volume");
+  auto* command = app.add_subcommand("import",
+                                     "turn an image (DICOM, NIfTI, NRRD, MHA, .inv3, .inr, raw), a mesh or a "
+                                     "made phantom into a volume or a mesh");
   command->set_help_flag("");
   command->prefix_command();
   command->callback([command] { become_importer(command->remaining()); });

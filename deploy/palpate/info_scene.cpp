@@ -53,7 +53,9 @@ struct ShapeText {
     return fmt::format("volume {}, intensity {:.6g} to {:.6g}", shape.file, shape.keep_min, shape.keep_max);
   }
   std::string operator()(const MeshShape& shape) const {
-    return fmt::format("mesh {} in units of {:.6g} mm", shape.file, mm_from_m(shape.metres));
+    return shape.metres == 1
+               ? fmt::format("mesh {}", shape.file)
+               : fmt::format("mesh {} in units of {:.6g} mm", shape.file, mm_from_m(shape.metres));
   }
 };
 

@@ -14,6 +14,7 @@
 #include "physics_node/body/materials.h"
 #include "physics_node/body/mesh_body.h"
 #include "physics_node/body/solid_shape.h"
+#include "physics_node/mesh/mesh_file.h"
 #include "physics_node/mesh/read_msh.h"
 #include "physics_node/mesh/renumber.h"
 
@@ -98,7 +99,11 @@ void give_regions(TetMesh& mesh, const BodySpec& spec, const MaterialTable& tabl
 void build_mesh_body(Body& body, const BodySpec& spec, const std::vector<MaterialSpec>& materials) {
   const auto& shape = std::get<MeshShape>(spec.shape);
   const MaterialTable table(spec, materials);
-  MshContent content = read_msh(shape.file, shape.metres);
+  MshContent content;
+  if (is_mesh_file_name(shape.file))
+    content.mesh = read_mesh(shape.file).mesh;
+  else
+    content = read_msh(shape.file, shape.metres);
   const OuterFaces outer = outer_faces(content.mesh);
   if (outer.triangles.empty())
     throw InputError(fmt::format(

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace palpate::physics {
@@ -29,6 +30,19 @@ DihedralAngles dihedral_angles(const TetMesh& mesh) {
     }
   }
   return angles;
+}
+
+double smallest_altitude(const TetMesh& mesh) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& corners : mesh.tets) {
+    const auto at = [&](std::size_t a) { return mesh.nodes[static_cast<std::size_t>(corners[a])]; };
+    double area = 0;  // of the largest face, twice
+    for (std::size_t a = 0; a < 4; ++a)
+      area =
+          std::max(area, (at((a + 2) % 4) - at((a + 1) % 4)).cross(at((a + 3) % 4) - at((a + 1) % 4)).norm());
+    least = std::min(least, 6 * signed_volume(mesh, corners) / area);
+  }
+  return least;
 }
 
 }  // namespace palpate::physics

@@ -12,4 +12,7 @@ struct DihedralAngles {
 };
 DihedralAngles dihedral_angles(const TetMesh& mesh);
 
+/// Of all tetrahedra, from a corner to the face across. [m]
+double smallest_altitude(const TetMesh& mesh);
+
 }  // namespace palpate::physics

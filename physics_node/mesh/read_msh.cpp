@@ -6,12 +6,11 @@
 #include <sstream>
 #include <utility>
 
-#include "physics_node/mesh/msh_words.h"
+#include "physics_node/mesh/mesh_words.h"
 
 namespace palpate::physics {
 namespace {
 
-constexpr double farthest = 1000;  // a place [m]
 constexpr long long most_number = std::numeric_limits<std::int32_t>::max();
 constexpr std::size_t least_line = 8;  // bytes that a node or an element takes: "1 0 0 0\n"
 
@@ -39,7 +38,7 @@ class MshReader {
     bool has_nodes = false, has_elements = false;
     for (auto section = words_.next(); !section.empty(); section = words_.next()) {
       if (section.front() != '$')
-        words_.complain(MshWords::quoted(section) + " stands between sections; a section begins with \"$\"");
+        words_.complain(MeshWords::quoted(section) + " stands between sections; a section begins with \"$\"");
       if (section == "$Nodes") {
         if (std::exchange(has_nodes, true)) words_.complain("a second $Nodes; a file has one");
         read_nodes();
@@ -62,9 +61,9 @@ class MshReader {
     words_.expect("$MeshFormat");
     const std::string_view version = words_.next();
     if (version != "2.2" && version != "2.1" && version != "2")
-      words_.complain(MshWords::quoted(version) +
+      words_.complain(MeshWords::quoted(version) +
                       " is another version; save it as MSH 2.2 in ASCII "
-                      "(Gmsh: Mesh.MshFileVersion = 2.2)");
+                      "(Gmsh: Mesh.MshFileVersion = 2.2), or make an .h5 of it with palpate import");
     if (words_.integer("kind of file", 0, 1) != 0)
       words_.complain("a binary file; save it in ASCII (Gmsh: Mesh.Binary = 0)");
     words_.end_line();
@@ -89,7 +88,7 @@ class MshReader {
       words_.next_line();
       const auto number = words_.integer("number of a node", 1, most_number);
       Vec3 x;
-      for (double& entry : x) entry = metres_ * words_.number("coordinate", farthest / metres_);
+      for (double& entry : x) entry = metres_ * words_.number("coordinate", farthest_mesh_node / metres_);
       number_.emplace_back(number, static_cast<Index>(i));
       content_.mesh.nodes.push_back(x);
       words_.end_line();
@@ -150,12 +149,12 @@ class MshReader {
     for (auto word = words_.next(); word != end; word = words_.next()) {
       if (word.empty())
         words_.complain_of(line, 1,
-                           MshWords::quoted(section) + " has no end; " + end.substr(0, 40) + " is missing");
+                           MeshWords::quoted(section) + " has no end; " + end.substr(0, 40) + " is missing");
       words_.end_line();
     }
   }
 
-  MshWords words_;
+  MeshWords words_;
   double metres_;
   MshContent content_;
   std::vector<std::pair<long long, Index>> number_;  // of each node in the file, and here

@@ -16,6 +16,7 @@ struct MshContent {
 
 /// Most that a file may have. Why: more than any machine steps, and less than an Index counts.
 inline constexpr std::size_t most_mesh_nodes = 20'000'000, most_mesh_tets = 60'000'000;
+inline constexpr double farthest_mesh_node = 1000;  // along any axis [m]
 
 /// @param metres  that one unit of the file has
 /// @throws InputError: it cannot be read, is another format, breaks off, names a node that it does not have, has a place that is

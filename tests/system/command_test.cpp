@@ -116,7 +116,7 @@ TEST(Command, RefusesAnOutputNameThatLiesAboutItsFormat) {
   expect_mistake("import --phantom aneurysm --out /nowhere/V.nii.gz", "write --out /nowhere/V.h5");
   expect_mistake("import --phantom aneurysm --out V", "write --out V.h5");
   expect_mistake("import --phantom brain --out brain.h5", "brain.h5: slices are PNG files in a folder");
-  expect_mistake("import --phantom lobe --out lobe.h5", "write --out lobe.msh");
+  expect_mistake("import --phantom lobe --out lobe.stl", "write --out lobe.h5");
 }
 
 /// A session of palpate's, as far as plots need one.

@@ -44,6 +44,11 @@ TEST_F(RemarksOfScenes, ThatComeAlongAreAsExpected) {
   ASSERT_TRUE(fs::exists(head)) << "install the Debian package invesalius-examples";
   ASSERT_EQ(palpate(std::string("import ") + head + " --out " + test::quoted(data + "/cranium.h5")), 0)
       << log;
+  ASSERT_TRUE(fs::exists(LIVER)) << "fetch it with deploy/fetch_liver.sh";
+  ASSERT_EQ(palpate(std::string("import ") + test::quoted(LIVER) +
+                    " --keep 255,255 --tetrahedra-mm 9.7 --out " + test::quoted(data + "/liver.h5")),
+            0)
+      << log;
   int scenes = 0;
   for (const auto& entry : fs::directory_iterator(folder / "scenes")) {
     if (entry.path().extension() != ".toml") continue;
@@ -52,7 +57,7 @@ TEST_F(RemarksOfScenes, ThatComeAlongAreAsExpected) {
     const auto known = expected.find(entry.path().stem().string());
     EXPECT_EQ(remarks_in_log(), known == expected.end() ? "" : known->second) << entry.path();
   }
-  EXPECT_GE(scenes, 27);
+  EXPECT_GE(scenes, 28);
 }
 
 TEST_F(RemarksOfScenes, AreSaidByInfoAndSimulateAndKeptInTheSummary) {

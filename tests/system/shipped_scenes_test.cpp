@@ -116,6 +116,26 @@ TEST_F(ShippedScenes, ALobeOfTetrahedraIsPressed) {
   EXPECT_EQ(read_json(again + "/summary.json")["state_hash"], summary["state_hash"]);
 }
 
+/// A patient's liver, from a labelled image to a force: what the hand feels is what the tissue bears.
+TEST_F(ShippedScenes, ALiverOfAnImageIsPalpated) {
+  ASSERT_TRUE(fs::exists(LIVER)) << "fetch it with deploy/fetch_liver.sh";
+  const std::string file = (folder / "liver.h5").string();
+  ASSERT_EQ(palpate("import " + test::quoted(LIVER) + " --keep 255,255 --tetrahedra-mm 9.7 --out " +
+                    test::quoted(file)),
+            0)
+      << log;
+  ASSERT_EQ(palpate("info " + test::quoted(file)), 0) << log;
+  EXPECT_NE(log.find("in 1 piece and 1 region"), log.npos) << log;
+  const auto summary = simulate("liver", "--seconds 1.5 --set body.liver.file=" + test::quoted(file));
+  const auto& finger = summary["tools"]["finger"];
+  EXPECT_GT(finger["force_peak"].get<double>(), 0.2);
+  EXPECT_LT(finger["felt_off_rms"].get<double>(), 0.03);
+  EXPECT_NEAR(summary["bodies"]["liver"]["elements"].get<int>(), 22400, 500);
+  EXPECT_GT(summary["bodies"]["liver"]["min_corner_J"].get<double>(), 0.1);
+  EXPECT_LT(summary["energy"]["balance_error"].get<double>(), 0.01);
+  EXPECT_TRUE(summary["warnings"].empty()) << summary["warnings"];
+}
+
 /// Rows of a tool's CSV: t, x, y, z, fx, fy, fz.
 std::vector<std::array<double, 7>> read_trace(const fs::path& file) {
   std::vector<std::array<double, 7>> rows;

@@ -42,7 +42,8 @@ class TestScript : public testing::Test {
     fs::create_directories(folder_ / "bin");
     for (const auto* name : {"test.sh", "step.sh", "count_tests.py"})
       fs::copy(fs::path(DEPLOY) / name, folder_ / "deploy");
-    for (const auto* name : {"deploy/install_packages.sh", "deploy/fetch_head.sh", "bin/cmake"})
+    for (const auto* name :
+         {"deploy/install_packages.sh", "deploy/fetch_head.sh", "deploy/fetch_liver.sh", "bin/cmake"})
       program(name,
               "#!/bin/bash\necho \"$(basename \"$0\") $*\" >>\"$CALLS\"\n[ -z \"$FAULT\" ] || [ \"$FAULT\" "
               "!= \"$*\" ]\n");

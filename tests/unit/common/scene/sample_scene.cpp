@@ -145,7 +145,8 @@ struct Folder {
   std::string path = (fs::temp_directory_path() / ("palpate_scene_" + std::to_string(getpid()))).string();
   Folder() {
     fs::create_directories(path);
-    std::ofstream(path + "/scan.h5") << "only its presence is looked at";
+    for (const char* file : {"/scan.h5", "/organ.msh"})
+      std::ofstream(path + file) << "only its presence is looked at";
   }
   ~Folder() {
     std::error_code error;

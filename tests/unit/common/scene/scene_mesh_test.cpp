@@ -50,6 +50,23 @@ class SceneMesh : public testing::Test {
   const std::string mm = "unit = \"mm\"\n";
 };
 
+/// A mesh of palpate import is in metres, and says so.
+TEST_F(SceneMesh, OfPalpateImportHasNoUnit) {
+  std::ofstream(folder / "organ.h5") << "not read here";
+  const auto scene = [&](const std::string& body) {
+    std::string all = text(body);
+    return all.replace(all.find("organ.msh"), 9, "organ.h5");
+  };
+  const Scene read = parse_scene(scene(""), folder / "test.toml");
+  EXPECT_EQ(std::get<MeshShape>(read.bodies.front().shape).metres, 1);
+  try {
+    parse_scene(scene(mm), folder / "test.toml");
+    FAIL() << "no complaint";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("a mesh of palpate import is in metres; leave \"unit\" out"));
+  }
+}
+
 TEST_F(SceneMesh, IsOfFiniteElementsWithNodalPressure) {
   const Scene scene = parsed(mm);
   const BodySpec& body = scene.bodies.front();

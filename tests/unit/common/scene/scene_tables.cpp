@@ -40,7 +40,7 @@ SceneTable elements() {
 SceneTable mesh() {
   const std::string tissue = "density_kg_per_m3 = 1\nmodulus_kPa = 10\n";
   return {"[[body]]", "mesh", "[material.m]\n" + tissue + "[material.n]\n" + tissue + "[[body]]\n",
-          "name = \"b\"\nmaterial = \"m\"\nshape = \"mesh\"\nfile = \"scan.h5\"\nunit = \"mm\"\n", ""};
+          "name = \"b\"\nmaterial = \"m\"\nshape = \"mesh\"\nfile = \"organ.msh\"\nunit = \"mm\"\n", ""};
 }
 
 SceneTable tool(const std::string& of, const std::string& keys) {

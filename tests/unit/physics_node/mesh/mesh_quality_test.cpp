@@ -34,5 +34,12 @@ TEST(DihedralAngles, OfASliverAreNearNothingAndHalfATurn) {
   EXPECT_GT(angles.largest, std::numbers::pi - 0.003);
 }
 
+TEST(SmallestAltitude, IsThatOverTheLargestFace) {
+  TetMesh mesh;
+  mesh.nodes = {{0, 0, 0}, {4, 0, 0}, {0, 3, 0}, {1, 1, 0.5}};
+  mesh.tets = {{0, 1, 2, 3}};
+  EXPECT_NEAR(smallest_altitude(mesh), 0.5, 1e-12);
+}
+
 }  // namespace
 }  // namespace palpate::physics

@@ -12,9 +12,9 @@
 namespace palpate::physics {
 
 /// Goes through a text word by word. Words are what stands between white space.
-class MshWords {
+class MeshWords {
  public:
-  MshWords(std::string_view text, const std::string& name) : text_(text), name_(name) {}
+  MeshWords(std::string_view text, const std::string& name) : text_(text), name_(name) {}
 
   /// The next word, on this line or a later one; empty at the end.
   std::string_view next() {
@@ -25,6 +25,14 @@ class MshWords {
   std::string_view next_on_line() {
     skip(false);
     return take();
+  }
+  /// The next word, on this line or a later one, which stays the next.
+  std::string_view peek() {
+    const MeshWords before = *this;
+    const std::string_view word = next();
+    at_ = before.at_, line_begin_ = before.line_begin_, current_line_ = before.current_line_;
+    line_ = before.line_, column_ = before.column_;
+    return word;
   }
   /// To the next line that has a word.
   void next_line() { skip(true); }

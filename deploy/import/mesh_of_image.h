@@ -1,0 +1,36 @@
+#pragma once
+// A mesh of tetrahedra that fills the tissue of an image: as large as it, in one surface that nowhere touches itself.
+
+#include <functional>
+
+#include "common/record/volume.h"
+#include "physics_node/mesh/mesh_quality.h"
+#include "physics_node/mesh/tet_mesh.h"
+
+namespace palpate {
+
+/// What meshing takes at its worst moment: of a cell of the image, and of a point of the lattice.
+inline constexpr double meshed_cell_bytes = 24, lattice_point_bytes = 400;
+
+struct ImageMeshOptions {
+  double keep_min = 0, keep_max = 0;  // intensities that are tissue, both included
+  double edge = 0;                    // of the cubes of the lattice; of its tetrahedra the longer ones [m]
+  bool largest = false;               // only the largest part of the tissue
+  /// Told how many points the lattice will have, before it is made; may throw.
+  std::function<void(double points)> before_lattice = [](double) {};
+};
+
+struct ImageMesh {
+  physics::TetMesh mesh;  // placed as TissueField says [m]
+  physics::DihedralAngles angles;
+  double tissue = 0, filled = 0;  // volumes: of the cells that are kept, of the tetrahedra [m^3]
+  std::size_t pieces = 0;         // that do not hang together over faces
+  int shifts = 0;                 // of the lattice, until the surface did not touch itself
+};
+
+/// The level of the surface is chosen so that both volumes are the same: a mesh of chords would be smaller.
+/// @param where  begins complaints
+/// @throws InputError: no tissue, a lattice too coarse for it or finer than the image's cells, too many points, or a surface that touches itself wherever the lattice lies
+ImageMesh mesh_of_image(const Volume& volume, const ImageMeshOptions& options, const std::string& where);
+
+}  // namespace palpate

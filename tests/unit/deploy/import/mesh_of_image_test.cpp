@@ -1,0 +1,98 @@
+// Tetrahedra that fill the tissue of an image.
+#include "deploy/import/mesh_of_image.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "common/error/error.h"
+#include "common/math/units.h"
+#include "physics_node/mesh/mesh_pinches.h"
+
+namespace palpate {
+namespace {
+
+using testing::HasSubstr;
+
+/// 60 x 50 x 30 cells of 1 x 1 x 2 mm: a large ball of 100 at a third of x, a small one of 100 at five sixths, one of 200 in the large one.
+Volume three_balls() {
+  Volume volume;
+  volume.size = {60, 50, 30};
+  volume.spacing = {1e-3, 1e-3, 2e-3};
+  volume.intensity.assign(volume.n_cells(), 0.0F);
+  for (int k = 0; k < 30; ++k)
+    for (int j = 0; j < 50; ++j)
+      for (int i = 0; i < 60; ++i) {
+        const Eigen::Vector3d x(i + 0.5, j + 0.5, 2 * k + 1.0);
+        float& cell = volume.intensity[static_cast<std::size_t>(i + 60 * (j + 50 * k))];
+        if ((x - Eigen::Vector3d(20, 25, 30)).norm() < 16 || (x - Eigen::Vector3d(50, 25, 30)).norm() < 7)
+          cell = 100;
+        if ((x - Eigen::Vector3d(20, 25, 30)).norm() < 8) cell = 200;
+      }
+  return volume;
+}
+
+Vec3 middle_of(const physics::TetMesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& x : mesh.nodes) box.extend(x);
+  return box.center();
+}
+
+TEST(MeshOfImage, IsAsLargeAsTheTissueAndWhereItIs) {
+  const ImageMesh made =
+      mesh_of_image(three_balls(), {.keep_min = 100, .keep_max = 255, .edge = 5e-3}, "scan");
+  EXPECT_EQ(made.pieces, 2U);
+  EXPECT_NEAR(made.tissue, 4.0 / 3 * 3.14159 * (16 * 16 * 16 + 7 * 7 * 7) * 1e-9, 0.02 * made.tissue);
+  EXPECT_NEAR(made.filled, made.tissue, 2e-3 * made.tissue);
+  EXPECT_GT(deg_from_rad(made.angles.least), 12);
+  EXPECT_TRUE(pinches_of(made.mesh, outer_faces(made.mesh)).none());
+  const ImageMesh one =
+      mesh_of_image(three_balls(), {.keep_min = 100, .keep_max = 255, .edge = 5e-3, .largest = true}, "scan");
+  EXPECT_EQ(one.pieces, 1U);
+  EXPECT_LT((middle_of(one.mesh) - Vec3(0.020, 0.025, 0.030)).norm(), 5e-4);
+}
+
+TEST(MeshOfImage, LeavesOutWhatIsNotKept) {
+  const ImageMesh shell =
+      mesh_of_image(three_balls(), {.keep_min = 50, .keep_max = 150, .edge = 4e-3, .largest = true}, "scan");
+  const ImageMesh core =
+      mesh_of_image(three_balls(), {.keep_min = 200, .keep_max = 200, .edge = 4e-3}, "scan");
+  EXPECT_NEAR(shell.filled + core.filled, 4.0 / 3 * 3.14159 * 16 * 16 * 16 * 1e-9, 0.02 * shell.filled);
+}
+
+TEST(MeshOfImage, StandsAsABodyOfTheImageWouldWhereAxesAreLeftHanded) {
+  Volume volume = three_balls();
+  volume.orientation = Eigen::Vector3d(-1, 1, 1).asDiagonal();
+  const ImageMesh made =
+      mesh_of_image(volume, {.keep_min = 100, .keep_max = 255, .edge = 5e-3, .largest = true}, "scan");
+  EXPECT_LT((middle_of(made.mesh) - Vec3(0.040, 0.025, 0.030)).norm(), 5e-4);
+}
+
+/// A bone between two others that is thinner than the tetrahedra: there the surface would touch itself, or be lost.
+TEST(MeshOfImage, SaysWhatCannotBeMeshed) {
+  const auto complaint = [](double lowest, double highest, double edge) -> std::string {
+    try {
+      mesh_of_image(three_balls(), {.keep_min = lowest, .keep_max = highest, .edge = edge}, "scan");
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  EXPECT_THAT(complaint(1, 2, 5e-3), HasSubstr("scan: no cell has an intensity from 1 to 2"));
+  EXPECT_THAT(complaint(100, 255, 0.2), HasSubstr("tetrahedra of 200 mm are too coarse"));
+  EXPECT_THAT(complaint(100, 255, 1e-5), HasSubstr("are too many; write --tetrahedra-mm"));
+}
+
+TEST(MeshOfImage, AsksBeforeItTakesMemory) {
+  double points = 0;
+  ImageMeshOptions options{.keep_min = 100, .keep_max = 255, .edge = 5e-3};
+  options.before_lattice = [&](double n) { points = n; };
+  mesh_of_image(three_balls(), options, "scan");
+  EXPECT_GT(points, 1000);
+  EXPECT_LT(points, 20000);
+}
+
+}  // namespace
+}  // namespace palpate
