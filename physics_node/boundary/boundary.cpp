@@ -43,6 +43,8 @@ Boundary::Boundary(const BodyModel& moving, double bucket_size, bool follows)
     bucket_facets_.push_back(facet);
   }
   for (std::size_t b = 1; b < bucket_start_.size(); ++b) bucket_start_[b] += bucket_start_[b - 1];
+  for (const Index cell : surface_.cell) sag_.push_back(moving.displacement(cell));
+  if (std::ranges::all_of(sag_, [](const Vec3& u) { return u.isZero(0); })) sag_.clear();
   if (follows && any_breaks(moving.body())) prepare_to_follow();
 }
 
@@ -121,14 +123,25 @@ Vec3 Boundary::centroid(std::uint32_t facet, const NodeMotion& moving) const noe
   return sum / 4;
 }
 
-Vec3 Boundary::rest_centroid(std::uint32_t facet) const noexcept {
+Vec3 Boundary::rest_area(std::uint32_t facet) const noexcept {
+  return 0.5 * (rest(facet, 2) - rest(facet, 0)).cross(rest(facet, 3) - rest(facet, 1));
+}
+
+Vec3 Boundary::settled(std::uint32_t facet, std::size_t corner) const noexcept {
+  const Vec3 p = rest(facet, corner);
+  if (sag_.empty() || !is_loaded(facet)) return p;
+  const std::uint32_t vertex = surface_.facets[facet][corner];
+  return vertex < sag_.size() ? Vec3(p + sag_[vertex]) : p;
+}
+
+Vec3 Boundary::settled_centroid(std::uint32_t facet) const noexcept {
   Vec3 sum = Vec3::Zero();
-  for (std::size_t n = 0; n < 4; ++n) sum += rest(facet, n);
+  for (std::size_t n = 0; n < 4; ++n) sum += settled(facet, n);
   return sum / 4;
 }
 
-Vec3 Boundary::rest_area(std::uint32_t facet) const noexcept {
-  return 0.5 * (rest(facet, 2) - rest(facet, 0)).cross(rest(facet, 3) - rest(facet, 1));
+Vec3 Boundary::settled_area(std::uint32_t facet) const noexcept {
+  return 0.5 * (settled(facet, 2) - settled(facet, 0)).cross(settled(facet, 3) - settled(facet, 1));
 }
 
 Boundary::CentroidAndArea Boundary::centroid_and_area(std::uint32_t facet,

@@ -56,8 +56,11 @@ class Boundary {
   bool has_mass(std::uint32_t facet) const noexcept;  // at a corner; else it is scenery
   Vec3 position(std::uint32_t facet, std::size_t corner, const NodeMotion& moving) const noexcept;
   Vec3 centroid(std::uint32_t facet, const NodeMotion& moving) const noexcept;
-  Vec3 rest_centroid(std::uint32_t facet) const noexcept;
-  Vec3 rest_area(std::uint32_t facet) const noexcept;  // as below [m^2]
+  Vec3 rest_area(std::uint32_t facet) const noexcept;  // of the body without any load, as below [m^2]
+  /// Where the facet lay when the body was loaded, sagged where that starts balanced: there it comes back to when nothing
+  /// presses. Of a facet that opened since, at rest.
+  Vec3 settled_centroid(std::uint32_t facet) const noexcept;
+  Vec3 settled_area(std::uint32_t facet) const noexcept;
   /// The centroid and, half the cross product of the diagonals, the normal times the area [m^2].
   struct CentroidAndArea {
     Vec3 centroid, area;
@@ -79,6 +82,7 @@ class Boundary {
   std::size_t bucket_of(const Vec3& p) const;
   void prepare_to_follow();
   Vec3 rest(std::uint32_t facet, std::size_t corner) const noexcept;
+  Vec3 settled(std::uint32_t facet, std::size_t corner) const noexcept;
   bool is_loaded(std::uint32_t facet) const noexcept { return facet < surface_.facets.size(); }
   const OpenFacet& open_at(std::uint32_t facet) const noexcept {
     return open_[facet - surface_.facets.size()];
@@ -94,6 +98,7 @@ class Boundary {
 
   const BodyModel& body_;
   Surface surface_;
+  std::vector<Vec3> sag_;  // of moving vertices when the body was loaded; EMPTY: none (n_moving)
   double bucket_size_;
   Vec3 low_ = Vec3::Zero();
   Vec3i n_buckets_ = Vec3i::Ones();

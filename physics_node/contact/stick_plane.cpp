@@ -50,9 +50,9 @@ void StickSurface::collect(const Stick& stick, bool at_rest) noexcept {
     if (!surface_.exists(id)) continue;
     const auto now = surface_.centroid_and_area(id, moving_);
     Facet facet;
-    facet.rest = surface_.rest_centroid(id);
+    facet.rest = surface_.settled_centroid(id);
     facet.centre = at_rest ? facet.rest : now.centroid;
-    const Vec3 area = at_rest ? surface_.rest_area(id) : now.area;
+    const Vec3 area = at_rest ? surface_.settled_area(id) : now.area;
     facet.area = area.norm();
     if (!(facet.area > 0)) continue;
     facet.normal = area / facet.area;

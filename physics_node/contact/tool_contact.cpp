@@ -61,8 +61,8 @@ void ToolContact::look(const Vec3& p, double t) noexcept {
     if ((centroid - p).squaredNorm() > reach_ * reach_) continue;
     const double size = area.norm();
     if (size > 0)
-      facets_.push_back(
-          {id, centroid, area / size, surface_.rest_centroid(id), surface_.rest_area(id).normalized(), size});
+      facets_.push_back({id, centroid, area / size, surface_.settled_centroid(id),
+                         surface_.settled_area(id).normalized(), size});
   }
 }
 

@@ -15,7 +15,7 @@ struct LocalPlane {
   bool found = false;
   Vec3 point = Vec3::Zero();    // on the tissue now [m]
   Vec3 normal = Vec3::UnitZ();  // out of the tissue, unit
-  // The same weights over the facets at rest, where they were before any force:
+  // The same weights over the facets where they were before any force (Boundary's settled ones):
   Vec3 rest = Vec3::Zero();         // point [m]
   Vec3 rest_normal = Vec3::Zero();  // unit, or 0 where they face all ways
   double flat = 0;                  // |sum w n| / sum w at rest: 1 where all face one way

@@ -81,6 +81,35 @@ TEST(PointTool, OffersTheNormalThatHeldTissueHasAtRest) {
   EXPECT_GT(leans_most, 0.1) << "the tissue must lean, or this shows nothing";
 }
 
+/// Tissue that has sagged under its weight is felt where it lies, not where it would without weight; pressed or not.
+TEST(PointTool, OffersThePlaneWhereTissueHasSaggedTo) {
+  Recipe recipe;
+  recipe.lattice = "voxel";
+  recipe.shape = Recipe::box(80, 80, 60);
+  recipe.material = "density_kg_per_m3 = 1000\nmodulus_kPa = 4\nviscosity_Pa_s = 2";
+  recipe.body = "model = \"fem\"\nfixed = [\"-z\"]\nstart = \"balanced\"";
+  recipe.gravity = "[0, 0, -9.81]";
+  recipe.world = point_tool(8);
+  World world(scene_of(recipe));
+  ContactPatch patch;
+  auto hand = steady_hand({0, 0, 0});
+  hand->p_WT = hand->proxy = {0, 0, 0.027};
+  run(world, hand, 3);
+  world.tool(0).write_patch(patch, 1, 1);
+  ASSERT_GT(patch.n_facets, 0u);
+  const PatchFacet& facet = patch.facets[0];
+  const double lies = (facet.corners[0][2] + facet.corners[1][2] + facet.corners[2][2]) / 3;
+  EXPECT_LT(lies, 0.028) << "it must sag, or this shows nothing";
+  EXPECT_NEAR(facet.point[2], lies, 1e-4);
+  hand->force_on_hand = {0, 0, 0.15};
+  run(world, hand, 500);
+  world.tool(0).write_patch(patch, 2, 2);
+  EXPECT_LT(
+      (patch.facets[0].corners[0][2] + patch.facets[0].corners[1][2] + patch.facets[0].corners[2][2]) / 3,
+      lies - 5e-4);
+  EXPECT_NEAR(patch.facets[0].point[2], lies, 2e-4);
+}
+
 /// Frames of 50 ms of a force that grows: the displacement of a frame's beginning belongs to the force of the last frame.
 TEST(PointTool, LearnsTheSameStiffnessFromAForceThatGrowsAsFromOneThatStands) {
   Scene scene = pressed_slab();
