@@ -104,7 +104,7 @@ double ModelFade::pass(TissueCopy& felt, const TissueCopy& shadow, const Vec3& x
     return t.held.energy - before.energy <= tank.level() &&
            (t.held.contact.force - before.contact.force).norm() <= force_step;
   };
-  double beta = -std::expm1(-h / std::clamp(over_age * age, quick, slow));
+  double beta = -std::expm1(-h / std::clamp(over_age * age, least, slow));
   if (is_event(pressed(felt.step.model(), felt.state), pressed(shadow.step.model(), shadow.state), h)) {
     const double fast = -std::expm1(-h / quick);
     const Tried t = tried(felt, shadow, x, fast);

@@ -5,7 +5,7 @@
 //   beta = the largest in [0, alpha], alpha = 1 - exp(-h / tau), for which H rises by no more than the tank holds, and
 //          F changes by no more than a given step
 //
-// tau is 5 times the age of the answers, 10 to 50 ms, so that a wrong model stands still: what it does comes back after that
+// tau is 5 times the age of the answers, 5 to 50 ms, so that a wrong model stands still: what it does comes back after that
 // age. After an event, which takes force and energy away (a cut, a yield), it is 10 ms: from where S* lies below F by 0.1 N and a quarter, until it has been reached. A ripple is no event: within
 // 0.5 s after S* was above F it does not count.
 // A tip in the air pays as well. A copy that is too soft and heavy runs away from the hand, and what it was given on its way
@@ -28,7 +28,8 @@ TissueCopy mixed(const TissueCopy& felt, const TissueCopy& shadow, double beta) 
 
 class ModelFade {
  public:
-  static constexpr double slow = 50e-3, quick = 10e-3;  // tau, at most and at least [s]
+  static constexpr double slow = 50e-3, least = 5e-3;   // tau, at most and at least [s]
+  static constexpr double quick = 10e-3;                // after an event [s]
   static constexpr double over_age = 5;                 // tau over the age of answers
   static constexpr double event_force = 0.1;            // that S* lies below F [N]
   static constexpr double event_share = 0.25;           // of F
