@@ -32,7 +32,7 @@ ShapePressed press(const ShapePress& how) {
   physics::FacePress faces(surface, block.model(), how.shape);
   std::vector<std::uint32_t> top;
   for (std::uint32_t f = 0; f < surface.surface().facets.size(); ++f)
-    if (surface.rest_centroid(f).z() > -near) top.push_back(f);
+    if (surface.settled_centroid(f).z() > -near) top.push_back(f);
   const physics::ShapePose pose;
   double force = 0;
   ShapePressed result;

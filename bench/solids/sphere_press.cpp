@@ -35,7 +35,7 @@ class Sphere {
         k_(40 * SpherePress::modulus / edge * area_ / 16) {
     const physics::Boundary boundary(model, 10 * edge);
     for (std::uint32_t f = 0; f < boundary.surface().facets.size(); ++f) {
-      const Vec3 middle = boundary.rest_centroid(f);
+      const Vec3 middle = boundary.settled_centroid(f);
       if (middle.z() < -1e-6 || std::hypot(middle.x(), middle.y()) > 3 * radius + 2 * edge) continue;
       auto& face = faces_.emplace_back();
       for (std::size_t c = 0; c < 4; ++c) face[c] = boundary.mass(f, c);
