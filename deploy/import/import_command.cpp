@@ -8,6 +8,7 @@
 #include "common/error/error.h"
 #include "common/math/units.h"
 #include "common/process/checked_option.h"
+#include "common/process/command_line.h"
 #include "common/process/machine_memory.h"
 #include "common/record/part_file.h"
 #include "deploy/import/memory_budget.h"
@@ -69,7 +70,7 @@ ImportCommand parse_import(CLI::App& app, int argc, char** argv) {
   app.add_option("--unit", unit, "of a mesh: what one unit of its file is")->check(one_of({"mm", "cm", "m"}));
   double gigabytes = 0.5e-9 * static_cast<double>(machine_memory());
   app.add_option("--memory-limit", gigabytes, "most memory that it may take [GB]; else half of the machine's")
-      ->check(number_in({.lo = 1e-9 * least_memory, .hi = 1e6}));
+      ->check(number_in({.lo = 0.3, .hi = 1e6}));
   app.add_flag("--quiet", command.quiet, "say nothing when all is well");
   app.parse(argc, argv);
   if (image->empty() && phantom.empty())
@@ -88,7 +89,7 @@ ImportCommand parse_import(CLI::App& app, int argc, char** argv) {
   refuse(of_cells || raw || tetrahedra_mm > 0, command.makes != Makes::mesh_of_file, "image",
          "is a mesh of tetrahedra already; leave out what is of images");
   refuse(!unit.empty(), command.makes == Makes::mesh_of_file, "--unit",
-         "is of a mesh; an image brings its own");
+         "is of a mesh (.msh, .vtk or .mesh); an image brings its own");
   if (command.makes == Makes::mesh_of_file && unit.empty())
     throw CLI::ValidationError("--unit",
                                "write --unit mm, cm or m: a mesh does not say what one unit of it is");
@@ -97,6 +98,11 @@ ImportCommand parse_import(CLI::App& app, int argc, char** argv) {
     if (keep.empty())
       throw CLI::ValidationError("--tetrahedra-mm",
                                  "write --keep LOWEST,HIGHEST too: the intensities that are tissue");
+    if (!(keep[0] <= keep[1]))
+      throw CLI::ValidationError("--keep",
+                                 "names the lowest intensity first, then the highest; both are numbers");
+    refuse(!command.options.transfer.empty() || !partition.empty(), false, "--tetrahedra-mm",
+           "makes a mesh; --transfer and --partition are of volumes, leave them out");
     command.makes = Makes::mesh_of_image;
     command.mesh.edge = m_from_mm(tetrahedra_mm);
     command.mesh.keep_min = keep[0], command.mesh.keep_max = keep[1];

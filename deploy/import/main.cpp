@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
@@ -88,12 +89,29 @@ void make_lobe(const ImportCommand& command) {
   report(command, mesh, "");
 }
 
+/// @throws InputError of what no body can be made of
+void check_mesh(const physics::TetMesh& mesh, const std::string& where) {
+  constexpr double least_size = 1e-6;  // [m]
+  const physics::OuterFaces faces = physics::outer_faces(mesh);
+  if (faces.triangles.empty() || faces.of_more > 0)
+    throw InputError(
+        where +
+        ": its tetrahedra lie upon each other: faces are of more than two, or all are of two; mesh each "
+        "place once");
+  Eigen::AlignedBox3d box;
+  for (const Vec3& x : mesh.nodes) box.extend(x);
+  if (box.sizes().maxCoeff() < least_size)
+    throw InputError(fmt::format("{}: it measures {:.3g} mm; is its unit another?", where,
+                                 mm_from_m(box.sizes().maxCoeff())));
+}
+
 void import_mesh(const ImportCommand& command) {
   // A tetrahedron is some 30 bytes of text, and 20 of its own, 100 while its faces are sorted.
   constexpr double bytes_a_byte = 8;
   declare_cells(command.options.input, file_bytes(command.options.input), bytes_a_byte);
   keep_as_private_as({command.options.input});
   const physics::MshContent content = read_mesh_format(command.options.input, command.unit);
+  check_mesh(content.mesh, command.options.input);
   write(command, content.mesh);
   std::string more;
   if (content.tidied.turned > 0) more += fmt::format(", {} turned", content.tidied.turned);
@@ -115,7 +133,10 @@ void mesh_image(const ImportCommand& command, const Volume& volume) {
   write(command, made.mesh);
   std::string more =
       fmt::format(", {:.4g} cm3 of {:.4g} cm3 of tissue", 1e6 * made.filled, 1e6 * made.tissue);
-  if (made.pieces > 1) more += fmt::format(", in {} pieces (--largest keeps one)", made.pieces);
+  if (made.pieces > 1)
+    more += fmt::format(", in {} pieces{}", made.pieces,
+                        options.largest ? ", as thin parts are lost (write a smaller --tetrahedra-mm)"
+                                        : " (--largest keeps the tissue of one)");
   report(command, made.mesh, more);
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/error/error.h"
 #include "common/math/units.h"
@@ -16,12 +17,15 @@ namespace {
 
 // Boxes that tissue is shared out to, in edges. Why: details that are smaller than a tetrahedron make bad ones of many.
 constexpr double grain_in_edges = 0.5;
-constexpr double most_points = 4e6;  // of the lattice: more tetrahedra than any machine steps
-constexpr int most_shifts = 40;
-constexpr int halvings = 12;            // of the level: to a four-thousandth
-constexpr double level_range = 0.45;    // about a half
-constexpr double volume_within = 1e-3;  // of the tissue's
-constexpr double least_share = 0.5;     // of the tissue's volume that a mesh must fill
+constexpr double most_points = 2e6;  // of the lattice: more tetrahedra than any machine steps
+constexpr int most_shifts = 20;
+// Tissue that is full of thin places has pinches wherever the lattice lies: that is known after a few.
+constexpr int enough_shifts = 4;
+constexpr std::size_t few_pinches = 4;
+constexpr int halvings = 10;                             // of the level
+constexpr double middle_level = 0.5, level_range = 0.2;  // about a half
+constexpr double volume_within = 1e-3;                   // of the tissue's
+constexpr double most_off = 0.1;                         // of the volume, from the tissue's
 
 double volume_of(const physics::TetMesh& mesh) {
   double sum = 0;
@@ -39,7 +43,7 @@ Vec3 shift_of(int n) {
 
 /// As large as the tissue, or as near to it as levels go.
 physics::TetMesh as_large_as(const TissueField& field, const StuffingLattice& lattice, double tissue) {
-  double low = 0.5 - level_range, high = 0.5 + level_range, level = 0.5;
+  double low = middle_level - level_range, high = middle_level + level_range, level = middle_level;
   physics::TetMesh best;
   double off = tissue;
   for (int n = 0; n < halvings; ++n) {
@@ -75,25 +79,36 @@ ImageMesh mesh_of_image(const Volume& volume, const ImageMeshOptions& options, c
   options.before_lattice(points_of(lattice));
   ImageMesh made;
   physics::Pinches pinches;
-  for (; made.shifts < most_shifts; ++made.shifts) {
+  std::size_t fewest = std::numeric_limits<std::size_t>::max();
+  bool found = false;
+  for (; !found && made.shifts < most_shifts; ++made.shifts) {
+    if (made.shifts == enough_shifts && fewest > few_pinches) break;
     lattice.shift = shift_of(made.shifts);
+    const auto pinched = [&](const physics::TetMesh& mesh) {
+      pinches = pinches_of(mesh, outer_faces(mesh));
+      fewest = std::min(fewest, pinches.edges + pinches.nodes);
+      return !pinches.none();
+    };
+    // Levels are many, so this place of the lattice is looked at with one first.
+    made.mesh = stuff(lattice, [&](const Vec3& x) { return field.at(x) - middle_level; });
+    if (pinched(made.mesh)) continue;
     made.mesh = as_large_as(field, lattice, field.tissue());
-    pinches = pinches_of(made.mesh, outer_faces(made.mesh));
-    made.filled = volume_of(made.mesh);
-    if (made.filled < least_share * field.tissue()) continue;  // too coarse here
-    if (!made.mesh.tets.empty() && pinches.none()) break;
+    found = !made.mesh.tets.empty() && !pinched(made.mesh);
   }
-  if (made.mesh.tets.empty() || made.shifts == most_shifts)
+  made.filled = volume_of(made.mesh);
+  if (!found && !pinches.none())
+    throw InputError(fmt::format(
+        "{}: tissue thinner than a tetrahedron makes the surface touch itself at {:.1f}, {:.1f}, {:.1f} mm "
+        "from the "
+        "image's corner; write a smaller --tetrahedra-mm than {:g}, or smooth the image",
+        where, mm_from_m(pinches.where.x()), mm_from_m(pinches.where.y()), mm_from_m(pinches.where.z()), mm));
+  if (!found || std::abs(made.filled / field.tissue() - 1) > most_off)
     throw InputError(
-        made.mesh.tets.empty() || pinches.none()
-            ? fmt::format(
-                  "{}: tetrahedra of {:g} mm are too coarse for this tissue; write a smaller --tetrahedra-mm",
-                  where, mm)
-            : fmt::format(
-                  "{}: tissue thinner than a tetrahedron makes the surface touch itself at {:.1f}, {:.1f}, "
-                  "{:.1f} mm from the image's corner; write a smaller --tetrahedra-mm than {:g}",
-                  where, mm_from_m(pinches.where.x()), mm_from_m(pinches.where.y()),
-                  mm_from_m(pinches.where.z()), mm));
+        fmt::format("{}: tetrahedra of {:g} mm are too coarse for this tissue: they fill {:.3g} cm3 of its "
+                    "{:.3g}; write a smaller "
+                    "--tetrahedra-mm",
+                    where, mm, 1e6 * made.filled, 1e6 * field.tissue()));
+  --made.shifts;
   made.pieces = n_pieces_of(made.mesh);
   made.tissue = field.tissue();
   made.angles = dihedral_angles(made.mesh);

@@ -10,7 +10,7 @@
 namespace palpate {
 
 /// What meshing takes at its worst moment: of a cell of the image, and of a point of the lattice.
-inline constexpr double meshed_cell_bytes = 24, lattice_point_bytes = 400;
+inline constexpr double meshed_cell_bytes = 24, lattice_point_bytes = 2000;
 
 struct ImageMeshOptions {
   double keep_min = 0, keep_max = 0;  // intensities that are tissue, both included
@@ -28,9 +28,10 @@ struct ImageMesh {
   int shifts = 0;                 // of the lattice, until the surface did not touch itself
 };
 
-/// The level of the surface is chosen so that both volumes are the same: a mesh of chords would be smaller.
+/// The level of the surface is chosen so that both volumes are the same, within limits: a mesh of chords would be smaller, but what is lost of
+/// thin parts must not make thick ones larger.
 /// @param where  begins complaints
-/// @throws InputError: no tissue, a lattice too coarse for it or finer than the image's cells, too many points, or a surface that touches itself wherever the lattice lies
+/// @throws InputError: no tissue, a lattice too coarse for it, too many points, or a surface that touches itself wherever the lattice lies
 ImageMesh mesh_of_image(const Volume& volume, const ImageMeshOptions& options, const std::string& where);
 
 }  // namespace palpate

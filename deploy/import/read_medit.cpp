@@ -25,7 +25,8 @@ class MeditReader {
       } else if (word == "Vertices" && !has_nodes) {
         has_nodes = true;
         read_vertices();
-      } else if (word == "Tetrahedra" && has_nodes) {
+      } else if (word == "Tetrahedra") {
+        if (!has_nodes) words_.complain("Tetrahedra before Vertices; vertices come first");
         read_tets();
       } else if (std::isalpha(static_cast<unsigned char>(word.front())) != 0) {
         skip(std::string(word));

@@ -1,5 +1,7 @@
 #include "deploy/import/read_mesh_format.h"
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -9,7 +11,12 @@
 namespace palpate {
 namespace {
 
-std::string ending_of(const std::string& path) { return std::filesystem::path(path).extension().string(); }
+std::string ending_of(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::ranges::transform(ending, ending.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
 
 /// What stands after $MeshFormat.
 bool is_of_version_4(std::string_view text) {

@@ -34,6 +34,8 @@ class Msh4Reader {
       } else if (section == "$Elements" && has_nodes && !has_elements) {
         has_elements = true;
         read_elements();
+      } else if (section == "$PartitionedEntities") {
+        words_.complain("a mesh in partitions, whose groups are not read; save it without them");
       } else {
         skip(std::string(section));
       }

@@ -11,7 +11,7 @@ using physics::MeshWords;
 
 constexpr long long tet4 = 10;
 bool has_no_volume(long long kind) {
-  return (kind >= 1 && kind <= 9) || (kind >= 21 && kind <= 23) || kind == 28;
+  return (kind >= 0 && kind <= 9) || (kind >= 21 && kind <= 23) || kind == 28;
 }
 
 class VtkReader {
@@ -21,9 +21,7 @@ class VtkReader {
 
   physics::MshContent read() {
     for (const char* word : {"#", "vtk", "DataFile", "Version"}) words_.expect(word);
-    words_.end_line();
-    words_.next_line();
-    words_.end_line();  // a title, which may be anything
+    words_.skip_next_line();  // a title, which may be anything
     if (words_.next() != "ASCII") words_.complain("a binary file; save it as legacy VTK in ASCII");
     words_.expect("DATASET");
     words_.expect("UNSTRUCTURED_GRID");
@@ -76,7 +74,7 @@ class VtkReader {
       return;
     }
     for (std::size_t c = 0; c < n; ++c) {
-      const auto m = static_cast<std::size_t>(builder_.integer("number of nodes", 1, 1000));
+      const auto m = static_cast<std::size_t>(builder_.integer("number of nodes", 0, 1000));
       std::vector<long long>& cell = cells_.emplace_back(m);
       for (long long& one : cell) one = node();
     }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "common/scene/complaints.h"
 #include "common/math/angles.h"
 #include "common/math/units.h"
 #include "common/scene/body_spec.h"
@@ -62,7 +63,7 @@ std::string info_mesh(const std::string& path) {
   text += fmt::format("surface      {} triangles", faces.triangles.size());
   if (faces.of_more > 0) text += fmt::format("; {} faces are of more than two tetrahedra", faces.of_more);
   text += pinches.none()
-              ? ", which nowhere touch another but at their edges\n"
+              ? ", each edge of two of them\n"
               : fmt::format(
                     "; it touches itself at {} edges and {} nodes, first at ({:.6g}, {:.6g}, {:.6g}) mm\n",
                     pinches.edges, pinches.nodes, mm_from_m(pinches.where.x()), mm_from_m(pinches.where.y()),
@@ -70,10 +71,10 @@ std::string info_mesh(const std::string& path) {
   text += fmt::format("quality      dihedral angles {:.3g} to {:.3g} degrees, smallest altitude {:.3g} mm\n",
                       deg_from_rad(angles.least), deg_from_rad(angles.largest),
                       mm_from_m(smallest_altitude(mesh)));
-  if (faces.of_more == 0)
+  if (faces.of_more == 0 && !faces.triangles.empty())
     text += fmt::format("step         {:.3g} ms at {:g} kPa, Poisson's ratio {:g}, {:g} kg/m^3\n",
                         1e3 * step_of(path), 1e-3 * modulus, poisson_ratio, density);
-  return text + fmt::format("source       {}\n", file.source);
+  return text + fmt::format("source       {}\n", one_line(file.source));
 }
 
 }  // namespace palpate::deploy

@@ -40,15 +40,22 @@ class MeshWords {
   void end_line() {
     while (at_ < text_.size() && text_[at_] != '\n') ++at_;
   }
+  /// The whole next line is not read, empty or not.
+  void skip_next_line() {
+    end_line();
+    if (at_ < text_.size()) ++at_, ++current_line_, line_begin_ = at_;
+    end_line();
+  }
   std::size_t bytes_left() const noexcept { return text_.size() - at_; }
   std::size_t line() const noexcept { return line_; }  // of the last word
 
   /// A whole number on this line. @param what  it is, for messages
   long long integer(const std::string& what, long long least, long long most) {
     const std::string_view word = next_on_line();
+    const std::string_view digits = without_plus(word);
     long long value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size() || value < least || value > most)
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (error != std::errc() || end != digits.data() + digits.size() || value < least || value > most)
       complain(quoted(word) + " is no " + what + "; a whole number from " + std::to_string(least) + " to " +
                std::to_string(most) + " stands here");
     return value;
@@ -56,9 +63,10 @@ class MeshWords {
   /// A finite number on this line of at most `most`, whatever its sign.
   double number(const std::string& what, double most) {
     const std::string_view word = next_on_line();
+    const std::string_view digits = without_plus(word);
     double value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value) ||
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value) ||
         std::abs(value) > most)
       complain(quoted(word) + " is no " + what + "; a finite number, at most " + std::to_string(most) +
                " in size, stands here");
@@ -80,6 +88,9 @@ class MeshWords {
   }
 
  private:
+  static std::string_view without_plus(std::string_view word) {
+    return word.size() > 1 && word[0] == '+' && word[1] != '-' ? word.substr(1) : word;
+  }
   void skip(bool over_lines) {
     for (; at_ < text_.size(); ++at_) {
       const char c = text_[at_];

@@ -81,8 +81,22 @@ TEST(MeshOfImage, SaysWhatCannotBeMeshed) {
     return "none";
   };
   EXPECT_THAT(complaint(1, 2, 5e-3), HasSubstr("scan: no cell has an intensity from 1 to 2"));
-  EXPECT_THAT(complaint(100, 255, 0.2), HasSubstr("tetrahedra of 200 mm are too coarse"));
+  EXPECT_THAT(complaint(100, 255, 0.2),
+              HasSubstr("tetrahedra of 200 mm are too coarse for this tissue: they fill"));
   EXPECT_THAT(complaint(100, 255, 1e-5), HasSubstr("are too many; write --tetrahedra-mm"));
+}
+
+/// Tissue that is lost, or filled up, is no mesh of it.
+TEST(MeshOfImage, RefusesWhatMissesTheTissue) {
+  Volume plate = three_balls();
+  for (int k = 0; k < 30; ++k)
+    for (int n = 0; n < 60 * 50; ++n)
+      plate.intensity[static_cast<std::size_t>(n + 3000 * k)] = k == 15 ? 100 : 0;
+  EXPECT_THROW(mesh_of_image(plate, {.keep_min = 100, .keep_max = 255, .edge = 8e-3}, "scan"), InputError);
+  Volume grains = three_balls();
+  for (std::size_t n = 0; n < grains.intensity.size(); ++n)
+    grains.intensity[n] = (n * 2654435761U >> 16) % 2 == 0 ? 100 : 0;
+  EXPECT_THROW(mesh_of_image(grains, {.keep_min = 100, .keep_max = 255, .edge = 4e-3}, "scan"), InputError);
 }
 
 TEST(MeshOfImage, AsksBeforeItTakesMemory) {

@@ -108,6 +108,10 @@ TEST(MeshFormatMistake, IsNamedWithItsPlace) {
        "Hexahedra; only tetrahedra"},
       {"medit", with(medit, "1 2 3 4 7", "1 2 3 3 7"), "a flat tetrahedron"},
       {"medit", with(medit, "Tetrahedra\n2", "Tetrahedra\n0"), "where a keyword should stand"},
+      {"medit", with(medit, "Vertices\n6", "Tetrahedra\n1\n1 2 3 4 7\nVertices\n6"),
+       "Tetrahedra before Vertices"},
+      {"msh4", with(msh4, "$Nodes\n2", "$PartitionedEntities\n$EndPartitionedEntities\n$Nodes\n2"),
+       "a mesh in partitions"},
       {"msh4", with(msh4, "4.1", "4.0"), "m.msh:2:1: \"4.0\" where 4.1"},
       {"msh4", with(msh4, "4.1 0", "4.1 1"), "m.msh:2:5: a binary file"},
       {"msh4", with(msh4, "3 3 4 2", "3 3 5 2"), "elements of kind 5; only tetrahedra"},
@@ -125,6 +129,16 @@ TEST(MeshFormatMistake, IsNamedWithItsPlace) {
   }
 }
 
+/// What other programs may write as well: signs, an empty title, cells of nothing.
+TEST(MeshFormat, TakesWhatIsLegalThoughRare) {
+  EXPECT_EQ(read("vtk", with(vtk, "a title, with words", "")).mesh.tets.size(), 2U);
+  EXPECT_EQ(read("vtk", with(vtk, "POINTS 6 float\n0 0 0", "POINTS 6 float\n+0 +0.0 +0e+0")).mesh.tets.size(),
+            2U);
+  std::string empty = with(vtk, "CELLS 3 14\n", "CELLS 4 15\n0\n");
+  empty = with(empty, "CELL_TYPES 3\n", "CELL_TYPES 4\n0\n");
+  EXPECT_EQ(read("vtk", empty).other, 2U);
+}
+
 TEST(MeshFormatOfAFile, FollowsItsEndingAndOfGmshItsVersion) {
   const test::ScratchFolder folder;
   const auto file = [&](const char* name, const std::string& text) {
@@ -138,6 +152,7 @@ TEST(MeshFormatOfAFile, FollowsItsEndingAndOfGmshItsVersion) {
       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n"
       "$Elements\n1\n1 4 2 1 1 1 2 3 4\n$EndElements\n";
   EXPECT_EQ(read_mesh_format(file("b.msh", msh2), 1).mesh.tets.size(), 1U);
+  EXPECT_EQ(read_mesh_format(file("A.VTK", vtk), 1).mesh.tets.size(), 2U);
   EXPECT_THROW(read_mesh_format(folder / "none.vtk", 1), InputError);
   EXPECT_FALSE(is_mesh_format("a.stl"));
 }
