@@ -5,10 +5,10 @@
 #include <cmath>
 #include <set>
 
-#include "common/scene/complaints.h"
 #include "common/math/angles.h"
 #include "common/math/units.h"
 #include "common/scene/body_spec.h"
+#include "common/scene/complaints.h"
 #include "common/scene/material_spec.h"
 #include "deploy/palpate/info.h"
 #include "physics_node/body/body.h"

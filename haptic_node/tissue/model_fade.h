@@ -28,14 +28,14 @@ TissueCopy mixed(const TissueCopy& felt, const TissueCopy& shadow, double beta) 
 
 class ModelFade {
  public:
-  static constexpr double slow = 50e-3, least = 5e-3;   // tau, at most and at least [s]
-  static constexpr double quick = 10e-3;                // after an event [s]
-  static constexpr double over_age = 5;                 // tau over the age of answers
-  static constexpr double event_force = 0.1;            // that S* lies below F [N]
-  static constexpr double event_share = 0.25;           // of F
-  static constexpr double event_over = 0.02;            // that is left of it in the end [N]
-  static constexpr double ripple_force = 0.05;          // that S* lies above F [N]
-  static constexpr double ripple_rest = 0.5;            // after which it counts no more [s]
+  static constexpr double slow = 50e-3, least = 5e-3;  // tau, at most and at least [s]
+  static constexpr double quick = 10e-3;               // after an event [s]
+  static constexpr double over_age = 5;                // tau over the age of answers
+  static constexpr double event_force = 0.1;           // that S* lies below F [N]
+  static constexpr double event_share = 0.25;          // of F
+  static constexpr double event_over = 0.02;           // that is left of it in the end [N]
+  static constexpr double ripple_force = 0.05;         // that S* lies above F [N]
+  static constexpr double ripple_rest = 0.5;           // after which it counts no more [s]
 
   /// One tick: moves `felt` towards `shadow`, both with the tip at x.
   /// @param force_step  most change of F [N]  @param age  of the oldest answers of late [s]
