@@ -19,9 +19,8 @@ namespace {
 
 using Makes = ImportCommand::Makes;
 
-/// An option that only some of what is made has.
-void refuse(bool given, bool has_it, const char* option, const char* why) {
-  if (given && !has_it) throw CLI::ValidationError(option, why);
+void refuse(bool wrong, const char* option, const char* why) {
+  if (wrong) throw CLI::ValidationError(option, why);
 }
 
 }  // namespace
@@ -81,27 +80,24 @@ ImportCommand parse_import(CLI::App& app, int argc, char** argv) {
   if (phantom == "lobe") command.makes = Makes::lobe;
   if (phantom.empty() && is_mesh_format(command.options.input)) command.makes = Makes::mesh_of_file;
   const bool of_cells = !size.empty() || !partition.empty() || !command.options.transfer.empty();
-  refuse(of_cells, command.makes != Makes::lobe, "--phantom lobe",
+  refuse(of_cells && command.makes == Makes::lobe, "--phantom lobe",
          "is a mesh of one size; leave out --size, --partition and --transfer");
-  refuse(of_cells, command.makes != Makes::brain, "--phantom brain",
+  refuse(of_cells && command.makes == Makes::brain, "--phantom brain",
          "is slices of one size; leave out --size, --partition and --transfer");
   const bool raw = !spacing_mm.empty() || !type.empty() || header_option->count() > 0;
-  refuse(of_cells || raw || tetrahedra_mm > 0, command.makes != Makes::mesh_of_file, "image",
+  refuse((of_cells || raw || tetrahedra_mm > 0) && command.makes == Makes::mesh_of_file, "image",
          "is a mesh of tetrahedra already; leave out what is of images");
-  refuse(!unit.empty(), command.makes == Makes::mesh_of_file, "--unit",
+  refuse(!unit.empty() && command.makes != Makes::mesh_of_file, "--unit",
          "is of a mesh (.msh, .vtk or .mesh); an image brings its own");
-  if (command.makes == Makes::mesh_of_file && unit.empty())
-    throw CLI::ValidationError("--unit",
-                               "write --unit mm, cm or m: a mesh does not say what one unit of it is");
+  refuse(command.makes == Makes::mesh_of_file && unit.empty(), "--unit",
+         "write --unit mm, cm or m: a mesh does not say what one unit of it is");
   if (tetrahedra_mm > 0) {
-    refuse(true, command.makes == Makes::volume, "--tetrahedra-mm", "is of an image; leave it out");
-    if (keep.empty())
-      throw CLI::ValidationError("--tetrahedra-mm",
-                                 "write --keep LOWEST,HIGHEST too: the intensities that are tissue");
-    if (!(keep[0] <= keep[1]))
-      throw CLI::ValidationError("--keep",
-                                 "names the lowest intensity first, then the highest; both are numbers");
-    refuse(!command.options.transfer.empty() || !partition.empty(), false, "--tetrahedra-mm",
+    refuse(command.makes != Makes::volume, "--tetrahedra-mm", "is of an image; leave it out");
+    refuse(keep.empty(), "--tetrahedra-mm",
+           "write --keep LOWEST,HIGHEST too: the intensities that are tissue");
+    refuse(!(keep[0] <= keep[1]), "--keep",
+           "names the lowest intensity first, then the highest; both are numbers");
+    refuse(!command.options.transfer.empty() || !partition.empty(), "--tetrahedra-mm",
            "makes a mesh; --transfer and --partition are of volumes, leave them out");
     command.makes = Makes::mesh_of_image;
     command.mesh.edge = m_from_mm(tetrahedra_mm);

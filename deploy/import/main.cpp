@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
@@ -98,11 +97,9 @@ void check_mesh(const physics::TetMesh& mesh, const std::string& where) {
         where +
         ": its tetrahedra lie upon each other: faces are of more than two, or all are of two; mesh each "
         "place once");
-  Eigen::AlignedBox3d box;
-  for (const Vec3& x : mesh.nodes) box.extend(x);
-  if (box.sizes().maxCoeff() < least_size)
-    throw InputError(fmt::format("{}: it measures {:.3g} mm; is its unit another?", where,
-                                 mm_from_m(box.sizes().maxCoeff())));
+  const double size = physics::box_of(mesh).sizes().maxCoeff();
+  if (size < least_size)
+    throw InputError(fmt::format("{}: it measures {:.3g} mm; is its unit another?", where, mm_from_m(size)));
 }
 
 void import_mesh(const ImportCommand& command) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "common/error/error.h"
 #include "common/math/units.h"
@@ -27,12 +28,6 @@ constexpr double middle_level = 0.5, level_range = 0.2;  // about a half
 constexpr double volume_within = 1e-3;                   // of the tissue's
 constexpr double most_off = 0.1;                         // of the volume, from the tissue's
 
-double volume_of(const physics::TetMesh& mesh) {
-  double sum = 0;
-  for (const auto& tet : mesh.tets) sum += signed_volume(mesh, tet);
-  return sum;
-}
-
 /// Where the lattice lies in attempt n: points that are spread evenly (Roberts' R3), the first at the place as it is.
 Vec3 shift_of(int n) {
   constexpr double g = 1.22074408460575947536;  // g^4 = g + 1
@@ -41,18 +36,17 @@ Vec3 shift_of(int n) {
   return shift;
 }
 
-/// As large as the tissue, or as near to it as levels go.
-physics::TetMesh as_large_as(const TissueField& field, const StuffingLattice& lattice, double tissue) {
+/// As large as the tissue, or as near to it as levels go. @param best  at the middle level
+physics::TetMesh as_large_as(const TissueField& field, const StuffingLattice& lattice,
+                             physics::TetMesh best) {
   double low = middle_level - level_range, high = middle_level + level_range, level = middle_level;
-  physics::TetMesh best;
-  double off = tissue;
-  for (int n = 0; n < halvings; ++n) {
-    physics::TetMesh mesh = stuff(lattice, [&](const Vec3& x) { return field.at(x) - level; });
-    const double more = volume_of(mesh) - tissue;
-    if (std::abs(more) < off || best.tets.empty()) off = std::abs(more), best = std::move(mesh);
-    if (off < volume_within * tissue) break;
+  double more = volume_of(best) - field.tissue(), off = std::abs(more);
+  for (int n = 1; n < halvings && off >= volume_within * field.tissue(); ++n) {
     (more > 0 ? low : high) = level;
     level = 0.5 * (low + high);
+    physics::TetMesh mesh = stuff(lattice, [&](const Vec3& x) { return field.at(x) - level; });
+    more = volume_of(mesh) - field.tissue();
+    if (std::abs(more) < off) off = std::abs(more), best = std::move(mesh);
   }
   return best;
 }
@@ -81,9 +75,9 @@ ImageMesh mesh_of_image(const Volume& volume, const ImageMeshOptions& options, c
   physics::Pinches pinches;
   std::size_t fewest = std::numeric_limits<std::size_t>::max();
   bool found = false;
-  for (; !found && made.shifts < most_shifts; ++made.shifts) {
-    if (made.shifts == enough_shifts && fewest > few_pinches) break;
-    lattice.shift = shift_of(made.shifts);
+  for (int n = 0; !found && n < most_shifts; ++n) {
+    if (n == enough_shifts && fewest > few_pinches) break;
+    lattice.shift = shift_of(n);
     const auto pinched = [&](const physics::TetMesh& mesh) {
       pinches = pinches_of(mesh, outer_faces(mesh));
       fewest = std::min(fewest, pinches.edges + pinches.nodes);
@@ -92,7 +86,7 @@ ImageMesh mesh_of_image(const Volume& volume, const ImageMeshOptions& options, c
     // Levels are many, so this place of the lattice is looked at with one first.
     made.mesh = stuff(lattice, [&](const Vec3& x) { return field.at(x) - middle_level; });
     if (pinched(made.mesh)) continue;
-    made.mesh = as_large_as(field, lattice, field.tissue());
+    made.mesh = as_large_as(field, lattice, std::move(made.mesh));
     found = !made.mesh.tets.empty() && !pinched(made.mesh);
   }
   made.filled = volume_of(made.mesh);
@@ -108,7 +102,6 @@ ImageMesh mesh_of_image(const Volume& volume, const ImageMeshOptions& options, c
                     "{:.3g}; write a smaller "
                     "--tetrahedra-mm",
                     where, mm, 1e6 * made.filled, 1e6 * field.tissue()));
-  --made.shifts;
   made.pieces = n_pieces_of(made.mesh);
   made.tissue = field.tissue();
   made.angles = dihedral_angles(made.mesh);

@@ -25,7 +25,6 @@ struct ImageMesh {
   physics::DihedralAngles angles;
   double tissue = 0, filled = 0;  // volumes: of the cells that are kept, of the tetrahedra [m^3]
   std::size_t pieces = 0;         // that do not hang together over faces
-  int shifts = 0;                 // of the lattice, until the surface did not touch itself
 };
 
 /// The level of the surface is chosen so that both volumes are the same, within limits: a mesh of chords would be smaller, but what is lost of

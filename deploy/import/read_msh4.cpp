@@ -37,7 +37,10 @@ class Msh4Reader {
       } else if (section == "$PartitionedEntities") {
         words_.complain("a mesh in partitions, whose groups are not read; save it without them");
       } else {
-        skip(std::string(section));
+        if (section.front() != '$')
+          words_.complain(MeshWords::quoted(section) +
+                          " stands between sections; a section begins with \"$\"");
+        words_.skip_section(section);
       }
     }
     return builder_.done();
@@ -120,20 +123,6 @@ class Msh4Reader {
       }
     }
     words_.expect("$EndElements");
-  }
-
-  void skip(const std::string& section) {
-    if (section.front() != '$')
-      words_.complain(MeshWords::quoted(section) + " stands between sections; a section begins with \"$\"");
-    const std::string end = "$End" + section.substr(1);
-    const std::size_t line = words_.line();
-    words_.end_line();
-    for (auto word = words_.next(); word != end; word = words_.next()) {
-      if (word.empty())
-        words_.complain_of(line, 1,
-                           MeshWords::quoted(section) + " has no end; " + end.substr(0, 40) + " is missing");
-      words_.end_line();
-    }
   }
 
   MeshWords words_;

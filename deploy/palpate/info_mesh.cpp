@@ -43,10 +43,8 @@ double step_of(const std::string& path) {
 std::string info_mesh(const std::string& path) {
   const physics::MeshFile file = physics::read_mesh(path);
   const physics::TetMesh& mesh = file.mesh;
-  Eigen::AlignedBox3d box;
-  for (const Vec3& x : mesh.nodes) box.extend(x);
-  double volume = 0;
-  for (const auto& tet : mesh.tets) volume += signed_volume(mesh, tet);
+  const Eigen::AlignedBox3d box = box_of(mesh);
+  const std::size_t pieces = n_pieces_of(mesh);
   const physics::OuterFaces faces = outer_faces(mesh);
   const physics::Pinches pinches = pinches_of(mesh, faces);
   const physics::DihedralAngles angles = dihedral_angles(mesh);
@@ -54,12 +52,12 @@ std::string info_mesh(const std::string& path) {
   const Vec3 size = box.sizes(), low = box.min();
   std::string text = fmt::format("mesh         {}\n", path);
   text += fmt::format("tetrahedra   {}, with {} nodes, in {} piece{} and {} region{}\n", mesh.tets.size(),
-                      mesh.nodes.size(), n_pieces_of(mesh), n_pieces_of(mesh) == 1 ? "" : "s", regions.size(),
+                      mesh.nodes.size(), pieces, pieces == 1 ? "" : "s", regions.size(),
                       regions.size() == 1 ? "" : "s");
   text += fmt::format("extent       {:.6g} x {:.6g} x {:.6g} mm, from ({:.6g}, {:.6g}, {:.6g}) mm\n",
                       mm_from_m(size.x()), mm_from_m(size.y()), mm_from_m(size.z()), mm_from_m(low.x()),
                       mm_from_m(low.y()), mm_from_m(low.z()));
-  text += fmt::format("volume       {:.6g} cm^3\n", 1e6 * volume);
+  text += fmt::format("volume       {:.6g} cm^3\n", 1e6 * volume_of(mesh));
   text += fmt::format("surface      {} triangles", faces.triangles.size());
   if (faces.of_more > 0) text += fmt::format("; {} faces are of more than two tetrahedra", faces.of_more);
   text += pinches.none()

@@ -62,8 +62,7 @@ class MaterialTable {
 };
 
 void put_in_place(TetMesh& mesh, const BodySpec& spec) {
-  Eigen::AlignedBox3d box;
-  for (const Vec3& x : mesh.nodes) box.extend(x);
+  const Eigen::AlignedBox3d box = box_of(mesh);
   const Vec3 middle = box.center();
   for (Vec3& x : mesh.nodes) x = spec.at + spec.orientation * (x - middle);
 }

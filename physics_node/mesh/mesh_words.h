@@ -46,6 +46,17 @@ class MeshWords {
     if (at_ < text_.size()) ++at_, ++current_line_, line_begin_ = at_;
     end_line();
   }
+  /// Of Gmsh's formats: to behind the end of the section whose name, with "$", was the last word.
+  void skip_section(std::string_view section) {
+    const std::string end = "$End" + std::string(section.substr(1));
+    const std::size_t line = line_;
+    end_line();
+    for (auto word = next(); word != end; word = next()) {
+      if (word.empty())
+        complain_of(line, 1, quoted(section) + " has no end; " + end.substr(0, 40) + " is missing");
+      end_line();
+    }
+  }
   std::size_t bytes_left() const noexcept { return text_.size() - at_; }
   std::size_t line() const noexcept { return line_; }  // of the last word
 

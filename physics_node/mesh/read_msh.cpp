@@ -47,7 +47,7 @@ class MshReader {
         if (std::exchange(has_elements, true)) words_.complain("a second $Elements; a file has one");
         read_elements();
       } else {
-        skip_section(section);
+        words_.skip_section(section);
       }
     }
     if (content_.mesh.tets.empty())
@@ -140,18 +140,6 @@ class MshReader {
     if (found == number_.end() || found->first != number)
       words_.complain("node " + std::to_string(number) + " is not in $Nodes");
     return found->second;
-  }
-
-  void skip_section(std::string_view section) {
-    const std::string end = "$End" + std::string(section.substr(1));
-    const auto line = words_.line();
-    words_.end_line();
-    for (auto word = words_.next(); word != end; word = words_.next()) {
-      if (word.empty())
-        words_.complain_of(line, 1,
-                           MeshWords::quoted(section) + " has no end; " + end.substr(0, 40) + " is missing");
-      words_.end_line();
-    }
   }
 
   MeshWords words_;

@@ -22,6 +22,18 @@ double signed_volume(const TetMesh& mesh, const std::array<Index, 4>& corners) n
   return a.dot(b.cross(c)) / 6;
 }
 
+double volume_of(const TetMesh& mesh) noexcept {
+  double sum = 0;
+  for (const auto& tet : mesh.tets) sum += signed_volume(mesh, tet);
+  return sum;
+}
+
+Eigen::AlignedBox3d box_of(const TetMesh& mesh) noexcept {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& x : mesh.nodes) box.extend(x);
+  return box;
+}
+
 bool is_flat(const TetMesh& mesh, const std::array<Index, 4>& corners) noexcept {
   double longest2 = 0;
   for (std::size_t a = 0; a < 4; ++a)

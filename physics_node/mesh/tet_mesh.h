@@ -1,6 +1,7 @@
 #pragma once
 // A mesh of tetrahedra as read or made: places and corners, no motion and no material.
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -24,6 +25,11 @@ inline constexpr std::array<std::array<std::size_t, 2>, 6> tet_edges = {
 
 /// det [x1 - x0, x2 - x0, x3 - x0] / 6: negative where the corners are in the other order [m^3]
 double signed_volume(const TetMesh& mesh, const std::array<Index, 4>& corners) noexcept;
+
+/// Of all tetrahedra [m^3]
+double volume_of(const TetMesh& mesh) noexcept;
+/// Round all nodes.
+Eigen::AlignedBox3d box_of(const TetMesh& mesh) noexcept;
 
 /// Flat, or so nearly that float cannot tell: its volume is below 1e-9 of the cube of its longest edge. Of an equilateral
 /// one that is 0.12; a sliver that still can be stepped has 1e-4.

@@ -34,11 +34,7 @@ Volume three_balls() {
   return volume;
 }
 
-Vec3 middle_of(const physics::TetMesh& mesh) {
-  Eigen::AlignedBox3d box;
-  for (const Vec3& x : mesh.nodes) box.extend(x);
-  return box.center();
-}
+Vec3 middle_of(const physics::TetMesh& mesh) { return box_of(mesh).center(); }
 
 TEST(MeshOfImage, IsAsLargeAsTheTissueAndWhereItIs) {
   const ImageMesh made =

@@ -28,12 +28,6 @@ StuffingLattice lattice(double edge, const Vec3& shift = Vec3::Zero()) {
   return {.low = Vec3::Constant(-0.05), .high = Vec3::Constant(0.05), .edge = edge, .shift = shift};
 }
 
-double volume_of(const TetMesh& mesh) {
-  double sum = 0;
-  for (const auto& tet : mesh.tets) sum += signed_volume(mesh, tet);
-  return sum;
-}
-
 /// Vertices - edges + triangles of the surface: 2 of a ball, 0 of a ring.
 long euler(const TetMesh& mesh) {
   const physics::OuterFaces faces = outer_faces(mesh);
