@@ -10,7 +10,7 @@ namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr int grid = 12;  // wave numbers along each axis, between 0 and pi
+constexpr int n_waves = 12;  // wave numbers along each axis, between 0 and pi
 
 double largest_of_fcc(const Lattice& lattice, const std::array<double, max_half>& k, const Vec3& q) {
   const auto directions = half_directions(lattice.kind);
@@ -45,10 +45,10 @@ double largest_of_voxels(const Lattice& lattice, const std::array<double, max_ha
 
 double largest_eigenvalue(const Lattice& lattice, const std::array<double, max_half>& k) {
   double largest = 0;
-  for (int x = 0; x <= grid; ++x)
-    for (int y = 0; y <= grid; ++y)
-      for (int z = 0; z <= grid; ++z) {
-        const Vec3 q = std::numbers::pi / grid * Vec3(x, y, z);
+  for (int x = 0; x <= n_waves; ++x)
+    for (int y = 0; y <= n_waves; ++y)
+      for (int z = 0; z <= n_waves; ++z) {
+        const Vec3 q = std::numbers::pi / n_waves * Vec3(x, y, z);
         largest = std::max(largest, lattice.kind == LatticeKind::fcc ? largest_of_fcc(lattice, k, q)
                                                                      : largest_of_voxels(lattice, k, q));
       }
