@@ -52,7 +52,7 @@ void Recorder::make_files(const World& world, const SceneSource& source) {
     energy_csv_ =
         make_csv("energy.csv",
                  "t_s,kinetic_J,elastic_J,gravitational_J,dissipated_J,plastic_J,numerical_J,broken_J,"
-                 "guard_J,tool_work_J,contact_J");
+                 "guard_J,tool_work_J,contact_J,cut_J");
   hdf5_ = std::make_unique<Hdf5File>(folder_ + "/record.h5", Hdf5File::Mode::record);
   hdf5_->set_text("palpate_record", "2");
   hdf5_->set_text("title", world.scene().title);
@@ -100,9 +100,9 @@ void Recorder::write_energy() {
   EnergyRow row;
   while (energy_rows_->pop(row)) {
     const EnergyLedger& e = row.ledger;
-    std::fprintf(energy_csv_, "%.6f,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", row.t, e.kinetic,
-                 e.elastic, e.gravitational, e.dissipated, e.plastic, e.numerical, e.broken, e.guard,
-                 e.tool_work, e.contact);
+    std::fprintf(energy_csv_, "%.6f,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", row.t,
+                 e.kinetic, e.elastic, e.gravitational, e.dissipated, e.plastic, e.numerical, e.broken,
+                 e.guard, e.tool_work, e.contact, e.cut);
   }
 }
 

@@ -80,12 +80,19 @@ void add_momentum_errors(const World& world, nlohmann::json& part) {
 }
 
 nlohmann::json energy_part(const EnergyLedger& ledger) {
-  return {{"kinetic", ledger.kinetic},       {"elastic", ledger.elastic},
-          {"dissipated", ledger.dissipated}, {"gravitational", ledger.gravitational},
-          {"plastic", ledger.plastic},       {"broken", ledger.broken},
-          {"tool_work", ledger.tool_work},   {"guard", ledger.guard},
-          {"contact", ledger.contact},       {"numerical", ledger.numerical},
-          {"exchanged", ledger.exchanged},   {"balance_error", ledger.balance_error()}};
+  return {{"kinetic", ledger.kinetic},
+          {"elastic", ledger.elastic},
+          {"dissipated", ledger.dissipated},
+          {"gravitational", ledger.gravitational},
+          {"plastic", ledger.plastic},
+          {"broken", ledger.broken},
+          {"tool_work", ledger.tool_work},
+          {"guard", ledger.guard},
+          {"contact", ledger.contact},
+          {"cut", ledger.cut},
+          {"numerical", ledger.numerical},
+          {"exchanged", ledger.exchanged},
+          {"balance_error", ledger.balance_error()}};
 }
 
 /// Depends on the machine and on what else it does; nothing else here but times does.

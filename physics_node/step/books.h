@@ -24,6 +24,19 @@ struct Losses {
   double numerical = 0;     // to the way time is stepped; with the explicit integrators of either sign [J]
   double broken = 0;        // elastic energy of elements when they broke [J]
   std::int64_t breaks = 0;  // elements
+
+  Losses& operator+=(const Losses& more) noexcept {
+    viscous += more.viscous;
+    plastic += more.plastic;
+    numerical += more.numerical;
+    broken += more.broken;
+    breaks += more.breaks;
+    return *this;
+  }
+  Losses operator-(const Losses& less) const noexcept {
+    return {viscous - less.viscous, plastic - less.plastic, numerical - less.numerical, broken - less.broken,
+            breaks - less.breaks};
+  }
 };
 
 /// What the last watched step saw; cheap. A number that is not finite anywhere in the body makes `energy()` not finite.

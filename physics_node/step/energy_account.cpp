@@ -17,27 +17,15 @@ Energies sum_energies(const BodyModels& bodies, const Vec3& gravity) {
   return sum;
 }
 
-namespace {
-
-void add(const Losses& lost, Losses& sum) {
-  sum.viscous += lost.viscous;
-  sum.plastic += lost.plastic;
-  sum.numerical += lost.numerical;
-  sum.broken += lost.broken;
-  sum.breaks += lost.breaks;
-}
-
-}  // namespace
-
 Losses sum_losses(const BodyModels& bodies) {
   Losses sum;
-  for (const auto& body : bodies) add(body->losses(), sum);
+  for (const auto& body : bodies) sum += body->losses();
   return sum;
 }
 
 Losses sum_losses_and_due(const BodyModels& bodies) {
   Losses sum = sum_losses(bodies);
-  for (const auto& body : bodies) add(body->due(), sum);
+  for (const auto& body : bodies) sum += body->due();
   return sum;
 }
 
@@ -52,6 +40,7 @@ void EnergyAccount::save(bool good, const StepReport& report) noexcept { saved_.
 
 void EnergyAccount::restore(StepReport& report) noexcept {
   report.contact_lost = saved_.good().contact_lost;
+  report.cut = saved_.good().cut;
   report.tool_exchange = saved_.good().tool_exchange;
   save(false, report);
 }
@@ -72,6 +61,7 @@ EnergyLedger EnergyAccount::book(const Energies& now, const Losses& lost,
   ledger.broken = lost.broken - lost_.broken;
   ledger.tool_work = booked.tool_work - booked_.tool_work;
   ledger.contact = booked.contact_lost - booked_.contact_lost;
+  ledger.cut = booked.cut - booked_.cut;
   ledger.guard = guard_;
   ledger.start = start_.between + start_.elastic + start_.gravitational;
   ledger.exchanged = start_.kinetic + start_.elastic + (booked.tool_exchange - booked_.tool_exchange) +

@@ -18,9 +18,12 @@ Losses sum_losses_and_due(const BodyModels& bodies);
 
 /// What tools and contact have done, as the report has counted it.
 struct Booked {
-  double tool_work = 0, tool_exchange = 0, contact_lost = 0;  // [J]
+  double tool_work = 0, tool_exchange = 0, contact_lost = 0, cut = 0;  // [J]
   explicit Booked(const StepReport& report)
-      : tool_work(report.tool_work), tool_exchange(report.tool_exchange), contact_lost(report.contact_lost) {}
+      : tool_work(report.tool_work),
+        tool_exchange(report.tool_exchange),
+        contact_lost(report.contact_lost),
+        cut(report.cut) {}
   Booked() = default;
 };
 
@@ -39,7 +42,7 @@ class EnergyAccount {
   /// swings back to its start has taken all of it back, and holds only what its steps err by. [J] @param fallen  sum of m g . u
   double put_in(double fallen, const StepReport& report) const noexcept;
 
-  /// What contact took and by how much tools exchanged energy is part of the state that the guard brings
+  /// What contact and cuts took and by how much tools exchanged energy is part of the state that the guard brings
   /// back, as the losses of elements are. What tools did stays booked: work on a state that is thrown away,
   /// which write_off() takes out.
   /// @param good  the state saved before this one is what restore() goes back to from now on

@@ -13,15 +13,16 @@ struct EnergyLedger {
   double numerical = 0;      // to the way time is stepped; either sign
   double broken = 0;         // elastic energy of elements when they broke
   double contact = 0;        // in collisions with a restitution below 1
+  double cut = 0;            // by tools that part tissue: toughness times area
   double tool_work = 0;      // done by tools on tissue
   double guard = 0;          // taken out where the guard restored a state
   double start = 0;          // kinetic + elastic + gravitational at the start
   double exchanged =
       0;  // kinetic and elastic at the start, |work| of tools, most work of gravity: what the error goes by
 
-  /// start + tool_work - dissipated - plastic - numerical - broken - contact - guard - (kinetic + elastic + gravitational)
+  /// start + tool_work - dissipated - plastic - numerical - broken - contact - cut - guard - (kinetic + elastic + gravitational)
   double missing() const {
-    const double lost = dissipated + plastic + numerical + broken + contact + guard;
+    const double lost = dissipated + plastic + numerical + broken + contact + cut + guard;
     return start + tool_work - lost - kinetic - elastic - gravitational;
   }
   /// |missing| over exchanged. Where less than a picojoule was exchanged, over a picojoule: then nothing moves that one could see,

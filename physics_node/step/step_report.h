@@ -15,7 +15,7 @@ enum class Stage : std::size_t {
   element_forces,  // forces of all elements, yield, break and motion, in the same pass
   contact_forces,
   integrate,        // what is left to integrate after the pass: nothing but with backward_euler
-  yield_and_break,  // in the same pass, without a time of its own; skipped where no material yields
+  yield_and_break,  // in the same pass, without a time of its own; skipped where nothing breaks or is cut
   guard_finite,
   publish,
 };
@@ -40,9 +40,10 @@ struct StepReport {
   std::int64_t halved = 0;     // times the step was halved
   std::int64_t unsolved = 0;   // steps of backward_euler whose equations were not solved to their tolerance
   std::int64_t newton_iterations = 0, cg_iterations = 0;  // of backward_euler, in all
-  std::int64_t broken = 0;                                // elements
+  std::int64_t broken = 0;                                // elements, of themselves or cut
   double least_corner_J = 1;                              // of all bodies: see StepOutcome
   double tool_work = 0;                                   // done by tools on tissue [J]
+  double cut = 0;                                         // toughness times the area that tools have cut [J]
   double contact_lost = 0;   // kinetic energy, in collisions and at floor and walls [J]
   double tool_exchange = 0;  // sum of its magnitude over all steps [J]
 

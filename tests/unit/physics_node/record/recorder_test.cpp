@@ -72,7 +72,7 @@ TEST_F(Recording, TellsWhereTheEnergyIsAtTheSameRate) {
   ASSERT_EQ(lines.size(), 1u + 6u);
   EXPECT_EQ(lines[0],
             "t_s,kinetic_J,elastic_J,gravitational_J,dissipated_J,plastic_J,numerical_J,broken_J,guard_J,"
-            "tool_work_J,contact_J");
+            "tool_work_J,contact_J,cut_J");
   double t = 0, kinetic = 0, elastic = 0, gravitational = 0, dissipated = 0;
   ASSERT_EQ(std::sscanf(lines.back().c_str(), "%lf,%lf,%lf,%lf,%lf", &t, &kinetic, &elastic, &gravitational,
                         &dissipated),

@@ -58,7 +58,7 @@ TEST(PhysicsSummary, HasTheKeysPromised) {
   EXPECT_EQ(summary.at("team").at("mean_threads"), 1) << "a small body";
   expect_keys(summary.at("energy"),
               {"kinetic", "elastic", "gravitational", "dissipated", "plastic", "numerical", "broken", "guard",
-               "tool_work", "exchanged", "balance_error"},
+               "contact", "cut", "tool_work", "exchanged", "balance_error"},
               "energy");
   expect_keys(summary.at("momentum"), {"linear", "angular"}, "momentum");
   expect_keys(summary.at("guard"), {"nonfinite", "grown", "restored", "halved", "unsolved", "warnings"},

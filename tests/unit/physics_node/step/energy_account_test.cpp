@@ -24,7 +24,8 @@ EnergyLedger balanced_ledger() {
   ledger.plastic = 3;
   ledger.numerical = -0.5;
   ledger.broken = 2.5;
-  ledger.contact = 3;
+  ledger.contact = 2.75;
+  ledger.cut = 0.25;
   ledger.guard = 1;
   ledger.exchanged = 20;
   return ledger;
@@ -40,7 +41,7 @@ TEST(EnergyLedger, MissesEachPlaceByWhatItLacks) {
   for (double EnergyLedger::*place :
        {&EnergyLedger::kinetic, &EnergyLedger::elastic, &EnergyLedger::gravitational,
         &EnergyLedger::dissipated, &EnergyLedger::plastic, &EnergyLedger::numerical, &EnergyLedger::broken,
-        &EnergyLedger::contact, &EnergyLedger::guard}) {
+        &EnergyLedger::contact, &EnergyLedger::cut, &EnergyLedger::guard}) {
     EnergyLedger ledger = balanced_ledger();
     ledger.*place -= 0.25;
     EXPECT_DOUBLE_EQ(ledger.missing(), 0.25);
@@ -63,20 +64,23 @@ TEST(EnergyAccount, BooksFromItsRestartOn) {
   report.tool_work = 7;
   report.tool_exchange = 9;
   report.contact_lost = 2;
+  report.cut = 0.5;
   EnergyAccount account;
   account.restart({}, Vec3::Zero(), report);
   report.tool_work += 3;
   report.tool_exchange += 4;
   report.contact_lost += 1;
+  report.cut += 0.125;
   Energies now;
   now.between = 0.5;
   now.elastic = 0.25;
   Losses lost;
   lost.viscous = 1;
-  lost.broken = 0.25;
+  lost.broken = 0.125;
   const EnergyLedger ledger = account.book(now, lost, Booked(report));
   EXPECT_DOUBLE_EQ(ledger.tool_work, 3);
   EXPECT_DOUBLE_EQ(ledger.contact, 1);
+  EXPECT_DOUBLE_EQ(ledger.cut, 0.125);
   EXPECT_DOUBLE_EQ(ledger.exchanged, 4);
   EXPECT_DOUBLE_EQ(ledger.missing(), 0) << "3 in; 0.75 there, 2.25 lost";
   EXPECT_DOUBLE_EQ(account.put_in(0, report), 4);
@@ -104,17 +108,18 @@ TEST(EnergyAccount, WritesOffWhatAGuardTook) {
 }
 
 /// Of the two states that are saved the older one is good, until the younger has proved itself.
-TEST(EnergyAccount, BringsBackWhatContactTookAndToolsExchanged) {
+TEST(EnergyAccount, BringsBackWhatContactAndCutsTookAndToolsExchanged) {
   EnergyAccount account;
   StepReport report;
   const auto at = [&](double amount) {
-    report.contact_lost = report.tool_exchange = report.tool_work = amount;
+    report.contact_lost = report.tool_exchange = report.tool_work = report.cut = amount;
     return &report;
   };
   account.save(false, *at(1));
   account.save(true, *at(2));  // what was saved at 1 is good
   account.restore(*at(std::numeric_limits<double>::quiet_NaN()));
   EXPECT_EQ(report.contact_lost, 1);
+  EXPECT_EQ(report.cut, 1);
   EXPECT_EQ(report.tool_exchange, 1);
   EXPECT_TRUE(std::isnan(report.tool_work)) << "work stays booked, and is written off";
   account.save(true, *at(3));  // the younger is now what was brought back
