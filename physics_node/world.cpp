@@ -29,6 +29,7 @@ void World::restart_ledger() {
   for (auto& body : bodies_) body->restart_momentum();
   account_.restart(bodies_, scene_.gravity, report_);
   watched_ = Booked(report_);
+  cut_since_ = {};
   is_watched_ = false;
   guard_.begin();
   save_all(false);
@@ -47,7 +48,7 @@ EnergyLedger World::watched_ledger() const noexcept {
     now.elastic += watch.elastic;
     now.gravitational -= watch.fallen_before;
   }
-  return account_.book(now, sum_losses(bodies_), watched_);
+  return account_.book(now, sum_losses(bodies_) - cut_since_, watched_);
 }
 
 void World::book_work(double work) noexcept {
@@ -141,9 +142,9 @@ void World::step(double dt, double done, bool watch) noexcept {
   for (PressingTool* tool : toolbox_.pressing) tool->begin_step();
   double work = book_tools(dt, false);
   move_bodies(dt, watch);
-  follow_breaks();
-  if (watch) watched_ = Booked(report_);
+  if (watch) watched_ = Booked(report_), cut_since_ = {};
   work += press(dt);
+  follow_breaks();
   touch(dt, done);
   if (work += book_tools(dt, true); work != 0) book_work(work);
   if (is_implicit()) book_solved(dt);
@@ -172,6 +173,7 @@ void World::guard() noexcept {
 
 void World::recover() noexcept {
   is_watched_ = false;
+  cut_since_ = {};
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     bodies_[b]->restore();
     bodies_[b]->restart_momentum();

@@ -85,6 +85,7 @@ class World {
   double book_tools(double dt, bool begun) noexcept;
   void book_solved(double dt) noexcept;
   double press(double dt) noexcept;
+  double cut(PressingTool& tool) noexcept;
   void take_tools(std::span<const std::optional<ToolState>> tools) noexcept;
   void find_contacts() noexcept;
   void divide_frame() noexcept;
@@ -104,7 +105,7 @@ class World {
 
   Scene scene_;
   BodyModels bodies_;
-  std::vector<std::unique_ptr<Fragments>> fragments_;  // of each body that yields, null elsewhere
+  std::vector<std::unique_ptr<Fragments>> fragments_;  // of each body that may break, null elsewhere
   std::vector<TouchableBody> touchable_;
   Toolbox toolbox_;
   bool stick_near_ = false;  // one of those that lead may touch in this frame
@@ -114,7 +115,8 @@ class World {
   std::vector<std::vector<NodalForce>> gathered_;  // forces of all tools, by body
   StepReport report_;
   EnergyAccount account_;
-  Booked watched_;  // by tools and contact before the last step of the frame
+  Booked watched_;    // by tools and contact before the last step of the frame
+  Losses cut_since_;  // what cuts have made bodies book after that
   bool is_watched_ = false;
   std::vector<std::string> remarks_;
   double t_ = 0;

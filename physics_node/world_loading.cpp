@@ -69,6 +69,7 @@ std::vector<Body> build_bodies(const Scene& scene) {
 
 World::World(const Scene& scene, int spare_cores) : scene_(scene) {
   std::vector<Body> built = build_bodies(scene);
+  for (Body& body : built) body.may_be_cut = std::ranges::any_of(scene.tools, cuts);
   const Integrator integrator = settle_steps(built);
   Index n_masses = 0;
   std::size_t n_pieces = 0;

@@ -1,6 +1,7 @@
 // The part of a frame that tools have which press with forces.
 
 #include <algorithm>
+#include <cmath>
 
 #include "physics_node/world.h"
 
@@ -40,7 +41,22 @@ void World::book_solved(double dt) noexcept {
       tool->book().tissue(dt * bodies_[tool->touched_body()]->power(tool->forces()));
 }
 
-/// Tools that follow steps: their forces act in the step just integrated. @return work in the first half of it [J]
+/// Once the tool's forces have moved the masses on: the books of what is cut are of where they are.
+/// @return what the hand pays [J]
+double World::cut(PressingTool& tool) noexcept {
+  if (!tool.cuts().empty()) {
+    BodyModel& body = *bodies_[tool.touched_body()];
+    const Losses before = body.losses();
+    report_.broken += body.cut(tool.cuts());
+    cut_since_ += body.losses() - before;
+  }
+  const double work = tool.cut_work();
+  if (std::isfinite(work)) report_.cut += work;
+  return tool.book().tissue(work);
+}
+
+/// Tools that follow steps: their forces act in the step just integrated, and cut at its end.
+/// @return work in the first half of it, and for cuts [J]
 double World::press(double dt) noexcept {
   double sum = 0;
   for (PressingTool* tool : toolbox_.pressing) {
@@ -48,6 +64,7 @@ double World::press(double dt) noexcept {
     const StageTimer timer(report_, Stage::contact_forces);
     sum += tool->book().tissue(0.5 * dt * tool->press(dt));
     if (!tool->forces().empty()) bodies_[tool->touched_body()]->kick(tool->forces(), dt);
+    sum += cut(*tool);
   }
   return sum;
 }

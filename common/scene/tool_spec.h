@@ -12,8 +12,8 @@
 namespace palpate {
 
 /// A point touches tissue by the plane under it; a body is one of the scene's, driven by masses that the
-/// hand holds; cylinder, cone and box are rigid, and go up from the tip.
-enum class ToolShape { point, stick, body, cylinder, cone, box };
+/// hand holds; cylinder, cone and box are rigid, and go up from the tip; a scalpel cuts with its edge.
+enum class ToolShape { point, stick, body, cylinder, cone, box, scalpel };
 
 /// How a point presses: by the masses under it, as in the papers, or as a rigid sphere on sampled faces.
 enum class PointContact { nodes, faces };
@@ -48,6 +48,8 @@ struct ToolSpec {
 inline bool is_solid_tip(ToolShape shape) noexcept {
   return shape == ToolShape::cylinder || shape == ToolShape::cone || shape == ToolShape::box;
 }
+/// Does it part what it goes through?
+inline bool cuts(const ToolSpec& tool) noexcept { return tool.shape == ToolShape::scalpel; }
 /// Does it meet the facets of bodies? One that is a body has masses of its own, which collide.
 inline bool meets_facets(const ToolSpec& tool) { return tool.shape != ToolShape::body; }
 

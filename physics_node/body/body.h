@@ -37,6 +37,7 @@ struct Body {
   std::vector<double> inverse_mass;  // of each storage cell, 0: held or empty [1/kg]  (n_cells)
   Vec3 velocity = Vec3::Zero();      // at the start [m/s]
   Index n_held = 0;                  // masses that do not move
+  bool may_be_cut = false;           // a tool of the scene cuts
   std::vector<Index>
       handle;               // storage cells of the masses that a hand drives, in storage order; of tools only
   Vec3 tip = Vec3::Zero();  // where the hand's tip is while the body is at rest: at_mm of the scene [m]
@@ -91,9 +92,11 @@ inline bool any_yields(const Body& body) {
   return !body.solid &&
          std::any_of(body.laws.begin(), body.laws.end(), [](const ElementLaw& law) { return law.yields; });
 }
-/// Springs, or finite elements.
+/// Are there springs that a tool may cut?
+inline bool any_cut(const Body& body) { return body.may_be_cut && !is_of_finite_elements(body); }
+/// May springs or finite elements go, of themselves or because a tool cuts them?
 inline bool any_breaks(const Body& body) {
-  return body.solid ? !body.solid->failures.empty() : any_yields(body);
+  return body.solid ? !body.solid->failures.empty() : any_yields(body) || any_cut(body);
 }
 /// Finite elements that yield.
 inline bool any_cells_yield(const Body& body) { return body.solid && !body.solid->yields.empty(); }

@@ -22,8 +22,8 @@ struct CellGone {
 
 struct TopologyEvents {
   static constexpr std::size_t most = 65536;  // of one kind
-  /// In the last step, in an order that does not depend on the number of threads; invalidated by the next step in which an
-  /// element breaks.
+  /// In the last step or, behind those, cut at its end, in an order that does not depend on the number of threads; invalidated by
+  /// the next step.
   std::span<const EdgeGone> edges_gone;
   std::span<const CellGone> cells_gone;
   /// The list is not all: anything may have changed. After a reset and a restore at once and still after the next step, and

@@ -20,9 +20,10 @@ HeldShape held_shape(const ToolSpec& tool) {
     case ToolShape::box:
       return {RigidShape::box(0.5 * tool.size), tool.attitude};
     case ToolShape::body:
+    case ToolShape::scalpel:
       break;
   }
-  PALPATE_CHECK(false, "a body has elements of its own");
+  PALPATE_CHECK(false, "a body has elements of its own, a scalpel an edge");
   return {RigidShape::sphere(tool.radius)};
 }
 

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "physics_node/body/topology_events.h"
 #include "physics_node/contact/tool.h"
 
 namespace palpate::physics {
@@ -13,7 +14,7 @@ class PressingTool : public Tool {
   virtual std::span<const NodalForce> forces() const noexcept = 0;
   /// May forces() come in the coming frame?
   virtual bool may_press() const noexcept = 0;
-  virtual std::size_t touched_body() const noexcept = 0;  // meaningful while forces() is not empty
+  virtual std::size_t touched_body() const noexcept = 0;  // meaningful while forces() or cuts() are not empty
 
   /// Are forces() found in every step anew, from where its elements have moved the masses (explicit integrators), rather than known
   /// before the frame?
@@ -23,6 +24,10 @@ class PressingTool : public Tool {
   /// Of one that does: finds forces(), which act in the step of dt whose elements have just moved the masses.
   /// @return their power with the velocities of begin_step() [W]
   virtual double press(double dt) noexcept = 0;
+  /// Elements of the touched body that it has cut in the step of press().
+  virtual std::span<const EdgeGone> cuts() const noexcept = 0;
+  /// Toughness times the area that it has cut in that step, which the hand pays [J]
+  virtual double cut_work() const noexcept = 0;
 
  protected:
   using Tool::Tool;

@@ -38,6 +38,8 @@ constexpr double failing_bytes = 72, failing_double_bytes = 116;
 // Where they yield: what they have come to, twice more to go back to, and their limits; of those that have.
 constexpr double yielding_bytes = 236, yielding_double_bytes = 472;
 constexpr double plastic_bytes = 680, plastic_double_bytes = 1030;
+// Where springs may be cut and neither yield nor break. Counted: live elements, twice more to go back to, and fragments.
+constexpr double cut_bytes = 20;
 // A point or a stick feels what breaks open: two sites of 9 bytes a mass, and room for a facet.
 constexpr double felt_bytes = 42;
 // Of a node of a mesh, with what joins nodes while it is made; and of its file while it is read, a byte of it. Measured as above, of 600,000
@@ -165,6 +167,7 @@ double bytes_of_masses(double masses, const BodySpec& body, const Scene& scene) 
   const bool felt = std::any_of(scene.tools.begin(), scene.tools.end(), meets_facets);
   const bool of_cells = body.model == ElementModel::fem;
   const bool plastic = any_breaks && !of_cells;
+  const bool cut = !any_breaks && !of_cells && std::ranges::any_of(scene.tools, cuts);
   const double fem = !of_cells ? 0 : doubled ? fem_double_bytes : fem_bytes;
   const double failing = !any_breaks || !of_cells
                              ? 0
@@ -174,7 +177,8 @@ double bytes_of_masses(double masses, const BodySpec& body, const Scene& scene) 
       body.model == ElementModel::fem && (scene.physics->integrator == Integrator::backward_euler ||
                                           scene.physics->integrator == Integrator::automatic);
   const double solver = !solved ? 0 : doubled ? solved_double_bytes : solved_bytes;
-  return masses * (fem + solver + failing + yielding +
+  const double cutting = cut ? cut_bytes + felt_bytes : 0;
+  return masses * (fem + solver + failing + yielding + cutting +
                    (plastic ? (doubled ? plastic_double_bytes : plastic_bytes) + (felt ? felt_bytes : 0.0)
                             : (doubled ? elastic_double_bytes : elastic_bytes)));
 }

@@ -115,6 +115,7 @@ class TetBody final : public BodyModel {
 
   TopologyEvents events() const noexcept override { return {}; }
   std::int64_t breaks() const noexcept override { return 0; }
+  std::int64_t cut(std::span<const EdgeGone>) noexcept override { return 0; }
   void conditions(std::span<const Index> nodes, std::span<Condition> out) const noexcept override {
     std::fill_n(out.begin(), nodes.size(), Condition{});
   }

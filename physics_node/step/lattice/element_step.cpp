@@ -133,7 +133,9 @@ std::int64_t element_step(const Body& body, LatticeState<Real>& state, const Exp
   state.v_half_known = step.verlet;
   state.v_seen_known = exact;
   state.dt_before = step.dt;
-  return any_yields(body) ? mirror_breaks(body, state) : 0;
+  if (any_yields(body)) return mirror_breaks(body, state);
+  state.fresh.begin_step();
+  return 0;
 }
 
 template std::int64_t element_step(const Body&, LatticeState<float>&, const ExplicitStep&) noexcept;

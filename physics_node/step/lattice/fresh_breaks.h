@@ -1,5 +1,5 @@
 #pragma once
-// The elements that broke in the last step.
+// The elements that broke in the last step, and those that were cut after it.
 
 #include <algorithm>
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace palpate::physics {
 
-/// Made anew by each step, in storage order, which does not depend on the number of threads.
+/// Made anew by each step: what broke in storage order, which does not depend on the number of threads, then what was cut.
 struct FreshBreaks {
   std::vector<EdgeGone> list;  // never grows beyond what was reserved
   std::vector<CellGone> cells;

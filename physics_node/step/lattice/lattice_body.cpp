@@ -6,6 +6,7 @@
 #include "common/math/state_hash.h"
 #include "physics_node/step/good_state.h"
 #include "physics_node/step/lattice/bounce.h"
+#include "physics_node/step/lattice/cut_elements.h"
 #include "physics_node/step/lattice/hex_marks.h"
 #include "physics_node/step/lattice/hexahedra.h"
 #include "physics_node/step/lattice/implicit_step.h"
@@ -205,6 +206,10 @@ class LatticeBody final : public BodyModel, private PendingStep {
     return {state_.fresh.list, state_.fresh.cells, any_breaks(body_) && state_.fresh.overflow};
   }
   std::int64_t breaks() const noexcept override { return state_.breaks; }
+  std::int64_t cut(std::span<const EdgeGone> elements) noexcept override {
+    if (!any_cut(body_)) return 0;
+    return cut_elements(body_, state_, sleep_, elements);
+  }
   void conditions(std::span<const Index> cells, std::span<Condition> out) const noexcept override {
     const bool yields = any_yields(body_);
     const bool cells_change = body_.solid && may_change_for_good(body_);

@@ -80,11 +80,11 @@ template <class Real>
 void LinearisedElements<Real>::evaluate(const Body& body, const LatticeState<Real>& state, const Field& D,
                                         double dt, Field& force) {
   const Damper damper = body.law.damper;
-  const bool yields = any_yields(body);
+  const bool breaks = any_breaks(body);
   // A broken element's a and b must not outlive it.
   for (auto& slot : slots_)
     for (const RowSegment& row : body.lattice.rows)
-      if (yields && slot.a.size() > 0) {
+      if (breaks && slot.a.size() > 0) {
         std::fill_n(slot.a.data() + row.first, row.count, 0.0);
         std::fill_n(slot.b.data() + row.first, row.count, 0.0);
       }

@@ -54,13 +54,14 @@ void SavedState<Real>::take(const Body& body, const LatticeState<Real>& state) n
     for (std::size_t m = 0; m < plastic_.memory.size(); ++m)
       copy_rows(body, state.plastic.memory[m], plastic_.memory[m]);
   }
-  if (!any_yields(body)) return;
+  if (body.solid || !any_breaks(body)) return;
   std::int64_t yields = 0;
   for (const RowLedger& row : ledger_) yields += row.yields;
   if (yields == yields_ && state.breaks == breaks_) return;
   yields_ = yields;
   breaks_ = state.breaks;
   copy_rows(body, state.mask, mask_);
+  if (!any_yields(body)) return;
   for (std::size_t h = 0; h < static_cast<std::size_t>(body.lattice.n_half); ++h) {
     copy_rows(body, state.l_c[h], l_c_[h]);
     copy_rows(body, state.hardening[h], hardening_[h]);

@@ -85,7 +85,7 @@ struct LatticeState {
   std::uint64_t row_changes = 0;                             // how often row_state was another one
   std::vector<RowLedger> ledger;                             // by row
   std::int64_t breaks = 0;                                   // of all rows, when the masks were last mirrored
-  FreshBreaks fresh;                                         // of the last step; only where a material yields
+  FreshBreaks fresh;                                         // of the last step; only where elements may go
 
   explicit LatticeState(const Body& body);
   void reset(const Body& body);
