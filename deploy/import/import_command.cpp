@@ -13,6 +13,7 @@
 #include "common/record/part_file.h"
 #include "deploy/import/memory_budget.h"
 #include "deploy/import/read_mesh_format.h"
+#include "deploy/import/read_surface.h"
 
 namespace palpate {
 namespace {
@@ -32,9 +33,10 @@ ImportCommand parse_import(CLI::App& app, int argc, char** argv) {
   std::vector<int> partition;
   std::string type, phantom, unit;
   std::uint64_t header = 0;
-  auto* image = app.add_option("image", command.options.input,
-                               ".inv3, .nii[.gz], .nrrd, .mha, .raw, .inr, or a DICOM file or folder; or a "
-                               "mesh of tetrahedra: .msh, .vtk, .mesh");
+  auto* image =
+      app.add_option("image", command.options.input,
+                     ".inv3, .nii[.gz], .nrrd, .mha, .raw, .inr, or a DICOM file or folder; or a "
+                     "mesh of tetrahedra: .msh, .vtk, .mesh; or a closed surface: .obj, .stl, .ply, .off");
   auto* phantom_option = app.add_option("--phantom", phantom,
                                         "instead of an image: a made angiogram (size 336,336,140), a brain "
                                         "as PNG slices in a folder, or a lobe as "
@@ -57,8 +59,9 @@ ImportCommand parse_import(CLI::App& app, int argc, char** argv) {
   app.add_option("--transfer", command.options.transfer, "colours")->check(one_of({"ct", "grey"}));
   double tetrahedra_mm = 0;
   auto* tetrahedra =
-      app.add_option("--tetrahedra-mm", tetrahedra_mm,
-                     "instead of a volume, fill the tissue of an image with tetrahedra of this size")
+      app.add_option(
+             "--tetrahedra-mm", tetrahedra_mm,
+             "instead of a volume, fill the tissue of an image, or a surface, with tetrahedra of this size")
           ->check(number_in({.lo = 0.01, .hi = 1000}));
   app.add_option("--keep", keep, "with --tetrahedra-mm: lowest,highest intensity that is tissue")
       ->delimiter(',')
@@ -66,7 +69,8 @@ ImportCommand parse_import(CLI::App& app, int argc, char** argv) {
       ->needs(tetrahedra);
   app.add_flag("--largest", command.mesh.largest, "with --tetrahedra-mm: only the largest part of the tissue")
       ->needs(tetrahedra);
-  app.add_option("--unit", unit, "of a mesh: what one unit of its file is")->check(one_of({"mm", "cm", "m"}));
+  app.add_option("--unit", unit, "of a mesh or surface: what one unit of its file is")
+      ->check(one_of({"mm", "cm", "m"}));
   double gigabytes = 0.5e-9 * static_cast<double>(machine_memory());
   app.add_option("--memory-limit", gigabytes, "most memory that it may take [GB]; else half of the machine's")
       ->check(number_in({.lo = 0.3, .hi = 1e6}));
@@ -79,6 +83,8 @@ ImportCommand parse_import(CLI::App& app, int argc, char** argv) {
   if (phantom == "brain") command.makes = Makes::brain;
   if (phantom == "lobe") command.makes = Makes::lobe;
   if (phantom.empty() && is_mesh_format(command.options.input)) command.makes = Makes::mesh_of_file;
+  if (phantom.empty() && is_surface_format(command.options.input)) command.makes = Makes::mesh_of_surface;
+  const bool of_file = command.makes == Makes::mesh_of_file || command.makes == Makes::mesh_of_surface;
   const bool of_cells = !size.empty() || !partition.empty() || !command.options.transfer.empty();
   refuse(of_cells && command.makes == Makes::lobe, "--phantom lobe",
          "is a mesh of one size; leave out --size, --partition and --transfer");
@@ -87,11 +93,18 @@ ImportCommand parse_import(CLI::App& app, int argc, char** argv) {
   const bool raw = !spacing_mm.empty() || !type.empty() || header_option->count() > 0;
   refuse((of_cells || raw || tetrahedra_mm > 0) && command.makes == Makes::mesh_of_file, "image",
          "is a mesh of tetrahedra already; leave out what is of images");
-  refuse(!unit.empty() && command.makes != Makes::mesh_of_file, "--unit",
-         "is of a mesh (.msh, .vtk or .mesh); an image brings its own");
-  refuse(command.makes == Makes::mesh_of_file && unit.empty(), "--unit",
+  refuse(
+      (of_cells || raw || !keep.empty() || command.mesh.largest) && command.makes == Makes::mesh_of_surface,
+      "image", "is a surface; leave out what is of images");
+  refuse(
+      !unit.empty() && !of_file, "--unit",
+      "is of a mesh (.msh, .vtk or .mesh) or a surface (.obj, .stl, .ply or .off); an image brings its own");
+  refuse(of_file && unit.empty(), "--unit",
          "write --unit mm, cm or m: a mesh does not say what one unit of it is");
-  if (tetrahedra_mm > 0) {
+  refuse(command.makes == Makes::mesh_of_surface && tetrahedra_mm == 0, "--tetrahedra-mm",
+         "write how large the tetrahedra shall be that fill the surface");
+  command.mesh.edge = m_from_mm(tetrahedra_mm);
+  if (tetrahedra_mm > 0 && command.makes != Makes::mesh_of_surface) {
     refuse(command.makes != Makes::volume, "--tetrahedra-mm", "is of an image; leave it out");
     refuse(keep.empty(), "--tetrahedra-mm",
            "write --keep LOWEST,HIGHEST too: the intensities that are tissue");
@@ -100,7 +113,6 @@ ImportCommand parse_import(CLI::App& app, int argc, char** argv) {
     refuse(!command.options.transfer.empty() || !partition.empty(), "--tetrahedra-mm",
            "makes a mesh; --transfer and --partition are of volumes, leave them out");
     command.makes = Makes::mesh_of_image;
-    command.mesh.edge = m_from_mm(tetrahedra_mm);
     command.mesh.keep_min = keep[0], command.mesh.keep_max = keep[1];
   }
   command.unit = unit == "mm" ? 0.001 : unit == "cm" ? 0.01 : 1;
@@ -141,6 +153,7 @@ void check_output(const ImportCommand& command) {
     case Makes::lobe:
     case Makes::mesh_of_image:
     case Makes::mesh_of_file:
+    case Makes::mesh_of_surface:
       if (ending != ".msh" && !hdf5 && !folder)
         throw InputError(
             fmt::format("{}: a mesh is an .h5 or .msh file, and its name should say so; write --out {}.h5",

@@ -10,12 +10,13 @@
 namespace palpate {
 
 struct ImportCommand {
-  /// An image becomes a volume; or slices, or a mesh, are made by formulas; or a mesh of a volume's tissue, or of another program's file.
-  enum class Makes { volume, brain, lobe, mesh_of_image, mesh_of_file };
+  /// An image becomes a volume; or slices, or a mesh, are made by formulas; or a mesh of a volume's tissue, of another program's file,
+  /// or of what a surface encloses.
+  enum class Makes { volume, brain, lobe, mesh_of_image, mesh_of_file, mesh_of_surface };
   Makes makes = Makes::volume;
   ImportOptions options;
   ImageMeshOptions mesh;
-  double unit = 0;  // of a mesh file [m]
+  double unit = 0;  // of a mesh or surface file [m]
   std::string out;
   bool quiet = false;
   double memory_limit = 0;  // [bytes]

@@ -1,4 +1,4 @@
-// palpate-import: an image becomes a volume file or a mesh, a made brain a folder of slices, a made lobe a mesh. See
+// palpate-import: an image becomes a volume file or a mesh, a surface or another program's mesh a mesh, a made brain a folder of slices, a made lobe a mesh. See
 // docs/volume_file.md.
 #include <fmt/format.h>
 
@@ -20,7 +20,9 @@
 #include "deploy/import/in_child.h"
 #include "deploy/import/lobe_phantom.h"
 #include "deploy/import/memory_budget.h"
+#include "deploy/import/mesh_of_surface.h"
 #include "deploy/import/read_mesh_format.h"
+#include "deploy/import/read_surface.h"
 #include "physics_node/mesh/mesh_file.h"
 #include "physics_node/mesh/mesh_pinches.h"
 #include "physics_node/mesh/write_msh.h"
@@ -119,6 +121,43 @@ void import_mesh(const ImportCommand& command) {
   report(command, content.mesh, more);
 }
 
+std::string words_of(const SurfaceContent& content, const ClosedSurface& closed, const SurfaceMesh& made) {
+  const SurfaceMended& mended = closed.mended;
+  std::string more =
+      fmt::format(", {:.4g} cm3 of the surface's {:.4g} cm3", 1e6 * made.filled, 1e6 * closed.volume);
+  const auto add = [&more](std::size_t n, const char* what) {
+    if (n > 0) more += fmt::format(", {} {}", n, what);
+  };
+  add(content.polygons, "polygons cut into triangles");
+  add(mended.welded, "points welded");
+  add(mended.degenerate, "triangles without area left out");
+  add(mended.unused, "points of none left out");
+  add(content.other, "points and lines left out");
+  add(mended.turned, "triangles turned");
+  if (mended.cutting > 0)
+    more += fmt::format(", {} triangles that go through others, first at {:.4g}, {:.4g}, {:.4g} mm",
+                        mended.cutting, mm_from_m(mended.cut.x()), mm_from_m(mended.cut.y()),
+                        mm_from_m(mended.cut.z()));
+  if (made.pieces > 1) more += fmt::format(", in {} pieces", made.pieces);
+  return more;
+}
+
+void fill_surface(const ImportCommand& command) {
+  const std::string& file = command.options.input;
+  declare_cells(file, file_bytes(file), surface_bytes_a_byte);
+  keep_as_private_as({file});
+  const SurfaceContent content = read_surface(file, command.unit);
+  const ClosedSurface closed = close_surface(content.surface, file);
+  SurfaceMeshOptions options{.edge = command.mesh.edge};
+  options.before_lattice = [&](double points) {
+    declare_cells("--tetrahedra-mm", static_cast<std::uint64_t>(points), lattice_point_bytes);
+  };
+  const SurfaceMesh made = mesh_of_surface(closed, options, file);
+  check_mesh(made.mesh, file);
+  write(command, made.mesh);
+  report(command, made.mesh, words_of(content, closed, made));
+}
+
 void mesh_image(const ImportCommand& command, const Volume& volume) {
   const std::string& image = command.options.input;
   declare_cells(image, volume.n_cells(), meshed_cell_bytes);
@@ -145,6 +184,7 @@ int import(const ImportCommand& command) {
     if (command.makes == Makes::brain) return make_brain(command), exit_ok;
     if (command.makes == Makes::lobe) return make_lobe(command), exit_ok;
     if (command.makes == Makes::mesh_of_file) return import_mesh(command), exit_ok;
+    if (command.makes == Makes::mesh_of_surface) return fill_surface(command), exit_ok;
     std::vector<std::string> files;
     const Volume volume = import_image(command.options, &files);
     keep_as_private_as(files);

@@ -44,6 +44,8 @@ const std::vector<Door>& doors() {
       {"GL", std::regex("^(GL/|GLES|GLFW/|EGL/|epoxy/|glad/|imgui|backends/imgui)"),
        std::regex("^render_node/(gl|ui)/"), "render_node/gl and render_node/ui"},
       {"ITK", std::regex("^itk"), std::regex("^deploy/import/read_itk"), "deploy/import/read_itk*"},
+      {"assimp", std::regex("^assimp/"), std::regex("^deploy/import/read_surface\\.cpp$"),
+       "deploy/import/read_surface.cpp"},
       {"libarchive", std::regex("^archive(_entry)?\\.h$"), std::regex("^(deploy/import/|tests/)"),
        "deploy/import"},
       {"dlopen", std::regex("^dlfcn\\.h$"),
