@@ -45,7 +45,7 @@ void check_filled(double filled, double wanted, double edge, const std::string& 
                   const std::string& where) {
   if (filled > 0 && std::abs(filled / wanted - 1) <= most_off) return;
   throw InputError(
-      fmt::format("{}: tetrahedra of {:g} mm are too coarse for this {}: they fill {:.3g} cm3 of its "
+      fmt::format("{}: tetrahedra of {:g} mm are too coarse for {}: they fill {:.3g} cm3 of its "
                   "{:.3g}; write a smaller "
                   "--tetrahedra-mm",
                   where, mm_from_m(edge), what, 1e6 * filled, 1e6 * wanted));

@@ -12,7 +12,7 @@ namespace palpate {
 /// @throws InputError: more points than any machine could step
 void check_points(const StuffingLattice& lattice, const std::string& where);
 
-/// @throws InputError: nothing is filled, or it misses what was to be filled by more than a tenth  @param what  it is: "tissue", "surface"
+/// @throws InputError: nothing is filled, or it misses what was to be filled by more than a tenth  @param what  it is: "this tissue", "this surface"
 void check_filled(double filled, double wanted, double edge, const std::string& what,
                   const std::string& where);
 

@@ -63,9 +63,11 @@ ImportCommand parse_import(CLI::App& app, int argc, char** argv) {
              "--tetrahedra-mm", tetrahedra_mm,
              "instead of a volume, fill the tissue of an image, or a surface, with tetrahedra of this size")
           ->check(number_in({.lo = 0.01, .hi = 1000}));
-  app.add_option("--keep", keep, "with --tetrahedra-mm: lowest,highest intensity that is tissue")
+  app.add_option("--keep", keep,
+                 "with --tetrahedra-mm: lowest,highest intensity that is tissue; again for each further one")
       ->delimiter(',')
       ->expected(2)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->needs(tetrahedra);
   app.add_flag("--largest", command.mesh.largest, "with --tetrahedra-mm: only the largest part of the tissue")
       ->needs(tetrahedra);
@@ -108,8 +110,14 @@ ImportCommand parse_import(CLI::App& app, int argc, char** argv) {
     refuse(command.makes != Makes::volume, "--tetrahedra-mm", "is of an image; leave it out");
     refuse(keep.empty(), "--tetrahedra-mm",
            "write --keep LOWEST,HIGHEST too: the intensities that are tissue");
-    refuse(!(keep[0] <= keep[1]), "--keep",
-           "names the lowest intensity first, then the highest; both are numbers");
+    for (std::size_t n = 0; n < keep.size(); n += 2) {
+      refuse(!(keep[n] <= keep[n + 1]), "--keep",
+             "names the lowest intensity first, then the highest; both are numbers");
+      for (std::size_t m = 0; m < n; m += 2)
+        refuse(keep[m] <= keep[n + 1] && keep[n] <= keep[m + 1], "--keep",
+               "given again names other intensities: a cell is of one tissue");
+      if (n > 0) command.mesh.others.push_back({keep[n], keep[n + 1]});
+    }
     refuse(!command.options.transfer.empty() || !partition.empty(), "--tetrahedra-mm",
            "makes a mesh; --transfer and --partition are of volumes, leave them out");
     command.makes = Makes::mesh_of_image;

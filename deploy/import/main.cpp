@@ -169,6 +169,9 @@ void mesh_image(const ImportCommand& command, const Volume& volume) {
   write(command, made.mesh);
   std::string more =
       fmt::format(", {:.4g} cm3 of {:.4g} cm3 of tissue", 1e6 * made.filled, 1e6 * made.tissue);
+  for (std::size_t n = 0; made.regions.size() > 1 && n < made.regions.size(); ++n)
+    more += fmt::format(", region {}: {:.4g} of {:.4g}", n, 1e6 * made.regions[n].filled,
+                        1e6 * made.regions[n].tissue);
   if (made.pieces > 1)
     more += fmt::format(", in {} pieces{}", made.pieces,
                         options.largest ? ", as thin parts are lost (write a smaller --tetrahedra-mm)"

@@ -33,7 +33,7 @@ SurfaceMesh mesh_of_surface(const ClosedSurface& closed, const SurfaceMeshOption
   SurfaceMesh made;
   made.mesh = std::move(filled.mesh);
   made.filled = volume_of(made.mesh);
-  check_filled(made.filled, closed.volume, options.edge, "surface", where);
+  check_filled(made.filled, closed.volume, options.edge, "this surface", where);
   made.pieces = n_pieces_of(made.mesh);
   return made;
 }

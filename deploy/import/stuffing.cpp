@@ -5,11 +5,12 @@
 #include <unordered_map>
 #include <utility>
 
+#include "deploy/import/tet_cut.h"
+
 namespace palpate {
 namespace {
 
 using physics::Index;
-using Tet = std::array<Index, 4>;
 
 // How near to its end a crossing moves that, in shares of the edge: the two that give the paper's best bound.
 constexpr double alpha_long = 0.24999, alpha_short = 0.41189;
@@ -99,6 +100,8 @@ class Lattice {
 
 class Stuffing {
  public:
+  using Point = std::int64_t;
+
   Stuffing(const StuffingLattice& spec, const std::function<double(const Vec3&)>& inside)
       : lattice_(spec), inside_(inside) {
     sign_.resize(static_cast<std::size_t>(lattice_.size()));
@@ -108,15 +111,29 @@ class Stuffing {
 
   physics::TetMesh fill() {
     for (std::int64_t p = 0; p < lattice_.size(); ++p) snap(p);
-    lattice_.for_each_tet([&](const std::array<std::int64_t, 4>& points) { cut(points); });
+    TetCut<Stuffing> cut(*this, true);
+    lattice_.for_each_tet([&](const std::array<std::int64_t, 4>& points) { cut.cut(points); });
     mesh_.region.assign(mesh_.tets.size(), 0);
     physics::tidy(mesh_);
     return std::move(mesh_);
   }
 
- private:
+  // What TetCut asks for.
   std::int8_t& sign(std::int64_t p) noexcept { return sign_[static_cast<std::size_t>(p)]; }
+  Index node(std::int64_t p) {
+    const auto found = node_of_.find(p);
+    if (found != node_of_.end()) return found->second;
+    const auto moved = moved_.find(p);
+    return node_of_[p] = add(moved != moved_.end() ? moved->second : lattice_.place(p));
+  }
+  Index node(std::int64_t p, std::int64_t q) {
+    const std::int64_t edge = std::min(p, q) * lattice_.size() + std::max(p, q);
+    const auto found = node_on_.find(edge);
+    return found != node_on_.end() ? found->second : node_on_[edge] = add(crossing(p, q));
+  }
+  physics::TetMesh& mesh() noexcept { return mesh_; }
 
+ private:
   /// Where the field crosses the edge, whose ends are on different sides; from the same end whoever asks.
   Vec3 crossing(std::int64_t p, std::int64_t q) const {
     if (sign_[static_cast<std::size_t>(p)] < sign_[static_cast<std::size_t>(q)]) std::swap(p, q);
@@ -149,101 +166,6 @@ class Stuffing {
   Index add(const Vec3& x) {
     mesh_.nodes.push_back(x);
     return static_cast<Index>(mesh_.nodes.size() - 1);
-  }
-  Index node(std::int64_t p) {
-    const auto found = node_of_.find(p);
-    if (found != node_of_.end()) return found->second;
-    const auto moved = moved_.find(p);
-    return node_of_[p] = add(moved != moved_.end() ? moved->second : lattice_.place(p));
-  }
-  Index node(std::int64_t p, std::int64_t q) {
-    const std::int64_t edge = std::min(p, q) * lattice_.size() + std::max(p, q);
-    const auto found = node_on_.find(edge);
-    return found != node_on_.end() ? found->second : node_on_[edge] = add(crossing(p, q));
-  }
-  Vec3 place(Index node) const noexcept { return mesh_.nodes[static_cast<std::size_t>(node)]; }
-
-  /// Of the four-cornered face a b d c (a-d and b-c its diagonals): is it cut from a to d? Both sides of the face say the same.
-  bool cut_along(Index a, Index d, Index b, Index c) const noexcept {
-    const double one = (place(d) - place(a)).squaredNorm(), other = (place(c) - place(b)).squaredNorm();
-    return one != other ? one < other : std::min(a, d) < std::min(b, c);
-  }
-
-  /// Of three nodes above and three below; the diagonal of each side goes down from the first (true) or from the second.
-  void add_prism(const std::array<Index, 3>& above, const std::array<Index, 3>& below,
-                 std::array<bool, 3> down) {
-    // A node that two diagonals meet in; there is none where they go round.
-    for (std::size_t n = 0; n < 3; ++n) {
-      const std::size_t m = (n + 1) % 3, l = (n + 2) % 3;
-      const bool from_above = down[n] && !down[l];  // n to m, and n to l
-      const bool from_below = !down[n] && down[l];
-      if (!from_above && !from_below) continue;
-      const auto& own = from_above ? above : below;
-      const auto& far = from_above ? below : above;
-      mesh_.tets.push_back({own[n], far[n], far[m], far[l]});
-      // Side m l, whose diagonal goes from the m of one to the l of the other.
-      const bool m_own = down[m] == from_above;
-      mesh_.tets.push_back({own[n], own[m], own[l], m_own ? far[l] : far[m]});
-      mesh_.tets.push_back({own[n], far[m], far[l], m_own ? own[m] : own[l]});
-      return;
-    }
-    // The diagonals go round: a node in the middle sees every face.
-    Vec3 middle = Vec3::Zero();
-    for (std::size_t n = 0; n < 3; ++n) middle += (place(above[n]) + place(below[n])) / 6;
-    const Index c = add(middle);
-    mesh_.tets.push_back({c, above[0], above[1], above[2]});
-    mesh_.tets.push_back({c, below[0], below[1], below[2]});
-    for (std::size_t n = 0; n < 3; ++n) {
-      const std::size_t m = (n + 1) % 3;
-      mesh_.tets.push_back({c, above[n], above[m], down[n] ? below[m] : below[n]});
-      mesh_.tets.push_back({c, below[n], below[m], down[n] ? above[n] : above[m]});
-    }
-  }
-
-  /// What is inside of one tetrahedron of the lattice.
-  void cut(std::array<std::int64_t, 4> points) {
-    std::ranges::stable_sort(points, [&](std::int64_t a, std::int64_t b) { return sign(a) > sign(b); });
-    const auto count = [&](int s) {
-      return std::ranges::count_if(points, [&](std::int64_t p) { return sign(p) == s; });
-    };
-    const auto in = count(1), out = count(-1);
-    if (in == 0) return;
-    Tet tet{};
-    if (out == 0 || in == 1) {  // whole, or the corner at the one
-      for (std::size_t n = 0; n < 4; ++n)
-        tet[n] = sign(points[n]) < 0 ? node(points[0], points[n]) : node(points[n]);
-      mesh_.tets.push_back(tet);
-      return;
-    }
-    const Index a = node(points[0]), b = node(points[1]);
-    if (out == 1 && in == 2) {  // two, one on the surface: a pyramid over a b and what they cut off
-      const Index c = node(points[2]), ad = node(points[0], points[3]), bd = node(points[1], points[3]);
-      const bool from_a = cut_along(a, bd, b, ad);
-      mesh_.tets.push_back({c, a, b, from_a ? bd : ad});
-      mesh_.tets.push_back({c, ad, bd, from_a ? a : b});
-      return;
-    }
-    if (out == 1) {  // three: all but the fourth's corner
-      const std::array<Index, 3> above{a, b, node(points[2])};
-      std::array<Index, 3> below{};
-      for (std::size_t n = 0; n < 3; ++n) below[n] = node(points[n], points[3]);
-      std::array<bool, 3> down{};
-      for (std::size_t n = 0; n < 3; ++n) {
-        const std::size_t m = (n + 1) % 3;
-        down[n] = cut_along(above[n], below[m], above[m], below[n]);
-      }
-      return add_prism(above, below, down);
-    }
-    // Two and two: a wedge with the edge a b, whose one side lies in the surface and belongs to no other tetrahedron.
-    const std::array<Index, 3> above{a, node(points[0], points[2]), node(points[0], points[3])};
-    const std::array<Index, 3> below{b, node(points[1], points[2]), node(points[1], points[3])};
-    std::array<bool, 3> down{};
-    for (std::size_t n = 0; n < 3; ++n) {
-      const std::size_t m = (n + 1) % 3;
-      down[n] = cut_along(above[n], below[m], above[m], below[n]);
-    }
-    if (down[0] == down[1] && down[1] == down[2]) down[1] = !down[1];
-    add_prism(above, below, down);
   }
 
   Lattice lattice_;

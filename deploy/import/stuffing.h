@@ -3,7 +3,7 @@
 //
 // A body-centred cubic lattice of cubes with edge a is laid over the place; its tetrahedra have two edges of a, which meet at the middles of
 // cubes or at their corners, and four of sqrt(3)/2 a. Where the field crosses an edge nearer to an end than a share alpha of the edge, that end
-// moves onto the crossing. What is left of each tetrahedron inside is one to three, from a table.
+// moves onto the crossing. What is left of each tetrahedron inside is one to three, from the table of tet_cut.h.
 //
 // Source: F. Labelle, J. R. Shewchuk 2007. Deviation: a face with four corners is cut along its shorter diagonal, not by parity, so their bound on the
 // dihedral angles (10.7 degrees) is not proven for it; measured, they are larger (docs/volume_file.md).

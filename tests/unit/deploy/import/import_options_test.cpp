@@ -48,6 +48,29 @@ TEST(ImportOptions, ColoursFollowTheRangeUnlessGiven) {
   EXPECT_EQ(grey[1].intensity, 1328);
 }
 
+/// Two halves of 2 x 4 x 4 cells of 10 mm each.
+TEST(ImportOptions, KeepGivenAgainMakesAnotherRegion) {
+  const ScratchFolder folder;
+  Bytes cells;
+  for (int n = 0; n < 64; ++n) cells += n % 4 < 2 ? '\x28' : '\x55';  // 40, 85
+  write_file(folder / "a.raw", cells);
+  const auto run = [&](const std::vector<std::string>& keeps) {
+    std::vector<std::string> all = {"--size", "4,4,4",           "--spacing-mm", "10,10,10", "--type",
+                                    "uint8",  "--tetrahedra-mm", "10",           "--out",    folder / "m.h5"};
+    all.insert(all.begin(), folder / "a.raw");
+    all.insert(all.end(), keeps.begin(), keeps.end());
+    return run_importer(all);
+  };
+  const Outcome outcome = run({"--keep", "40,40", "--keep", "85,85"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out,
+              testing::ContainsRegex("of tissue, region 0: [0-9.]+ of 32, region 1: [0-9.]+ of 32, "));
+  EXPECT_THAT(run({"--keep", "40,80", "--keep", "80,85"}).err,
+              testing::HasSubstr("--keep: given again names other intensities: a cell is of one tissue"));
+  EXPECT_EQ(run({"--keep", "40,40", "--keep", "85"}).code, 2);
+  EXPECT_EQ(run({"--keep", "40,40", "--keep", "85,41"}).code, 2);
+}
+
 TEST(ImportOptions, HelpIsNoMistake) {
   const Outcome outcome = run_importer({"--help"});
   EXPECT_EQ(outcome.code, 0);

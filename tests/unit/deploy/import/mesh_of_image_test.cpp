@@ -58,6 +58,46 @@ TEST(MeshOfImage, LeavesOutWhatIsNotKept) {
   EXPECT_NEAR(shell.filled + core.filled, 4.0 / 3 * 3.14159 * 16 * 16 * 16 * 1e-9, 0.02 * shell.filled);
 }
 
+/// A core of 8 mm in a ball of 16.
+TEST(MeshOfImage, MakesTissuesRegionsThatShareNodes) {
+  const ImageMesh made = mesh_of_image(
+      three_balls(), {.keep_min = 50, .keep_max = 150, .edge = 4e-3, .largest = true, .others = {{200, 200}}},
+      "scan");
+  ASSERT_EQ(made.regions.size(), 2U);
+  EXPECT_EQ(made.pieces, 1U);
+  EXPECT_NEAR(made.regions[0].filled, made.regions[0].tissue, 0.02 * made.regions[0].tissue);
+  EXPECT_NEAR(made.regions[1].filled, made.regions[1].tissue, 0.01 * made.regions[1].tissue);
+  EXPECT_NEAR(made.regions[0].filled + made.regions[1].filled, made.filled, 1e-3 * made.filled);
+  EXPECT_EQ(outer_faces(made.mesh).of_more, 0U);
+  EXPECT_GT(deg_from_rad(made.angles.least), 10);
+  std::vector<int> has(made.mesh.nodes.size());
+  for (std::size_t t = 0; t < made.mesh.tets.size(); ++t)
+    for (const auto node : made.mesh.tets[t]) has[static_cast<std::size_t>(node)] |= 1 << made.mesh.region[t];
+  double sum = 0;
+  int n = 0;
+  for (std::size_t node = 0; node < has.size(); ++node) {
+    if (has[node] != 3) continue;
+    const double off = (made.mesh.nodes[node] - Vec3(0.020, 0.025, 0.030)).norm() - 8e-3;
+    EXPECT_LT(std::abs(off), 2e-3);  // a cell's longest side
+    sum += off * off, ++n;
+  }
+  EXPECT_GT(n, 50);
+  EXPECT_LT(std::sqrt(sum / n), 6e-4);
+}
+
+TEST(MeshOfImage, RefusesARegionThatMissesItsTissue) {
+  Volume volume = three_balls();
+  for (float& cell : volume.intensity) cell = std::min(cell, 100.0F);
+  volume.intensity[20 + 60 * (25 + 50 * 15)] = 200;  // one cell of 2 mm3
+  try {
+    mesh_of_image(volume, {.keep_min = 50, .keep_max = 150, .edge = 5e-3, .others = {{200, 200}}}, "scan");
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("scan: tetrahedra of 5 mm are too coarse for the tissue of region 1: "
+                                        "they fill 0 cm3 of its 0.002; write a smaller --tetrahedra-mm"));
+  }
+}
+
 TEST(MeshOfImage, StandsAsABodyOfTheImageWouldWhereAxesAreLeftHanded) {
   Volume volume = three_balls();
   volume.orientation = Eigen::Vector3d(-1, 1, 1).asDiagonal();
