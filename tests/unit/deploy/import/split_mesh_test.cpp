@@ -93,5 +93,30 @@ TEST(SplitMesh, KnowsWhatEachTetrahedronWasPartOf) {
   EXPECT_NEAR(sides_of(mesh, split).above, 0.94 * ball, 0.04 * ball);
 }
 
+/// Whichever way it is cut: the outside of both sides together encloses both.
+TEST(SplitMesh, MakesBothSidesOfATetrahedronMeet) {
+  std::uint32_t seed = 1;
+  const auto random = [&seed] { return (seed = seed * 1664525U + 1013904223U) / 4294967296.0 - 0.5; };
+  for (int n = 0; n < 3000; ++n) {
+    physics::TetMesh mesh;
+    for (int corner = 0; corner < 4; ++corner) mesh.nodes.emplace_back(random(), random(), random());
+    mesh.tets = {{0, 1, 2, 3}};
+    mesh.region = {0};
+    tidy(mesh);
+    const double volume = volume_of(mesh);
+    if (volume < 0.01) continue;
+    const Vec3 normal(random(), random(), random());
+    split_mesh(mesh, [&](const Vec3& x) { return x.dot(normal); });
+    double outside = 0;  // by the divergence theorem
+    for (const auto& t : outer_faces(mesh).triangles) {
+      const auto at = [&](std::size_t c) { return mesh.nodes[static_cast<std::size_t>(t[c])]; };
+      outside += at(0).dot(at(1).cross(at(2))) / 6;
+    }
+    EXPECT_NEAR(outside, volume_of(mesh), 1e-12) << n;
+    EXPECT_TRUE(pinches_of(mesh, outer_faces(mesh)).none()) << n;
+    EXPECT_EQ(n_pieces_of(mesh), 1U) << n;
+  }
+}
+
 }  // namespace
 }  // namespace palpate
