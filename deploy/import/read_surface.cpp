@@ -133,6 +133,9 @@ bool is_surface_format(const std::string& path) {
 
 SurfaceContent read_surface(const std::string& path, double metres) {
   const std::string bytes = bytes_of_file(path), ending = surface_ending(path);
+  // Assimp looks for it for ever.
+  if (ending == ".ply" && bytes.find("\nend_header") == bytes.npos)
+    complain(path, "its header has no end, a line end_header; fetch a whole copy");
   Assimp::Importer importer;
   keep_reader_of(ending, importer);
   // The importer deletes it.

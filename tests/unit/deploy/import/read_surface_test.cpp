@@ -94,6 +94,8 @@ TEST(ReadSurface, SaysWhatIsWrong) {
            {"a.off", replaced(off, "10 10 10", "10 nan 10"), not_finite},
            {"a.ply", replaced(as_ply(cube), "3 1 7 5", "3 1 7 50"),
             "a triangle names a point that is not there; fetch a whole copy"},
+           {"a.ply", replaced(as_ply(cube), "end_header", "end_he9der"),
+            "its header has no end, a line end_header; fetch a whole copy"},
            {"a.stl", binary.substr(0, binary.size() - 30),
             as_it(".stl", "Failed to determine STL storage representation for it")},
            {"a.stl", replaced(binary, std::string("\x0c\0\0\0", 4), std::string("\xff\xff\xff\xee", 4)),
