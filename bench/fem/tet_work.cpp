@@ -33,14 +33,15 @@ double flops_per_tet(const physics::TetLayout& layout, TetElement element) {
     swelling = counted + 2 + 4 + (n.parts + n.nodes) / n.tets + 4;  // to four corners; and the mean of four
   }
   counted = 0;
+  physics::Undamped none;
   if (element == TetElement::second_order) {
     physics::Tet10Forces<CountingPack> of_ten;
     physics::tet10_forces<CountingPack, false>(k, b, Counting{}, std::array<physics::Column<Counting>, 10>{},
-                                               of_ten);
+                                               none, of_ten);
   } else if (element == TetElement::nodal) {
-    physics::tet_forces<CountingPack, true, false>(k, b, Counting{}, u, Counting{}, out);
+    physics::tet_forces<CountingPack, true, false>(k, b, Counting{}, u, Counting{}, none, out);
   } else {
-    physics::tet_forces<CountingPack, false, false>(k, b, Counting{}, u, Counting{}, out);
+    physics::tet_forces<CountingPack, false, false>(k, b, Counting{}, u, Counting{}, none, out);
   }
   const double summed = 3 * static_cast<double>(layout.n_nodes);  // forces added to nodes
   return counted + swelling + summed + (3 * n.parts + moved * n.nodes) / n.tets;

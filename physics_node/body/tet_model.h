@@ -19,8 +19,7 @@ struct TetModel {
   TetMesh mesh;                        // region: which of the materials
   std::vector<TetMaterial> materials;  // of all either with nodal pressure or without
   std::vector<bool> held;              // of each node; empty: none
-  /// Of the damper: forces act as if the body were at u + beta v, which is stress from the rate of strain, beta times the
-  /// modulus [s].
+  /// Of the damper: stress from the rate of strain, beta times the modulus; see tet_damper.h [s].
   double beta = 0;
 };
 

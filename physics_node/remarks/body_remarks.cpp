@@ -96,20 +96,6 @@ void add_mended(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
   }
 }
 
-/// Forces of tetrahedra act as if they had moved on by viscosity over modulus: what is not held is turned by that.
-void add_spinning(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
-  constexpr double longest =
-      2e-3;  // [s]; at 10 ms a ball on a floor spins up by itself, at 1 ms it comes to rest
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const Body& body = bodies[b]->body();
-    if (body.mesh && body.n_held == 0 && body.mesh->model.beta > longest)
-      remarks.push_back(
-          fmt::format("{}: nothing holds this mesh, and its viscosity over its modulus, {:.3g} ms, is "
-                      "enough to turn it by itself; write at most {:g} ms",
-                      who(scene, b), 1e3 * body.mesh->model.beta, 1e3 * longest));
-  }
-}
-
 void add_voxels(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
   constexpr double most_filled = 0.95;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -238,7 +224,6 @@ Remarks body_remarks(const Scene& scene, const Bodies& bodies) {
   Remarks remarks;
   add_holds(scene, bodies, remarks);
   add_mended(scene, bodies, remarks);
-  add_spinning(scene, bodies, remarks);
   add_voxels(scene, bodies, remarks);
   add_box_of_cells(scene, bodies, remarks);
   add_planes(scene, bodies, remarks);

@@ -32,28 +32,90 @@ struct Tet10Forces {
       stiffness;  // [J]; bound of the tangent of the stress at the points [Pa]; only where they were asked for
 };
 
-template <class P, bool with_energy, class Real, class T = typename P::V>
-inline __attribute__((always_inline)) void tet10_forces(const TetConstants<Real>& k, const TetSlopes<T>& b,
-                                                        T volume, const std::array<Column<T>, 10>& u,
-                                                        Tet10Forces<P>& out) noexcept {
-  const T quarter = P::all(Real(0.25)) * volume;
-  const T far4 = P::all(Real(4 * tet10_far)), more4 = P::all(Real(4 * (tet10_near - tet10_far)));
-  const T far4_less = P::all(Real(4 * tet10_far - 1));
-  std::array<Column<T>, 4> base;  // of w_a, the same for all points
-  for (std::size_t a = 0; a < 4; ++a)
-    for (std::size_t i = 0; i < 3; ++i) {
-      T middles{};
-      for (std::size_t c = 0; c < 4; ++c)
-        if (c != a) middles = middles + u[tet10_between[a][c]][i];
-      base[a][i] = P::fma(far4, middles, far4_less * u[a][i]);
-    }
-  std::array<std::array<Column<T>, 4>, 4> g;  // forces on the corners of the linear one, by point
-  for (std::size_t p = 0; p < 4; ++p) {
+/// What a node gives to w of all points, and the more to that of the point whose barycentric coordinate is near it.
+template <class P>
+struct Tet10Shares {
+  using T = typename P::V;
+  using Real = typename P::Number;
+  T far4 = P::all(Real(4 * tet10_far)), more4 = P::all(Real(4 * (tet10_near - tet10_far)));
+  T far4_less = P::all(Real(4 * tet10_far - 1));
+
+  /// Of w_a, the same for all points.
+  inline __attribute__((always_inline)) std::array<Column<T>, 4> base(
+      const std::array<Column<T>, 10>& u) const noexcept {
+    std::array<Column<T>, 4> base;
+    for (std::size_t a = 0; a < 4; ++a)
+      for (std::size_t i = 0; i < 3; ++i) {
+        T middles{};
+        for (std::size_t c = 0; c < 4; ++c)
+          if (c != a) middles = middles + u[tet10_between[a][c]][i];
+        base[a][i] = P::fma(far4, middles, far4_less * u[a][i]);
+      }
+    return base;
+  }
+  /// w_a of a point.
+  inline __attribute__((always_inline)) std::array<Column<T>, 4> at(const std::array<Column<T>, 4>& base,
+                                                                    const std::array<Column<T>, 10>& u,
+                                                                    std::size_t point) const noexcept {
     std::array<Column<T>, 4> w;
     for (std::size_t a = 0; a < 4; ++a)
-      for (std::size_t i = 0; i < 3; ++i) w[a][i] = P::fma(more4, u[tet10_between[a][p]][i], base[a][i]);
+      for (std::size_t i = 0; i < 3; ++i) w[a][i] = P::fma(more4, u[tet10_between[a][point]][i], base[a][i]);
+    return w;
+  }
+  /// Forces on w_a of each point to the nodes.
+  inline __attribute__((always_inline)) void back(const std::array<std::array<Column<T>, 4>, 4>& g,
+                                                  std::array<Column<T>, 10>& f) const noexcept {
+    for (std::size_t i = 0; i < 3; ++i) {
+      std::array<T, 4> sum;
+      for (std::size_t a = 0; a < 4; ++a) {
+        sum[a] = (g[0][a][i] + g[1][a][i]) + (g[2][a][i] + g[3][a][i]);
+        f[a][i] = P::fma(more4, g[a][a][i], far4_less * sum[a]);
+      }
+      for (std::size_t e = 0; e < 6; ++e) {
+        const std::size_t a = tet_edges[e][0], c = tet_edges[e][1];
+        f[4 + e][i] = P::fma(more4, g[c][a][i] + g[a][c][i], far4 * (sum[a] + sum[c]));
+      }
+    }
+  }
+};
+
+/// The damper of all points.
+template <class P, bool apart_>
+struct Tet10Damping {
+  using T = typename P::V;
+  static constexpr bool any = true, apart = apart_;
+  T beta;                              // [s]
+  const std::array<Column<T>, 10>* v;  // of the nodes [m/s]
+  T power{}, growth{};                 // see TetDamping
+  std::array<Column<T>, 10> f;         // its part alone; only apart [N]
+};
+
+/// @param damping  Undamped or Tet10Damping
+template <class P, bool with_energy, class Real, class Damping, class T = typename P::V>
+inline __attribute__((always_inline)) void tet10_forces(const TetConstants<Real>& k, const TetSlopes<T>& b,
+                                                        T volume, const std::array<Column<T>, 10>& u,
+                                                        Damping& damping, Tet10Forces<P>& out) noexcept {
+  const T quarter = P::all(Real(0.25)) * volume;
+  const Tet10Shares<P> shares;
+  const std::array<Column<T>, 4> base = shares.base(u);
+  [[maybe_unused]] std::array<Column<T>, 4> base_v;
+  if constexpr (Damping::any) base_v = shares.base(*damping.v);
+  std::array<std::array<Column<T>, 4>, 4> g;  // forces on the corners of the linear one, by point
+  [[maybe_unused]] std::array<std::array<Column<T>, 4>, 4> g_of_rate;
+  for (std::size_t p = 0; p < 4; ++p) {
     TetForces<P> at_point;
-    tet_forces<P, false, with_energy>(k, b, quarter, w, T{}, at_point);
+    const std::array<Column<T>, 4> w = shares.at(base, u, p);
+    if constexpr (Damping::any) {
+      const std::array<Column<T>, 4> rate = shares.at(base_v, *damping.v, p);
+      TetDamping<P, Damping::apart> here{.beta = damping.beta, .v = &rate};
+      tet_forces<P, false, with_energy>(k, b, quarter, w, T{}, here, at_point);
+      damping.power = p == 0 ? here.power : damping.power + here.power;
+      if constexpr (with_energy)
+        damping.growth = p == 0 ? here.growth : damping.growth < here.growth ? here.growth : damping.growth;
+      if constexpr (Damping::apart) tet_spread<P>(b, quarter, here.stress, g_of_rate[p]);
+    } else {
+      tet_forces<P, false, with_energy>(k, b, quarter, w, T{}, damping, at_point);
+    }
     g[p] = at_point.f;
     if constexpr (with_energy) {
       out.change = p == 0 ? at_point.change : at_point.change < out.change ? at_point.change : out.change;
@@ -63,17 +125,8 @@ inline __attribute__((always_inline)) void tet10_forces(const TetConstants<Real>
                                                            : out.stiffness;
     }
   }
-  for (std::size_t i = 0; i < 3; ++i) {
-    std::array<T, 4> sum;
-    for (std::size_t a = 0; a < 4; ++a) {
-      sum[a] = (g[0][a][i] + g[1][a][i]) + (g[2][a][i] + g[3][a][i]);
-      out.f[a][i] = P::fma(more4, g[a][a][i], far4_less * sum[a]);
-    }
-    for (std::size_t e = 0; e < 6; ++e) {
-      const std::size_t a = tet_edges[e][0], c = tet_edges[e][1];
-      out.f[4 + e][i] = P::fma(more4, g[c][a][i] + g[a][c][i], far4 * (sum[a] + sum[c]));
-    }
-  }
+  shares.back(g, out.f);
+  if constexpr (Damping::apart) shares.back(g_of_rate, damping.f);
 }
 
 }  // namespace palpate::physics

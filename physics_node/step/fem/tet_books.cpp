@@ -1,6 +1,7 @@
 // What a body of tetrahedra has of energy and momentum.
 
 #include <Eigen/Geometry>
+#include <numeric>
 
 #include "common/math/state_hash.h"
 #include "physics_node/step/fem/four_array.h"
@@ -11,11 +12,8 @@ namespace palpate::physics {
 template <class Real>
 Energies Tetrahedra<Real>::energies(const Vec3& gravity) {
   Energies e;
-  elements(context(), {}, kernel_.energies);
+  elements(context(), {}, sweep(), sweep().watched_forces);
   e.elastic = elastic();
-  TetContext<Real> m = context();
-  m.beta = static_cast<Real>(model_.beta);
-  elements(m, {}, kernel_.forces);
   double power = 0;
   for (std::size_t n = 0; n < n_nodes(); ++n) {
     if (inverse_mass_[n] == 0) continue;
@@ -40,19 +38,30 @@ Losses Tetrahedra<Real>::losses() const noexcept {
 template <class Real>
 Losses Tetrahedra<Real>::due() {
   if (model_.beta == 0 || dt_before_ == 0) return {};
-  TetContext<Real> m = context();
-  elements(m, {}, kernel_.energies);
-  const double at_u = elastic();
-  m.beta = static_cast<Real>(model_.beta);
-  elements(m, {}, kernel_.watched_forces);
-  double passed = passed_;
-  for (std::size_t n = 0; n < n_nodes(); ++n) {
-    Vec3 force = vector_at(seen_f_, n);
-    for (Index p = layout_.of_node.begin[n]; p < layout_.of_node.begin[n + 1]; ++p)
-      force += vector_at(force_, static_cast<std::size_t>(layout_.of_node.part[static_cast<std::size_t>(p)]));
-    passed += 0.5 * model_.beta * force.dot(vector_at(v_, n) - vector_at(seen_v_, n));
+  Losses due{.viscous = passed_ - viscous_};
+  if (!rate_known_) {
+    elements(context(), {}, sweep(), sweep().energies);
+    due.viscous += lost_by_power();
+    return due;
   }
-  return {.viscous = passed + elastic() - at_u - viscous_};
+  elements(context(), {}, sweep(), sweep().apart);
+  double of_damper = 0;
+  for (std::size_t n = 0; n < n_nodes(); ++n) {
+    Vec3 force = vector_at(seen_rate_, n);
+    for (Index p = layout_.of_node.begin[n]; p < layout_.of_node.begin[n + 1]; ++p)
+      force +=
+          vector_at(rate_force_, static_cast<std::size_t>(layout_.of_node.part[static_cast<std::size_t>(p)]));
+    of_damper -= force.dot(vector_at(v_, n));
+  }
+  (of_damper > 0 ? due.viscous : due.numerical) += 0.5 * dt_before_ * of_damper;
+  return due;
+}
+
+template <class Real>
+double Tetrahedra<Real>::damper_power() {
+  if (power_.empty()) return 0;
+  elements(context(), {}, sweep(), sweep().energies);
+  return std::accumulate(power_.begin(), power_.end(), 0.0);
 }
 
 template <class Real>
@@ -88,6 +97,7 @@ bool Tetrahedra<Real>::is_finite() const noexcept {
 template Energies Tetrahedra<float>::energies(const Vec3&);
 template Losses Tetrahedra<float>::losses() const noexcept;
 template Losses Tetrahedra<float>::due();
+template double Tetrahedra<float>::damper_power();
 template Watch Tetrahedra<float>::watch() const noexcept;
 template Momenta Tetrahedra<float>::momenta() const noexcept;
 template std::uint64_t Tetrahedra<float>::hash(std::uint64_t) const noexcept;
@@ -95,6 +105,7 @@ template bool Tetrahedra<float>::is_finite() const noexcept;
 template Energies Tetrahedra<double>::energies(const Vec3&);
 template Losses Tetrahedra<double>::losses() const noexcept;
 template Losses Tetrahedra<double>::due();
+template double Tetrahedra<double>::damper_power();
 template Watch Tetrahedra<double>::watch() const noexcept;
 template Momenta Tetrahedra<double>::momenta() const noexcept;
 template std::uint64_t Tetrahedra<double>::hash(std::uint64_t) const noexcept;

@@ -66,10 +66,10 @@ inline __attribute__((always_inline)) Real* node_at(Real* nodes, std::uint16_t c
   using Byte = std::conditional_t<std::is_const_v<Real>, const char, char>;
   return reinterpret_cast<Real*>(reinterpret_cast<Byte*>(nodes) + 8 * static_cast<std::size_t>(corner));
 }
-/// The same of one number for each node.
-template <class Real>
-inline __attribute__((always_inline)) Real& number_at(Real* numbers, std::uint16_t corner) {
-  return *reinterpret_cast<Real*>(reinterpret_cast<char*>(numbers) + 2 * static_cast<std::size_t>(corner));
+/// The same of n numbers for each node.
+template <std::size_t n, class Real>
+inline __attribute__((always_inline)) Real* numbers_at(Real* numbers, std::uint16_t corner) {
+  return reinterpret_cast<Real*>(reinterpret_cast<char*>(numbers) + 2 * n * static_cast<std::size_t>(corner));
 }
 
 /// Vectors of the nodes of every fourth lane, one after the other.

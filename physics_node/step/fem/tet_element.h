@@ -15,6 +15,7 @@
 // Source: Bonet & Burton 1998 for the average pressure of nodes.
 
 #include "physics_node/material/stable_neo_hookean.h"
+#include "physics_node/step/fem/tet_damper.h"
 
 namespace palpate::physics {
 
@@ -22,10 +23,6 @@ template <class Real>
 struct TetConstants {
   Real mu = 0, lambda = 0;  // [Pa]
 };
-
-/// By component; of one corner, or of one difference of corners.
-template <class T>
-using Column = std::array<T, 3>;
 
 /// Slopes of the shape functions of corners 1, 2, 3 [1/m].
 template <class T>
@@ -53,6 +50,22 @@ inline __attribute__((always_inline)) T tet_volume_change(const TetSlopes<T>& b,
   return StableNeoHookean<P>::volume_change(h, cofactor<P>(h));
 }
 
+/// J - 1, and J' = cof F : F' of the velocities of the corners.
+template <class T>
+struct TetGrowth {
+  T change, rate;
+};
+template <class P, class T = typename P::V>
+inline __attribute__((always_inline)) TetGrowth<T> tet_growth(const TetSlopes<T>& b,
+                                                              const std::array<Column<T>, 4>& u,
+                                                              const std::array<Column<T>, 4>& v) noexcept {
+  const Tensor<T> h = tet_gradient<P>(b, u), rate = tet_gradient<P>(b, v), cof = cofactor<P>(h);
+  T sum = P::fma(trace(h), trace(rate), trace(rate));  // cof F = cof H - H^T + (1 + tr H) I
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) sum = P::fma(cof[i][j] - h[j][i], rate[i][j], sum);
+  return {StableNeoHookean<P>::volume_change(h, cof), sum};
+}
+
 template <class P>
 struct TetForces {
   using T = typename P::V;
@@ -62,11 +75,25 @@ struct TetForces {
   T stiffness;  // bound of the tangent of the stress [Pa]; only there
 };
 
+/// f_k of a stress.
+template <class P, class T = typename P::V>
+inline __attribute__((always_inline)) void tet_spread(const TetSlopes<T>& b, T volume,
+                                                      const Tensor<T>& stress,
+                                                      std::array<Column<T>, 4>& f) noexcept {
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t c = 0; c < 3; ++c)
+      f[c + 1][i] =
+          -(volume * P::fma(stress[i][2], b[c][2], P::fma(stress[i][1], b[c][1], stress[i][0] * b[c][0])));
+    f[0][i] = -(f[1][i] + f[2][i] + f[3][i]);
+  }
+}
+
 /// @param mean  j_t; only with nodal pressure
-template <class P, bool nodal, bool with_energy, class Real, class T = typename P::V>
+/// @param damping  Undamped or TetDamping
+template <class P, bool nodal, bool with_energy, class Real, class Damping, class T = typename P::V>
 inline __attribute__((always_inline)) void tet_forces(const TetConstants<Real>& k, const TetSlopes<T>& b,
                                                       T volume, const std::array<Column<T>, 4>& u, T mean,
-                                                      TetForces<P>& out) noexcept {
+                                                      Damping& damping, TetForces<P>& out) noexcept {
   const StableNeoHookean<P> law{P::all(k.mu), P::all(k.lambda)};
   const Tensor<T> h = tet_gradient<P>(b, u), cof = cofactor<P>(h);
   out.change = law.volume_change(h, cof);
@@ -79,13 +106,11 @@ inline __attribute__((always_inline)) void tet_forces(const TetConstants<Real>& 
     out.energy = volume * law.psi(h, out.change, nodal ? law.mu : law.lambda + law.mu);
     out.stiffness = law.stiffness(h, cof, p - law.mu);
   }
-  const Tensor<T> stress = law.stress(h, cof, p);
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t c = 0; c < 3; ++c)
-      out.f[c + 1][i] =
-          -(volume * P::fma(stress[i][2], b[c][2], P::fma(stress[i][1], b[c][1], stress[i][0] * b[c][0])));
-    out.f[0][i] = -(out.f[1][i] + out.f[2][i] + out.f[3][i]);
-  }
+  if constexpr (nodal && Damping::any) p = P::fma(law.lambda * damping.beta, damping.mean, p);
+  Tensor<T> stress = law.stress(h, cof, p);
+  if constexpr (Damping::any)
+    damping.template add<nodal, with_energy>(law, h, cof, tet_gradient<P>(b, *damping.v), volume, stress);
+  tet_spread<P>(b, volume, stress, out.f);
 }
 
 }  // namespace palpate::physics

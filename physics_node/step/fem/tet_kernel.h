@@ -10,8 +10,7 @@ namespace palpate::physics {
 
 /// What a chunk of nodes did in a step; kept by chunk so that no two threads share one.
 struct TetNodeLedger {
-  double passed =
-      0;  // beta/2 (f + f') . (v' - v), what the damper took and what lies between u and u + beta v; only damped [J]
+  double of_damper = 0;  // - (f + f_before) . v of the damper's forces; only where they are known [W]
   double numerical = 0;  // what another dt than before takes; only where it is another [J]
   // when watched:
   double speed2 = 0;         // largest [m^2/s^2]
@@ -39,13 +38,17 @@ struct TetContext {
   const double* stiffness_at_rest;  // of each material: bound of the tangent of its stress [Pa]
   Real* u;                          // displacement [m]                             (4 nodes)
   Real* v;                          // velocity [m/s]                               (4 nodes)
-  Real* seen_v;                     // velocity and force one step ago; only damped (4 nodes)
-  Real* seen_f;
-  const Real* inverse_mass;  // 0: held [1/kg]                               (nodes)
-  Real* force;               // of each part [N]                             (4 parts)
-  Real* swelling;   // of each part, sum of V_t / 4 (J_t - 1); only with nodal pressure [m^3]  (parts)
-  Real* mean;       // j_n; only with nodal pressure                (shares)
-  double* elastic;  // of each block, when asked for [J]
+  Real* seen_rate;                  // forces of the damper one step ago; only apart [N] (4 nodes)
+  const Real* inverse_mass;         // 0: held [1/kg]                               (nodes)
+  Real* force;                      // of each part [N]                             (4 parts)
+  Real* rate_force;                 // of the damper alone; only apart [N]          (4 parts)
+  /// Of each part, sum of V_t / 4 (J_t - 1), damped one after the other with that of V_t / 4 J_t'; only with nodal pressure [m^3, m^3/s]
+  Real* swelling;           // (parts, or twice)
+  Real* mean;               // j_n; only with nodal pressure                (shares)
+  Real* mean_rate;          // j_n'; only damped, too [1/s]                 (shares)
+  double* power;            // that the damper takes from each block; only damped [W]
+  double* power_of_shares;  // and of each chunk of shares [W]
+  double* elastic;          // of each block, when asked for [J]
   double*
       stiffest;  // of each block: the same of its stiffest tetrahedron as it is, over that at rest; when asked for
   double* least_J;            // of each block, when asked for
@@ -53,8 +56,9 @@ struct TetContext {
   TetNodeLedger* ledger;      // of each chunk of nodes
   Real dt, g[3];
   Real dt_before;  // of the step before; 0: there was none
-  Real beta;       // forces at u + beta v; 0 for energies at u [s]
-  bool damped, watch;
+  Real beta;       // of the damper [s]
+  double z;        // beta / 2 of the fastest frequency at rest
+  bool watch;
   bool begins;  // the step before was of another dt, or there was none
 };
 
@@ -63,8 +67,9 @@ enum class TetKind { plain, nodal, second_order };
 /// Nodes and shares that are done at a time.
 inline constexpr Index tet_chunk = 1024;
 
+/// What computes the elements.
 template <class Real>
-struct TetKernel {
+struct TetSweep {
   using OfBlock = void (*)(const TetContext<Real>&, std::size_t block);
   using OfChunk = void (*)(const TetContext<Real>&, std::size_t chunk, Index end);
   OfBlock swell = nullptr;           // only with nodal pressure: volumes of all tetrahedra to the parts
@@ -72,7 +77,14 @@ struct TetKernel {
   OfBlock forces = nullptr;          // of all tetrahedra to the parts
   OfBlock watched_forces = nullptr;  // and energy, stiffness, least J
   OfBlock energies = nullptr;        // the same without forces
-  OfChunk move = nullptr;            // parts to nodes, which move
+  OfBlock apart = nullptr;           // watched, and the damper's forces by themselves, too; only damped
+};
+
+template <class Real>
+struct TetKernel {
+  TetSweep<Real> elastic, damped;
+  typename TetSweep<Real>::OfChunk move = nullptr;        // parts to nodes, which move
+  typename TetSweep<Real>::OfChunk move_apart = nullptr;  // and books what the damper's forces do
 };
 
 namespace sse2 {

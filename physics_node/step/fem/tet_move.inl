@@ -42,9 +42,8 @@ __attribute__((noinline)) void watch_node(const TetContext<Real>& m, const Moved
 }
 
 /// Sums the parts of each node and moves it: v := v + dt (f / m + g), u := u + dt v. A held one stays.
-///
-/// The damper's loss. See lattice/hex_kernel.inl: `passed` and the energy at u + beta v less that at u are what was lost.
-template <class Real>
+/// @tparam apart  the damper's forces are known by themselves; see damper_loss()
+template <class Real, bool apart>
 void move_nodes(const TetContext<Real>& m, std::size_t chunk, Index end) {
   using Q = Quad<Real>;
   using V = typename Q::V;
@@ -64,14 +63,16 @@ void move_nodes(const TetContext<Real>& m, std::size_t chunk, Index end) {
       Q::load(m.force + 4 * static_cast<std::size_t>(m.node_part[e]), part);
       force += part;
     }
-    if (m.damped) {
-      V seen_f, seen_v;
-      Q::load(m.seen_f + 4 * n, seen_f);
-      Q::load(m.seen_v + 4 * n, seen_v);
-      if (m.dt_before > 0)
-        ledger.passed += 0.5 * static_cast<double>(m.beta) * dot3<Real>(force + seen_f, p.v - seen_v);
-      Q::store(m.seen_f + 4 * n, force);
-      Q::store(m.seen_v + 4 * n, p.v);
+    if constexpr (apart) {
+      V rate{}, seen;
+      for (Index e = m.node_begin[n]; e < m.node_begin[n + 1]; ++e) {
+        V part;
+        Q::load(m.rate_force + 4 * static_cast<std::size_t>(m.node_part[e]), part);
+        rate += part;
+      }
+      Q::load(m.seen_rate + 4 * n, seen);
+      Q::store(m.seen_rate + 4 * n, rate);
+      ledger.of_damper -= dot3<Real>(rate + seen, p.v);
     }
     if (w == 0) continue;
     p.acceleration = force * w + g;

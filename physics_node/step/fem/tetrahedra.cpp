@@ -7,6 +7,8 @@
 
 #include "physics_node/material/lame.h"
 #include "physics_node/step/fem/four_array.h"
+#include "physics_node/step/fem/tet_spectrum.h"
+#include "physics_node/step/lattice/hex_kernel.h"
 
 namespace palpate::physics {
 namespace {
@@ -69,16 +71,15 @@ Tetrahedra<Real>::Tetrahedra(TetModel model, InstructionSet set)
   }
   std::size_t colour = 0;
   const std::size_t n = n_nodes(), parts = layout_.node.size();
-  const std::size_t shares = kernel_.swell != nullptr ? layout_.node_of_share.size() : 0;
+  const std::size_t shares = kernel_.elastic.swell != nullptr ? layout_.node_of_share.size() : 0;
+  const bool damped = model_.beta > 0;
   inverse_mass_ = ZeroedArray<Real>(n, colour++);
   const auto masses = masses_of(model_);
   for (std::size_t i = 0; i < n; ++i)
     if (model_.held.empty() || !model_.held[i]) inverse_mass_[i] = static_cast<Real>(1 / masses[i]);
   for (auto* of_nodes : {&u_, &v_}) *of_nodes = Four(4 * n, colour++);
-  if (model_.beta > 0)
-    for (auto* of_nodes : {&seen_v_, &seen_f_}) *of_nodes = Four(4 * n, colour++);
   force_ = Four(4 * parts, colour++);
-  swelling_ = ZeroedArray<Real>(shares > 0 ? parts : 0, colour++);
+  swelling_ = ZeroedArray<Real>(shares > 0 ? (damped ? 2 : 1) * parts : 0, colour++);
   mean_ = ZeroedArray<Real>(shares, colour++);
   share_volume_ = ZeroedArray<Real>(shares, colour++);
   const auto volumes = shares > 0 ? volumes_of_shares(model_, layout_) : std::vector<double>();
@@ -90,6 +91,12 @@ Tetrahedra<Real>::Tetrahedra(TetModel model, InstructionSet set)
   for (auto* of_blocks : {&elastic_, &stiffest_, &least_J_}) of_blocks->resize(layout_.blocks.size());
   elastic_of_shares_.resize(chunks(shares));
   ledger_.resize(chunks(n));
+  if (!damped) return;
+  rate_force_ = Four(4 * parts, colour++);
+  seen_rate_ = Four(4 * n, colour++);
+  mean_rate_ = ZeroedArray<Real>(shares, colour++);
+  for (auto* powers : {&power_, &power_before_}) powers->resize(layout_.blocks.size() + chunks(shares));
+  z_ = 0.5 * model_.beta * std::sqrt(fastest_element(model_));
 }
 
 template <class Real>
@@ -109,17 +116,22 @@ TetContext<Real> Tetrahedra<Real>::context() noexcept {
   m.share_energy = share_energy_.data();
   m.stiffness_at_rest = stiffness_at_rest_.data();
   m.u = u_.data(), m.v = v_.data();
-  m.seen_v = seen_v_.data(), m.seen_f = seen_f_.data();
+  m.seen_rate = seen_rate_.data();
   m.inverse_mass = inverse_mass_.data();
   m.force = force_.data();
+  m.rate_force = rate_force_.data();
   m.swelling = swelling_.data();
   m.mean = mean_.data();
+  m.mean_rate = mean_rate_.data();
+  m.power = power_.data();
+  m.power_of_shares = power_.data() + (power_.empty() ? 0 : layout_.blocks.size());
   m.elastic = elastic_.data();
   m.stiffest = stiffest_.data();
   m.least_J = least_J_.data();
   m.elastic_of_shares = elastic_of_shares_.data();
   m.ledger = ledger_.data();
-  m.damped = model_.beta > 0;
+  m.beta = static_cast<Real>(model_.beta);
+  m.z = z_;
   return m;
 }
 
@@ -138,13 +150,14 @@ void Tetrahedra<Real>::each(const ExplicitStep& step, std::size_t n, const Work&
 
 template <class Real>
 void Tetrahedra<Real>::elements(const TetContext<Real>& m, const ExplicitStep& step,
-                                typename TetKernel<Real>::OfBlock kernel) noexcept {
+                                const TetSweep<Real>& sweep,
+                                typename TetSweep<Real>::OfBlock kernel) noexcept {
   const std::size_t blocks = layout_.blocks.size();
-  if (kernel_.swell != nullptr) {
-    each(step, blocks, [&](std::size_t b) { kernel_.swell(m, b); });
+  if (sweep.swell != nullptr) {
+    each(step, blocks, [&](std::size_t b) { sweep.swell(m, b); });
     const auto shares = static_cast<Index>(layout_.node_of_share.size());
     each(step, elastic_of_shares_.size(), [&](std::size_t c) {
-      kernel_.average(m, c, std::min(static_cast<Index>(c + 1) * tet_chunk, shares));
+      sweep.average(m, c, std::min(static_cast<Index>(c + 1) * tet_chunk, shares));
     });
   }
   each(step, blocks, [&](std::size_t b) { kernel(m, b); });
@@ -164,28 +177,29 @@ StepOutcome Tetrahedra<Real>::step(const ExplicitStep& step) noexcept {
   m.dt_before = static_cast<Real>(dt_before_);
   m.watch = step.watch;
   m.begins = step.dt != dt_before_;
-  const bool books_begin = m.damped && dt_before_ == 0, look = step.watch || books_begin;
-  double at_u = 0;
-  if (m.damped && look) {
-    elements(m, step, kernel_.energies);
-    at_u = elastic();
-    if (step.watch) least_of_all_J_ = std::min(least_of_all_J_, std::ranges::min(least_J_));
-  }
-  m.beta = static_cast<Real>(model_.beta);
-  elements(m, step, look ? kernel_.watched_forces : kernel_.forces);
+  const bool damped = model_.beta > 0, apart = damped && step.struck;
+  const TetSweep<Real>& sweep = this->sweep();
+  elements(m, step, sweep, apart ? sweep.apart : step.watch ? sweep.watched_forces : sweep.forces);
   const auto nodes = static_cast<Index>(n_nodes());
+  const auto move = apart ? kernel_.move_apart : kernel_.move;
   each(step, ledger_.size(),
-       [&](std::size_t c) { kernel_.move(m, c, std::min(static_cast<Index>(c + 1) * tet_chunk, nodes)); });
-  dt_before_ = step.dt;
+       [&](std::size_t c) { move(m, c, std::min(static_cast<Index>(c + 1) * tet_chunk, nodes)); });
 
-  for (const TetNodeLedger& chunk : ledger_) passed_ += chunk.passed, numerical_ += chunk.numerical;
-  if (!look) return {.stiffening = stiffening_, .least_corner_J = least_of_all_J_};
-  const double ahead = m.damped ? elastic() - at_u : 0;
-  if (books_begin) passed_ = viscous_ - ahead;
+  double of_damper = 0;
+  for (const TetNodeLedger& chunk : ledger_) of_damper += chunk.of_damper, numerical_ += chunk.numerical;
+  if (damped) {
+    if (rate_known_ && apart && dt_before_ > 0)
+      (of_damper > 0 ? passed_ : numerical_) += 0.5 * dt_before_ * of_damper;
+    else
+      passed_ += lost_by_power();
+    std::swap(power_, power_before_);
+    rate_known_ = apart;
+  }
+  dt_before_ = step.dt;
   if (step.watch) {
-    viscous_ = m.damped ? passed_ + ahead : 0;
+    viscous_ = passed_;
     watch_ = {};
-    watch_.elastic = m.damped ? at_u : elastic();
+    watch_.elastic = elastic();
     double speed2 = 0;
     for (const TetNodeLedger& chunk : ledger_) {
       watch_.kinetic += chunk.kinetic;
@@ -196,9 +210,17 @@ StepOutcome Tetrahedra<Real>::step(const ExplicitStep& step) noexcept {
     }
     watch_.speed = std::sqrt(speed2);
     stiffening_ = std::ranges::max(stiffest_);
-    if (!m.damped) least_of_all_J_ = std::min(least_of_all_J_, std::ranges::min(least_J_));
+    least_of_all_J_ = std::min(least_of_all_J_, std::ranges::min(least_J_));
   }
   return {.stiffening = stiffening_, .least_corner_J = least_of_all_J_};
+}
+
+template <class Real>
+double Tetrahedra<Real>::lost_by_power() const noexcept {
+  double lost = 0;
+  for (std::size_t n = 0; dt_before_ > 0 && n < power_.size(); ++n)
+    lost += damper_loss(dt_before_, power_before_[n], power_[n]);
+  return lost;
 }
 
 template <class Real>
@@ -208,7 +230,7 @@ double Tetrahedra<Real>::inverse_mass(Index node) const noexcept {
 
 template <class Real>
 void Tetrahedra<Real>::forces(std::vector<Vec3>& out) noexcept {
-  elements(context(), {}, kernel_.forces);
+  elements(context(), {}, kernel_.elastic, kernel_.elastic.forces);
   for (std::size_t n = 0; n < n_nodes(); ++n) {
     out[n] = Vec3::Zero();
     for (Index e = layout_.of_node.begin[n]; e < layout_.of_node.begin[n + 1]; ++e)

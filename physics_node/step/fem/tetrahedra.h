@@ -12,7 +12,9 @@
 
 namespace palpate::physics {
 
-/// Symplectic Euler, and its energy is that of the leapfrog: see lattice/element_step.h. Nothing breaks, and nothing sleeps.
+/// Symplectic Euler, and its energy is that of the leapfrog: see lattice/element_step.h. Nothing breaks, and nothing sleeps. The damper
+/// is booked by the power that it takes, see damper_loss(); between two struck steps by its forces on the nodes, and what these would
+/// give in place of taking is `numerical`.
 /// Cost: bench/fem.
 template <class Real>
 class Tetrahedra {
@@ -21,7 +23,7 @@ class Tetrahedra {
   /// @param set    that this machine runs; avx2 and avx512 give the same bits, sse2 others
   explicit Tetrahedra(TetModel model, InstructionSet set = instruction_set());
 
-  /// A step. Of ExplicitStep: `verlet` and `exact` mean nothing here. Allocates, locks and throws nothing.
+  /// A step. Of ExplicitStep: `verlet` and `exact` mean nothing here; struck ones book exactly. Allocates, locks and throws nothing.
   /// @return of what was watched: least J of the tetrahedra; and the largest stiffening of one, by which squared frequencies of the body
   ///   grow by no more but for some percent (6 in 36 bodies strained by up to 0.4 at random)
   StepOutcome step(const ExplicitStep& step) noexcept;
@@ -62,6 +64,7 @@ class Tetrahedra {
   Losses losses() const noexcept;
   /// What the next step books of the damper that `losses` do not have yet. Cost: two sweeps.
   Losses due();
+  double damper_power();                                       // what the damper takes as it moves now [W]
   double least_J() const noexcept { return least_of_all_J_; }  // of all steps that were watched
   Watch watch() const noexcept;
   Momenta momenta() const noexcept;  // about the origin
@@ -73,9 +76,11 @@ class Tetrahedra {
   TetContext<Real> context() noexcept;
   template <class Work>
   static void each(const ExplicitStep& step, std::size_t n, const Work& work) noexcept;
-  void elements(const TetContext<Real>& m, const ExplicitStep& step,
-                typename TetKernel<Real>::OfBlock kernel) noexcept;
-  double elastic() const noexcept;  // of what was last asked for [J]
+  const TetSweep<Real>& sweep() const noexcept { return model_.beta > 0 ? kernel_.damped : kernel_.elastic; }
+  void elements(const TetContext<Real>& m, const ExplicitStep& step, const TetSweep<Real>& sweep,
+                typename TetSweep<Real>::OfBlock kernel) noexcept;
+  double elastic() const noexcept;        // of what was last asked for [J]
+  double lost_by_power() const noexcept;  // since the last step, of the powers that were last asked for [J]
 
   TetModel model_;
   TetLayout layout_;
@@ -87,15 +92,19 @@ class Tetrahedra {
   std::vector<double> share_energy_;
   TetKernel<Real> kernel_;
 
-  Four u_, v_, seen_v_, seen_f_, force_;
-  ZeroedArray<Real> swelling_, mean_;
+  Four u_, v_, force_;
+  Four rate_force_, seen_rate_;  // see TetContext; only damped
+  ZeroedArray<Real> swelling_, mean_, mean_rate_;
   double dt_before_ = 0;  // [s]
 
   std::vector<double> elastic_, stiffest_, least_J_;  // by block: see TetContext
   std::vector<double> elastic_of_shares_;             // by chunk: the same
-  std::vector<TetNodeLedger> ledger_;                 // by chunk
+  std::vector<double> power_, power_before_;  // of blocks, then of chunks of shares; and a step ago [W]
+  bool rate_known_ = false;                   // seen_rate_ is that of the last step
+  double z_ = 0;                              // see TetContext
+  std::vector<TetNodeLedger> ledger_;         // by chunk
   Watch watch_;
-  double passed_ = 0, viscous_ = 0, numerical_ = 0;  // in all [J]
+  double passed_ = 0, viscous_ = 0, numerical_ = 0;  // in all; passed_: viscous, of unwatched steps, too [J]
   double stiffening_ = 1, least_of_all_J_ = 1;       // of the last watched step; of all
 };
 

@@ -50,7 +50,8 @@ class Tet : public testing::Test {
   template <bool nodal>
   TetForces<One> of(const Points& u, double mean = 0) const {
     TetForces<One> out;
-    tet_forces<One, nodal, true>(k, slopes(), volume, corners(u), mean, out);
+    Undamped none;
+    tet_forces<One, nodal, true>(k, slopes(), volume, corners(u), mean, none, out);
     return out;
   }
   Points forces(const Points& u) const {
