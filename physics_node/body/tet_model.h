@@ -21,6 +21,8 @@ struct TetModel {
   std::vector<bool> held;              // of each node; empty: none
   /// Of the damper: stress from the rate of strain, beta times the modulus; see tet_damper.h [s].
   double beta = 0;
+  /// Of its fastest vibration near rest, squared; 0: not known, and the bound of its elements has to do [1/s^2].
+  double fastest_omega2 = 0;
 };
 
 /// The nodes of a tetrahedron: its corners, then its middles.

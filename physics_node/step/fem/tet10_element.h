@@ -86,8 +86,9 @@ struct Tet10Damping {
   static constexpr bool any = true, apart = apart_;
   T beta;                              // [s]
   const std::array<Column<T>, 10>* v;  // of the nodes [m/s]
-  T power{}, growth{};                 // see TetDamping
-  std::array<Column<T>, 10> f;         // its part alone; only apart [N]
+  T power{};
+  Eigenvalues<T> stretch{}, stretch_of_areas{};  // see TetDamping
+  std::array<Column<T>, 10> f;                   // its part alone; only apart [N]
 };
 
 /// @param damping  Undamped or Tet10Damping
@@ -110,8 +111,7 @@ inline __attribute__((always_inline)) void tet10_forces(const TetConstants<Real>
       TetDamping<P, Damping::apart> here{.beta = damping.beta, .v = &rate};
       tet_forces<P, false, with_energy>(k, b, quarter, w, T{}, here, at_point);
       damping.power = p == 0 ? here.power : damping.power + here.power;
-      if constexpr (with_energy)
-        damping.growth = p == 0 ? here.growth : damping.growth < here.growth ? here.growth : damping.growth;
+      if constexpr (with_energy) widen(damping.stretch, here.stretch);
       if constexpr (Damping::apart) tet_spread<P>(b, quarter, here.stress, g_of_rate[p]);
     } else {
       tet_forces<P, false, with_energy>(k, b, quarter, w, T{}, damping, at_point);

@@ -22,6 +22,29 @@ namespace palpate::physics {
 template <class T>
 using Column = std::array<T, 3>;
 
+/// Of a symmetric M: no eigenvalue of it is above mean + sqrt(2 spread), and of many none above that of their largest means and spreads.
+/// Source: Wolkowicz & Styan 1980.
+template <class T>
+struct Eigenvalues {
+  T mean{}, spread{};
+};
+/// Of A^T A - I, A = I + H.
+template <class P, class T = typename P::V>
+inline __attribute__((always_inline)) Eigenvalues<T> stretches_of(const Tensor<T>& h) noexcept {
+  Tensor<T> m;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = i; j < 3; ++j)
+      m[i][j] = m[j][i] =
+          P::fma(h[2][i], h[2][j], P::fma(h[1][i], h[1][j], P::fma(h[0][i], h[0][j], h[i][j] + h[j][i])));
+  const T third = P::all(typename P::Number(1.0 / 3)), mean = third * trace(m);
+  return {mean, P::fma(third, double_dot<P>(m, m), -(mean * mean))};
+}
+template <class T>
+inline __attribute__((always_inline)) void widen(Eigenvalues<T>& to, const Eigenvalues<T>& by) noexcept {
+  to.mean = to.mean < by.mean ? by.mean : to.mean;
+  to.spread = to.spread < by.spread ? by.spread : to.spread;
+}
+
 struct Undamped {
   static constexpr bool any = false, apart = false;
 };
@@ -35,8 +58,9 @@ struct TetDamping {
   const std::array<Column<T>, 4>* v;  // of the corners [m/s]
   T mean{};                           // j_t'; only with nodal pressure [1/s]
   // Results.
-  T power{};           // without that of the nodes' volumes where they have one [W]
-  T growth{};          // how much stiffer it is than at rest, at most; only with the energy
+  T power{};  // without that of the nodes' volumes where they have one [W]
+  /// Of F^T F - I, and with nodal pressure the same of cof F: by their largest eigenvalues the damper grows; only with the energy.
+  Eigenvalues<T> stretch{}, stretch_of_areas{};
   Tensor<T> stress{};  // its part alone; only apart [Pa]
 
   /// Adds F S_v. With nodal pressure the sum has the part of the nodes already.
@@ -73,33 +97,31 @@ struct TetDamping {
         if constexpr (apart)
           stress[i][j] = P::fma(f[i][0], s[0][j], P::fma(f[i][1], s[1][j], f[i][2] * s[2][j]));
       }
-    if constexpr (!apart && !with_energy) return;
-    Tensor<T> of_volume = cof;  // cof F
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j) of_volume[i][j] = of_volume[i][j] - h[j][i];
-    for (std::size_t i = 0; i < 3; ++i) of_volume[i][i] = of_volume[i][i] + (trace(h) + P::all(1));
-    if constexpr (apart && nodal)
+    if constexpr (with_energy) stretch = stretches_of<P>(h);
+    if constexpr (nodal && (apart || with_energy)) {
+      Tensor<T> areas = cof;  // cof F - I
       for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j)
-          stress[i][j] = P::fma(beta * law.lambda * mean, of_volume[i][j], stress[i][j]);
-    if constexpr (with_energy) {
-      const T three = P::all(3), none = P::all(0);
-      T more = double_dot<P>(f, f) - three;
-      const T more_volume = double_dot<P>(of_volume, of_volume) - three;
-      if constexpr (nodal) more = more < more_volume ? more_volume : more;
-      growth = P::all(1) + (more > none ? more : none);
+        for (std::size_t j = 0; j < 3; ++j) areas[i][j] = areas[i][j] - h[j][i];
+      for (std::size_t i = 0; i < 3; ++i) areas[i][i] = areas[i][i] + trace(h);
+      if constexpr (with_energy) stretch_of_areas = stretches_of<P>(areas);
+      if constexpr (apart) {
+        const T pressure = beta * law.lambda * mean;
+        for (std::size_t i = 0; i < 3; ++i)
+          for (std::size_t j = 0; j < 3; ++j) stress[i][j] = P::fma(pressure, areas[i][j], stress[i][j]);
+        for (std::size_t i = 0; i < 3; ++i) stress[i][i] = stress[i][i] + pressure;
+      }
     }
   }
 };
 
-/// How much the stable step shortens, squared, where the law is stiffer than at rest by `of_law` and the damper by `of_damper`, since it is
-/// 2 over omega (sqrt(1 + z^2) + z) of the fastest vibration.
+/// How many times the steps at rest are wanted where the law is stiffer than there by `of_law` and the damper by `of_damper`: as many as without
+/// a damper, of_law, which has its root to spare, and no less than are stable, by omega (sqrt(1 + z^2) + z) of the fastest vibration.
 /// @param z  beta omega / 2 at rest
 inline __attribute__((always_inline)) double damped_stiffening(double of_law, double of_damper,
                                                                double z) noexcept {
   const double now = std::sqrt(of_law + z * z * of_damper * of_damper) + z * of_damper;
-  const double at_rest = std::sqrt(1 + z * z) + z;
-  return now * now / (at_rest * at_rest);
+  const double stable = now / (std::sqrt(1 + z * z) + z);
+  return of_law < stable ? stable : of_law;
 }
 
 }  // namespace palpate::physics

@@ -43,12 +43,16 @@ struct TetContext {
   Real* force;                      // of each part [N]                             (4 parts)
   Real* rate_force;                 // of the damper alone; only apart [N]          (4 parts)
   /// Of each part, sum of V_t / 4 (J_t - 1), damped one after the other with that of V_t / 4 J_t'; only with nodal pressure [m^3, m^3/s]
-  Real* swelling;           // (parts, or twice)
-  Real* mean;               // j_n; only with nodal pressure                (shares)
-  Real* mean_rate;          // j_n'; only damped, too [1/s]                 (shares)
-  double* power;            // that the damper takes from each block; only damped [W]
-  double* power_of_shares;  // and of each chunk of shares [W]
-  double* elastic;          // of each block, when asked for [J]
+  Real* swelling;                // (parts, or twice)
+  Real* mean;                    // j_n; only with nodal pressure                (shares)
+  Real* mean_rate;               // j_n'; only damped, too [1/s]                 (shares)
+  const Real* mean_rate_before;  // one step ago
+  double* power;  // that the damper takes from each batch, without that of shares; only damped [W]
+  const double* power_before;  // one step ago
+  double* power_of_shares;     // of each chunk of shares, when damped [W]
+  double* lost;            // by dt, in each block since the step before, see damper_loss(); only damped [W]
+  double* lost_of_shares;  // and in each chunk of shares [W]
+  double* elastic;         // of each block, when asked for [J]
   double*
       stiffest;  // of each block: the same of its stiffest tetrahedron as it is, over that at rest; when asked for
   double* least_J;            // of each block, when asked for
@@ -57,7 +61,7 @@ struct TetContext {
   Real dt, g[3];
   Real dt_before;  // of the step before; 0: there was none
   Real beta;       // of the damper [s]
-  double z;        // beta / 2 of the fastest frequency at rest
+  double z;        // beta / 2 times the fastest frequency at rest
   bool watch;
   bool begins;  // the step before was of another dt, or there was none
 };

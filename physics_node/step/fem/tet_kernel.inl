@@ -1,6 +1,8 @@
 // The kernel of tetrahedra, compiled once per instruction set: tet_kernel_{sse2,avx2,avx512}.cpp define PALPATE_KERNEL and
 // include this.
 
+#include <cmath>
+
 #include "physics_node/step/fem/tet_kernel.h"
 // after the context
 #include "physics_node/step/fem/tet_corners.inl"
@@ -96,7 +98,7 @@ template <class Real, bool damped>
 void average(const TetContext<Real>& m, std::size_t chunk, Index end) {
   constexpr std::size_t n_sums = damped ? 2 : 1;
   double energy = 0;
-  [[maybe_unused]] double power = 0;
+  [[maybe_unused]] double power = 0, lagging = 0;
   const Index first = static_cast<Index>(chunk) * tet_chunk;
   for (auto s = static_cast<std::size_t>(first); s < static_cast<std::size_t>(end); ++s) {
     Real sum[n_sums] = {};
@@ -109,11 +111,17 @@ void average(const TetContext<Real>& m, std::size_t chunk, Index end) {
     if constexpr (damped) {
       const Real rate = sum[1] * m.share_volume[s];
       m.mean_rate[s] = rate;
-      power += m.share_energy[s] * static_cast<double>(rate) * static_cast<double>(rate);
+      const auto now = static_cast<double>(rate), before = static_cast<double>(m.mean_rate_before[s]);
+      power += m.share_energy[s] * now * now;
+      lagging += m.share_energy[s] * std::abs(now * before);
     }
   }
   m.elastic_of_shares[chunk] = energy;
-  if constexpr (damped) m.power_of_shares[chunk] = 2 * static_cast<double>(m.beta) * power;
+  if constexpr (damped) {
+    const auto beta = static_cast<double>(m.beta);
+    m.power_of_shares[chunk] = 2 * beta * power;
+    m.lost_of_shares[chunk] = beta * (power + lagging);
+  }
 }
 
 /// Sums what it is given lane by lane, in the same order whatever the width.
@@ -232,10 +240,13 @@ void block_forces(const TetContext<Real>& m, std::size_t b) {
     rate_sums = m.rate_force + 4 * block.first_part;
     std::memset(rate_sums, 0, 4 * block.n_parts * sizeof(Real));
   }
-  [[maybe_unused]] ByLane<Real> elastic, power;
-  [[maybe_unused]] V stiffest{}, growth{}, least = P::all(1);
+  [[maybe_unused]] ByLane<Real> elastic;
+  [[maybe_unused]] V stiffest{}, least = P::all(1);
+  [[maybe_unused]] Eigenvalues<V> stretch, stretch_of_areas;
+  [[maybe_unused]] double lost = 0;
   for (std::size_t n = 0; n < block.n_batches; ++n) {
     const auto& batch = Element::batches(m)[block.first_batch + n];
+    [[maybe_unused]] ByLane<Real> power;
     for (std::size_t lane = 0; lane < tet_lanes; lane += P::width) {
       typename Element::Nodes u;
       V fourth{};
@@ -250,7 +261,10 @@ void block_forces(const TetContext<Real>& m, std::size_t b) {
         typename Element::template Damping<sweep.apart> damping(P::all(m.beta), &v, fourth_of_rate);
         Element::template compute<sweep.watched>(k, slopes, volume, u, fourth, damping, out);
         power.add(lane, damping.power);
-        if constexpr (sweep.watched) growth = P::larger(growth, damping.growth);
+        if constexpr (sweep.watched) {
+          widen(stretch, damping.stretch);
+          if constexpr (Element::nodal) widen(stretch_of_areas, damping.stretch_of_areas);
+        }
         if constexpr (sweep.apart) add_forces<Real>(damping.f, batch, lane, rate_sums);
       } else {
         Undamped none;
@@ -263,14 +277,26 @@ void block_forces(const TetContext<Real>& m, std::size_t b) {
       }
       if constexpr (sweep.with_forces) add_forces<Real>(out.f, batch, lane, sums);
     }
+    if constexpr (sweep.damped) {
+      const double now = power.total(), squared = now * m.power_before[block.first_batch + n];
+      m.power[block.first_batch + n] = now;
+      lost +=
+          now + (squared > 0 ? std::sqrt(squared) : 0);  // rounding may make it negative where nothing moves
+    }
   }
-  if constexpr (sweep.damped) m.power[b] = power.total();
+  if constexpr (sweep.damped) m.lost[b] = 0.5 * lost;
   if constexpr (sweep.watched) {
     m.elastic[b] = elastic.total();
     const double of_law = static_cast<double>(P::largest(stiffest)) / m.stiffness_at_rest[block.material];
     m.stiffest[b] = of_law;
-    if constexpr (sweep.damped)
-      m.stiffest[b] = damped_stiffening(of_law, static_cast<double>(P::largest(growth)), m.z);
+    if constexpr (sweep.damped) {
+      const auto most = [](const Eigenvalues<V>& all) {
+        const auto mean = static_cast<double>(P::largest(all.mean));
+        return 1 + mean + std::sqrt(2 * static_cast<double>(P::largest(all.spread)));
+      };
+      const double of_stretch = most(stretch), of_areas = most(stretch_of_areas);
+      m.stiffest[b] = damped_stiffening(of_law, of_stretch < of_areas ? of_areas : of_stretch, m.z);
+    }
     m.least_J[b] = 1 - static_cast<double>(P::largest(-least));
   }
 }

@@ -8,7 +8,6 @@
 #include "physics_node/material/lame.h"
 #include "physics_node/step/fem/four_array.h"
 #include "physics_node/step/fem/tet_spectrum.h"
-#include "physics_node/step/lattice/hex_kernel.h"
 
 namespace palpate::physics {
 namespace {
@@ -95,8 +94,11 @@ Tetrahedra<Real>::Tetrahedra(TetModel model, InstructionSet set)
   rate_force_ = Four(4 * parts, colour++);
   seen_rate_ = Four(4 * n, colour++);
   mean_rate_ = ZeroedArray<Real>(shares, colour++);
-  for (auto* powers : {&power_, &power_before_}) powers->resize(layout_.blocks.size() + chunks(shares));
-  z_ = 0.5 * model_.beta * std::sqrt(fastest_element(model_));
+  mean_rate_before_ = ZeroedArray<Real>(shares, colour++);
+  for (auto* powers : {&power_, &power_before_}) powers->resize(layout_.n_batches() + chunks(shares));
+  lost_.resize(layout_.blocks.size() + chunks(shares));
+  const double omega2 = model_.fastest_omega2 > 0 ? model_.fastest_omega2 : fastest_element(model_);
+  z_ = 0.5 * model_.beta * std::sqrt(omega2);
 }
 
 template <class Real>
@@ -123,8 +125,14 @@ TetContext<Real> Tetrahedra<Real>::context() noexcept {
   m.swelling = swelling_.data();
   m.mean = mean_.data();
   m.mean_rate = mean_rate_.data();
-  m.power = power_.data();
-  m.power_of_shares = power_.data() + (power_.empty() ? 0 : layout_.blocks.size());
+  m.mean_rate_before = mean_rate_before_.data();
+  if (model_.beta > 0) {
+    m.power = power_.data();
+    m.power_before = power_before_.data();
+    m.power_of_shares = power_.data() + layout_.n_batches();
+    m.lost = lost_.data();
+    m.lost_of_shares = lost_.data() + layout_.blocks.size();
+  }
   m.elastic = elastic_.data();
   m.stiffest = stiffest_.data();
   m.least_J = least_J_.data();
@@ -193,6 +201,7 @@ StepOutcome Tetrahedra<Real>::step(const ExplicitStep& step) noexcept {
     else
       passed_ += lost_by_power();
     std::swap(power_, power_before_);
+    std::swap(mean_rate_, mean_rate_before_);
     rate_known_ = apart;
   }
   dt_before_ = step.dt;
@@ -217,10 +226,7 @@ StepOutcome Tetrahedra<Real>::step(const ExplicitStep& step) noexcept {
 
 template <class Real>
 double Tetrahedra<Real>::lost_by_power() const noexcept {
-  double lost = 0;
-  for (std::size_t n = 0; dt_before_ > 0 && n < power_.size(); ++n)
-    lost += damper_loss(dt_before_, power_before_[n], power_[n]);
-  return lost;
+  return dt_before_ > 0 ? dt_before_ * std::accumulate(lost_.begin(), lost_.end(), 0.0) : 0;
 }
 
 template <class Real>

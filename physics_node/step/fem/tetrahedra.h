@@ -13,7 +13,7 @@
 namespace palpate::physics {
 
 /// Symplectic Euler, and its energy is that of the leapfrog: see lattice/element_step.h. Nothing breaks, and nothing sleeps. The damper
-/// is booked by the power that it takes, see damper_loss(); between two struck steps by its forces on the nodes, and what these would
+/// is booked by the power that it takes of sixteen tetrahedra at a time, see damper_loss(); between two struck steps by its forces on the nodes, and what these would
 /// give in place of taking is `numerical`.
 /// Cost: bench/fem.
 template <class Real>
@@ -25,7 +25,7 @@ class Tetrahedra {
 
   /// A step. Of ExplicitStep: `verlet` and `exact` mean nothing here; struck ones book exactly. Allocates, locks and throws nothing.
   /// @return of what was watched: least J of the tetrahedra; and the largest stiffening of one, by which squared frequencies of the body
-  ///   grow by no more but for some percent (6 in 36 bodies strained by up to 0.4 at random)
+  ///   grow by no more but for some percent (6 in 36 bodies strained by up to 0.4 at random), nor, damped, shortens its stable step
   StepOutcome step(const ExplicitStep& step) noexcept;
 
   const TetModel& model() const noexcept { return model_; }
@@ -80,7 +80,7 @@ class Tetrahedra {
   void elements(const TetContext<Real>& m, const ExplicitStep& step, const TetSweep<Real>& sweep,
                 typename TetSweep<Real>::OfBlock kernel) noexcept;
   double elastic() const noexcept;        // of what was last asked for [J]
-  double lost_by_power() const noexcept;  // since the last step, of the powers that were last asked for [J]
+  double lost_by_power() const noexcept;  // from the last step to what was last asked for [J]
 
   TetModel model_;
   TetLayout layout_;
@@ -94,12 +94,13 @@ class Tetrahedra {
 
   Four u_, v_, force_;
   Four rate_force_, seen_rate_;  // see TetContext; only damped
-  ZeroedArray<Real> swelling_, mean_, mean_rate_;
+  ZeroedArray<Real> swelling_, mean_, mean_rate_, mean_rate_before_;
   double dt_before_ = 0;  // [s]
 
   std::vector<double> elastic_, stiffest_, least_J_;  // by block: see TetContext
   std::vector<double> elastic_of_shares_;             // by chunk: the same
-  std::vector<double> power_, power_before_;  // of blocks, then of chunks of shares; and a step ago [W]
+  std::vector<double> power_, power_before_;  // of batches, then of chunks of shares; and a step ago [W]
+  std::vector<double> lost_;                  // in blocks, then in chunks of shares: see TetContext
   bool rate_known_ = false;                   // seen_rate_ is that of the last step
   double z_ = 0;                              // see TetContext
   std::vector<TetNodeLedger> ledger_;         // by chunk

@@ -127,6 +127,7 @@ double settle_step(const BodySpec& spec, Body& body, const Scene& scene, bool to
                    std::vector<std::string>& remarks) {
   const PhysicsSpec& physics = *scene.physics;
   const StiffestMode mode = stiffest_mode(body);
+  if (body.mesh) body.mesh->model.fastest_omega2 = mode.omega2;
   const double all = stable_step(mode, physics.integrator);
   const bool may = body.solid && body.solid->beta > 0 && body.solid->relaxation.empty() &&
                    !may_change_for_good(body) && physics.integrator == Integrator::symplectic_euler &&

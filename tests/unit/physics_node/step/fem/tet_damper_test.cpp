@@ -150,10 +150,11 @@ TEST_P(Damped, BooksTheSameWhetherStruckOrNot) {
   EXPECT_NEAR(lost[0], lost[1], 2e-3);
 }
 
-TEST(DampedStiffening, IsTheRatioOfTheStableSteps) {
+TEST(DampedStiffening, IsThatOfTheLawAndNoLessThanTheRatioOfTheStableSteps) {
   EXPECT_DOUBLE_EQ(damped_stiffening(3, 7, 0), 3);
   EXPECT_DOUBLE_EQ(damped_stiffening(1, 1, 2), 1);
-  EXPECT_NEAR(damped_stiffening(3, 7, 1e4), 49, 1e-5);
+  EXPECT_NEAR(damped_stiffening(3, 7, 1e4), 7, 1e-6);
+  EXPECT_DOUBLE_EQ(damped_stiffening(3, 2.5, 1e4), 3);
 }
 
 }  // namespace
