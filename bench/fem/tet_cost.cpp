@@ -81,8 +81,9 @@ std::vector<TetCost> measure_tet_costs(const std::vector<TetCubeKind>& kinds, in
     TetCost cost{.kind = kind, .ns = {}};
     cost.stable_step =
         physics::stable_step(physics::stiffest_mode_of_tetrahedra(model), Integrator::symplectic_euler);
-    cost.flops = flops_per_tet(layout, kind.element);
-    cost.bytes = bytes_per_tet(layout, kind.element, kind.precision == Precision::single_ ? 4 : 8);
+    cost.flops = flops_per_tet(layout, kind.element, kind.damped);
+    cost.bytes =
+        bytes_per_tet(layout, kind.element, kind.precision == Precision::single_ ? 4 : 8, kind.damped);
     cost.nodes_per_tet = static_cast<double>(model.mesh.nodes.size()) / kind.tets();
     costs.push_back(cost);
     if (kind.precision == Precision::single_)

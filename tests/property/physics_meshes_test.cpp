@@ -147,6 +147,40 @@ TEST(Mesh, OfTheFloorKeepsItsBooks) {
   }
 }
 
+/// A ball that nothing holds, much damped, falls on the floor and comes to rest: a damper that a turning body felt would spin it up.
+TEST(Mesh, AMuchDampedBallComesToRestOnTheFloor) {
+  constexpr double radius = 0.02, height = 0.01;
+  TetMesh ball = make_tet_box({.cells = {4, 4, 4}, .edge = radius / 2});
+  for (Vec3& x : ball.nodes) {
+    const Vec3 c = x - Vec3::Constant(radius);
+    x = c.norm() > 0 ? Vec3(c * (c.cwiseAbs().maxCoeff() / c.norm())) : c;
+  }
+  Recipe recipe = mesh_box({1, 1, 1}, 0.01);
+  recipe.shape =
+      "shape = \"mesh\"\nunit = \"mm\"\nelements = \"nodal_pressure\"\nfile = \"" + mesh_file(ball) + "\"";
+  recipe.material = "density_kg_per_m3 = 1000\nmodulus_kPa = 5\npoisson_ratio = 0.45\nviscosity_Pa_s = 50";
+  recipe.gravity = down;
+  recipe.precision = "single";
+  recipe.world = floor_at(-1e3 * (radius + height));
+  World world(scene_of(recipe));
+  double lost = 0;
+  std::array<double, 10> most{};  // kinetic, of each tenth of the time [J]
+  for (int n = 0; n < 300; ++n) {
+    world.frame({});
+    const EnergyLedger now = world.ledger();
+    EXPECT_GE(now.dissipated, lost);
+    lost = now.dissipated;
+    double& of_tenth = most[static_cast<std::size_t>(n) / 30];
+    of_tenth = std::max(of_tenth, now.kinetic);
+  }
+  for (const double kinetic : most) std::printf("%.2e ", kinetic);
+  std::printf("J; %.2e J lost, balance error %.1e\n", lost, world.ledger().balance_error());
+  EXPECT_GT(lost, 0.1 * *std::ranges::max_element(most));
+  EXPECT_LT(most[9], 1e-4 * *std::ranges::max_element(most));
+  EXPECT_LT(most[9], most[5]);
+  EXPECT_EQ(world.report().restored, 0);
+}
+
 /// A hand that feels `force` with its proxy at p.
 std::optional<ToolState> hand_at(const Vec3& p, double force, std::uint64_t tick) {
   ToolState state;
