@@ -52,6 +52,7 @@ struct MaterialSpec {
   std::optional<double> break_ratio;  // b_p > y_p; of finite elements each may stand alone
   std::optional<double>
       fracture_energy;  // of finite elements that break: what a crack takes, by area [J/m^2]
+  std::optional<double> cut_toughness;  // of springs: what a blade takes, by area [J/m^2]
   Place place;
 };
 

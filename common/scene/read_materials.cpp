@@ -141,6 +141,7 @@ void read_plasticity(TableReader& reader, MaterialSpec& spec, bool of_elements) 
   spec.yield_ratio = reader.read_number("yield_ratio", above_one);
   spec.break_ratio = reader.read_number("break_ratio", above_one);
   spec.fracture_energy = reader.read_number("fracture_energy_J_per_m2", positive);
+  spec.cut_toughness = reader.read_number("cut_toughness_J_per_m2", positive);
   if (reader.has("fracture_energy_J_per_m2") && !reader.has("break_ratio"))
     reader.complain("fracture_energy_J_per_m2",
                     fmt::format("\"fracture_energy_J_per_m2\" stands alone in {}; give break_ratio too, at "

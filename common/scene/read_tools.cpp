@@ -17,7 +17,8 @@
 namespace palpate {
 namespace {
 
-const std::vector<std::string> tool_shapes = {"point", "stick", "cylinder", "cone", "box", "knife", "needle"};
+const std::vector<std::string> tool_shapes = {"point", "stick",   "cylinder", "cone",
+                                              "box",   "scalpel", "knife",    "needle"};
 constexpr Range friction_range{.lo = 0, .hi = 2};
 const std::vector<std::string> point_contacts = {"nodes", "faces"};  // in the order of PointContact
 const std::vector<std::string> force_models = {word_of(ForceModel::norton), word_of(ForceModel::tangent),
@@ -40,6 +41,7 @@ std::optional<ToolShape> rigid_shape(const toml::node* word) {
   if (name == "cylinder") return ToolShape::cylinder;
   if (name == "cone") return ToolShape::cone;
   if (name == "box") return ToolShape::box;
+  if (name == "scalpel") return ToolShape::scalpel;
   return std::nullopt;
 }
 
@@ -106,6 +108,18 @@ void check_tool_body(TableReader& reader, const ReadContext& context, const Tool
                   tip.y(), tip.z()));
 }
 
+void read_attitude(TableReader& reader, ToolSpec& spec) {
+  if (const auto degrees = reader.read_numbers("theta_deg", 3, "[about z, about y, about x]"))
+    spec.attitude = rotation_of_angles(
+        {rad_from_deg((*degrees)[0]), rad_from_deg((*degrees)[1]), rad_from_deg((*degrees)[2])});
+}
+
+/// All but the length of its edge.
+void read_scalpel(TableReader& reader, ToolSpec& spec) {
+  spec.edge = rad_from_deg(reader.read_number("edge_deg", {.lo = 0, .hi = 90}).value_or(30));
+  read_attitude(reader, spec);
+}
+
 /// Size and attitude of what is rigid and more than a point; the forces of a stick or body are low-passed.
 void read_rigid(TableReader& reader, ToolSpec& spec) {
   if (spec.shape == ToolShape::box) {
@@ -114,14 +128,13 @@ void read_rigid(TableReader& reader, ToolSpec& spec) {
   } else {
     reader.require("length_mm", "give it a length, such as length_mm = 100");
     set_if(spec.length, reader.read_length_mm("length_mm"));
+    if (spec.shape == ToolShape::scalpel) return read_scalpel(reader, spec);
     spec.radius = spec.shape == ToolShape::stick ? 0.002 : 0.003;
     set_if(spec.radius, reader.read_length_mm("radius_mm"));
   }
   if (spec.shape == ToolShape::stick) set_if(spec.low_pass_Hz, reader.read_number("low_pass_Hz", positive));
   set_if(spec.friction, reader.read_number("friction", friction_range));
-  if (const auto degrees = reader.read_numbers("theta_deg", 3, "[about z, about y, about x]"))
-    spec.attitude = rotation_of_angles(
-        {rad_from_deg((*degrees)[0]), rad_from_deg((*degrees)[1]), rad_from_deg((*degrees)[2])});
+  read_attitude(reader, spec);
 }
 
 /// What the hand feels between two answers of physics.
@@ -143,6 +156,8 @@ void read_force_model(TableReader& reader, ToolSpec& spec) {
           ? "a point feels planes; write \"norton\", \"tissue\", \"raw_planes\" or \"direct\""
       : spec.shape == ToolShape::stick
           ? "a stick is more than a point and feels a wrench; write \"tangent\", \"tissue\" or \"direct\""
+      : spec.shape == ToolShape::scalpel
+          ? "a scalpel feels what its edge takes; write \"tangent\", or leave it out"
       : is_solid_tip(spec.shape)
           ? "this tool feels a copy of tissue; write \"tissue\", or leave it out"
           : "this tool is more than a point and feels a wrench; write \"tangent\" or \"direct\"");

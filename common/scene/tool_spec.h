@@ -12,7 +12,7 @@
 namespace palpate {
 
 /// A point touches tissue by the plane under it; a body is one of the scene's, driven by masses that the
-/// hand holds; cylinder, cone and box are rigid, and go up from the tip; a scalpel cuts with its edge.
+/// hand holds; cylinder, cone and box are rigid, and go up from the tip; a scalpel is an edge that goes up from its tip and toward -x, and cuts.
 enum class ToolShape { point, stick, body, cylinder, cone, box, scalpel };
 
 /// How a point presses: by the masses under it, as in the papers, or as a rigid sphere on sampled faces.
@@ -38,7 +38,8 @@ struct ToolSpec {
   /// Of the hand between two answers of physics, as the scene has it; who goes by it asks force_model.h.
   std::optional<ForceModel> force_model;
   ForceModel own_model = ForceModel::norton;  // of a point, where the scene has none: settle_force_models()
-  double length = 0.1;                        // from tip to end [m]; of a stick, cylinder, cone
+  double length = 0.1;                        // from tip to end [m]; of a stick, cylinder, cone, of the edge of a scalpel
+  double edge = 0;                            // of a scalpel: between its edge and the handle [rad]
   Vec3 size = Vec3::Zero();                   // of a box [m]
   /// Where the handle is not turned; of all but points and bodies.
   Eigen::Matrix3d attitude = Eigen::Matrix3d::Identity();

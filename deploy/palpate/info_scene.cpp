@@ -92,12 +92,17 @@ std::string material_text(const MaterialSpec& material) {
   if (material.break_ratio) text += fmt::format(", breaks at {:.6g}", *material.break_ratio);
   if (material.fracture_energy)
     text += fmt::format(", a crack takes {:.6g} J/m^2", *material.fracture_energy);
+  if (material.cut_toughness) text += fmt::format(", a blade takes {:.6g} J/m^2", *material.cut_toughness);
   return text + "\n";
 }
 
 std::string tool_text(const ToolSpec& tool, const Scene& scene) {
   if (tool.shape == ToolShape::body)
     return fmt::format("tool         {}: body {}, device {} (driver {})\n", tool.name, tool.body, tool.device,
+                       scene.device(tool.device).driver);
+  if (tool.shape == ToolShape::scalpel)
+    return fmt::format("tool         {}: scalpel, edge {:.6g} mm, {:.6g} N/m, device {} (driver {})\n",
+                       tool.name, mm_from_m(tool.length), tool.stiffness, tool.device,
                        scene.device(tool.device).driver);
   if (tool.shape == ToolShape::box)
     return fmt::format(

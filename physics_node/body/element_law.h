@@ -34,6 +34,7 @@ struct ElementLaw {
   double b_p = 0;                     // break ratio
   bool damped = false;                // any c > 0; says nothing of the drag
   bool yields = false;
+  double cut_toughness = 0;  // what a blade pays by area; 0: not stated [J/m^2]
   double modulus = 0;  // mean Young's modulus along the axes [Pa]
 };
 

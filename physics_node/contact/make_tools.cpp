@@ -6,6 +6,7 @@
 #include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
+#include "physics_node/contact/blade_tool.h"
 #include "physics_node/contact/body_tool.h"
 #include "physics_node/contact/stick_tool.h"
 #include "physics_node/contact/tissue_tool.h"
@@ -39,6 +40,18 @@ void add_tissue(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
                                            scene.physics->integrator);
   box.pressing.push_back(tool.get());
   box.tools.push_back(std::move(tool));
+  for (const auto& body : bodies) body->prepare_for(Disturbance::forces);
+}
+
+void add_scalpel(const Scene& scene, std::uint32_t n, const BodyModels& bodies, Toolbox& box) {
+  const ToolSpec& spec = scene.tools[n];
+  if (scene.physics->integrator == Integrator::backward_euler)
+    throw InputError(spec.place.text() +
+                     ": a scalpel cuts step by step, which \"backward_euler\" does not; write "
+                     "integrator = \"symplectic_euler\"");
+  auto blade = std::make_unique<BladeTool>(spec, n, bodies, 1 / scene.device(spec.device).rate_Hz);
+  box.pressing.push_back(blade.get());
+  box.tools.push_back(std::move(blade));
   for (const auto& body : bodies) body->prepare_for(Disturbance::forces);
 }
 
@@ -77,6 +90,8 @@ Toolbox make_tools(const Scene& scene, const BodyModels& bodies,
       add_tissue(scene, n, bodies, touchable, box);
     else if (spec.shape == ToolShape::point)
       add_point(scene, n, bodies, touchable, box);
+    else if (spec.shape == ToolShape::scalpel)
+      add_scalpel(scene, n, bodies, box);
     else if (spec.shape == ToolShape::stick)
       add_stick(scene, n, bodies, touchable, box);
     else

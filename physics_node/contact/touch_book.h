@@ -21,11 +21,15 @@ class TouchBook {
     if (std::isfinite(work)) tissue_work_ += work;
     return work;
   }
+  /// A step of a blade. @param area  that it has opened [m^2] @param work  that this took [J]
+  void cut(double area, double work) noexcept { cut_area_ += area, cut_work_ += work; }
   /// A frame in which tissue bore this force [N].
   void frame(const Vec3& borne) noexcept;
 
   double hand_work() const noexcept { return hand_work_; }      // by the hand on what it felt [J]
   double tissue_work() const noexcept { return tissue_work_; }  // by the tool on tissue [J]
+  double cut_area() const noexcept { return cut_area_; }        // opened by a blade [m^2]
+  double cut_work() const noexcept { return cut_work_; }        // that this took; part of tissue_work() [J]
   /// Root mean square of the force on the hand over that of the force that tissue bore, of all frames; none:
   /// tissue bore nothing.
   std::optional<double> felt_over_true_rms() const noexcept {
@@ -44,6 +48,7 @@ class TouchBook {
   Pose at_;                                   // of the hand
   Vec6 load_ = Vec6::Zero();                  // that it pressed with [N], [N m]
   double hand_work_ = 0, tissue_work_ = 0;    // [J]
+  double cut_area_ = 0, cut_work_ = 0;        // [m^2], [J]
   double felt2_ = 0, borne2_ = 0, off2_ = 0;  // sums over frames [N^2]
 };
 

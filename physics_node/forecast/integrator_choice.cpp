@@ -29,6 +29,8 @@ std::string what_needs_steps(const Scene& scene) {
   }
   for (const ToolSpec& tool : scene.tools) {
     if (is_solid_tip(tool.shape)) return fmt::format("tool \"{}\" presses faces step by step", tool.name);
+    if (tool.shape == ToolShape::scalpel)
+      return fmt::format("tool \"{}\" is a scalpel, which cuts step by step", tool.name);
     if (tool.shape == ToolShape::stick)
       return fmt::format("tool \"{}\" is a stick, which moves masses step by step", tool.name);
     if (tool.shape == ToolShape::point && asks_for_faces(tool, any_cells(scene)))

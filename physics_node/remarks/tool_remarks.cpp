@@ -48,6 +48,12 @@ std::vector<Vec3> shape_of(const ToolSpec& tool, const Scene& scene, const Bodie
     points.push_back(tool.length * axis);
     return points;
   }
+  if (tool.shape == ToolShape::scalpel) {
+    const Vec3 edge = tool.attitude * Vec3(-std::sin(tool.edge), 0, std::cos(tool.edge));
+    for (double s = 0; s < tool.length; s += apart) points.push_back(s * edge);
+    points.push_back(tool.length * edge);
+    return points;
+  }
   if (is_solid_tip(tool.shape)) {
     const HeldShape held = held_shape(tool);
     const Eigen::AlignedBox3d box = held.shape.bounds();

@@ -105,6 +105,10 @@ nlohmann::json team_part(const TeamChoice& choice) {
 nlohmann::json touch_part(const Tool& tool) {
   nlohmann::json part = {{"hand_work", tool.book().hand_work()}};
   if (tool.knows_tissue_work()) part["tissue_work"] = tool.book().tissue_work();
+  if (tool.book().cut_area() > 0) {
+    part["cut_area_mm2"] = 1e6 * tool.book().cut_area();
+    part["cut_work"] = tool.book().cut_work();
+  }
   if (const auto ratio = tool.book().felt_over_true_rms()) part["felt_over_true_rms"] = *ratio;
   if (const auto off = tool.book().felt_off_rms()) part["felt_off_rms"] = *off;
   return part;

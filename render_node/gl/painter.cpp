@@ -50,6 +50,12 @@ Painter::Painter(const Scene& scene, const ViewModel& model)
       tools_[i].axis = scene.tools[i].attitude * Eigen::Vector3d::UnitZ();
       tools_[i].length = scene.tools[i].shape == ToolShape::box ? tools_[i].size.z() : scene.tools[i].length;
     }
+    if (scene.tools[i].shape == ToolShape::scalpel) {
+      tools_[i].attitude = scene.tools[i].attitude;
+      tools_[i].axis = scene.tools[i].attitude * Eigen::Vector3d::UnitZ();
+      tools_[i].length = scene.tools[i].length;
+      tools_[i].edge = scene.tools[i].edge;
+    }
     if (scene.tools[i].shape == ToolShape::stick) {
       // B = A - L R e_z, as physics has it.
       tools_[i].axis = -(scene.tools[i].attitude * Eigen::Vector3d::UnitZ());
@@ -71,6 +77,8 @@ void Painter::adapt_sizes(const Eigen::AlignedBox3d& box) {
     const auto length = static_cast<float>(tool.length);
     if (tool.shape == ToolShape::box)
       tool.stick.shape_box(tool.size.cast<float>());
+    else if (tool.shape == ToolShape::scalpel)
+      tool.stick.shape_blade(length, static_cast<float>(tool.edge));
     else if (tool.shape == ToolShape::cylinder)
       tool.stick.shape(cylinder_outline(radius, length));
     else if (tool.shape == ToolShape::cone)
@@ -160,7 +168,7 @@ void Painter::draw_tool(Tool& tool, const ToolView& view, const ViewModel& model
     if (options.wire) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
     at_pixels_.finish(0.30F, 1.0F);
     Eigen::Matrix4f pose = pose_along(at, axis);
-    if (tool.shape == ToolShape::box)
+    if (tool.shape == ToolShape::box || tool.shape == ToolShape::scalpel)
       pose.topLeftCorner<3, 3>() = (view.attitude * tool.attitude).cast<float>();
     tool.stick.draw(at_pixels_, pose, steel);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);

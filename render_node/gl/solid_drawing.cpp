@@ -150,6 +150,42 @@ void SolidDrawing::shape_box(const Eigen::Vector3f& size) {
   upload(vertices, indices);
 }
 
+void SolidDrawing::shape_blade(float length, float angle) {
+  const float c = length * std::cos(angle), s = length * std::sin(angle);
+  const float top = c + 0.3F * length, back = 0.25F * c, thick = 0.02F * length;
+  const float neck = std::min(0.25F * length, s + back), end = top + 3 * length;
+  std::vector<SolidVertex> vertices;
+  std::vector<std::uint32_t> indices;
+  using Corner = std::array<float, 2>;  // x, z
+  const auto add = [&](std::initializer_list<Corner> outline, float half) {
+    const auto face = [&](std::initializer_list<std::array<float, 3>> corners,
+                          const std::array<float, 3>& normal) {
+      const auto first = static_cast<std::uint32_t>(vertices.size());
+      for (const auto& corner : corners) vertices.push_back({corner, normal});
+      for (std::uint32_t n = 2; n < corners.size(); ++n)
+        indices.insert(indices.end(), {first, first + n - 1, first + n});
+    };
+    const std::vector<Corner> at(outline);
+    for (const float side : {-1.0F, 1.0F}) {
+      const auto first = static_cast<std::uint32_t>(vertices.size());
+      for (const Corner& corner : at) vertices.push_back({{corner[0], side * half, corner[1]}, {0, side, 0}});
+      for (std::uint32_t n = 2; n < at.size(); ++n)
+        indices.insert(indices.end(), {first, first + n - 1, first + n});
+    }
+    for (std::size_t n = 0; n < at.size(); ++n) {
+      const Corner &a = at[n], &b = at[(n + 1) % at.size()];
+      const float dx = b[0] - a[0], dz = b[1] - a[1], way = std::hypot(dx, dz);
+      if (way <= 0) continue;
+      face({{a[0], -half, a[1]}, {b[0], -half, b[1]}, {b[0], half, b[1]}, {a[0], half, a[1]}},
+           {-dz / way, 0, dx / way});
+    }
+  };
+  // Why from the edge to the back in this order: normals point outward.
+  add({{0, 0}, {-s, c}, {-s, top}, {back, top}}, thick);
+  add({{back - neck, top}, {back - neck, end}, {back, end}, {back, top}}, 2 * thick);
+  upload(vertices, indices);
+}
+
 void SolidDrawing::draw(const LitProgram& program, const Eigen::Matrix4f& pose,
                         const Eigen::Vector3f& rgb) const {
   program.place(pose);

@@ -42,6 +42,8 @@ class SolidDrawing {
   void shape(const std::vector<Ring>& outline);
   /// A box that stands on the origin. [m]
   void shape_box(const Eigen::Vector3f& size);
+  /// A blade in the plane of x and z, whose edge goes from the origin up and toward -x. [m] @param angle  from z [rad]
+  void shape_blade(float length, float angle);
   void draw(const LitProgram& program, const Eigen::Matrix4f& pose, const Eigen::Vector3f& rgb) const;
 
  private:

@@ -1,0 +1,322 @@
+#include "physics_node/contact/blade_edge.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace palpate::physics {
+namespace {
+
+// In spacings.
+constexpr double ahead_reach =
+    1.5;  // Why: a blade between two layers of masses presses on the one ahead whatever the direction
+constexpr double back_reach = 0.5;  // of tissue that an edge holds on to, and that a hand may go back by
+constexpr double compared_anew_in = 0.05;  // [s]
+constexpr double passed_by =
+    0.25;  // Why: tissue before an edge moves by little against its neighbours without being cut
+constexpr double cut_behind =
+    1.5;  // Why: where the blade's body is there is no element; farther behind there is no blade to be sure of
+
+/// Of where an element crosses the plane, from both its ends.
+Vec3 at(const BladeLinks::Link& link, const Vec3& a, const Vec3& b) noexcept {
+  return (1 - link.t) * a + link.t * b;
+}
+
+}  // namespace
+
+double BladeEdge::felt_stiffness() const noexcept {
+  double sum = 0;
+  for (const Strip& strip : strips_)
+    if (strip.bites) sum += strip.cover * hold();
+  return sum > 0 ? stiffness_ * sum / (stiffness_ + sum) : 0.0;
+}
+
+BladeEdge::BladeEdge(double length, std::size_t n_strips, double stiffness)
+    : length_(length),
+      width_(length / static_cast<double>(n_strips)),
+      stiffness_(stiffness),
+      strips_(n_strips) {}
+
+void BladeEdge::let_go() noexcept {
+  for (Strip& strip : strips_) strip = {};
+  bites_ = false;
+  slot_ = lag_ = lag_before_ = aside_ = 0;
+  seen_ = false;
+}
+
+/// Strips of which any part is within `reach` of p.
+BladeEdge::Window BladeEdge::strips_near(double p, double reach) const noexcept {
+  reach += 0.5 * width_;
+  const double most = static_cast<double>(strips_.size());
+  const double first = std::ceil((p - reach) / width_ - 0.5), last = std::floor((p + reach) / width_ - 0.5);
+  return {static_cast<std::size_t>(std::clamp(first, 0.0, most)),
+          static_cast<std::size_t>(std::clamp(last + 1, 0.0, most))};
+}
+
+/// Tissue has carried the strips along; who finds none ahead, or was left behind by the hand, lets go.
+void BladeEdge::follow(BladeLinks& links, const BladeFrame& frame) noexcept {
+  const double h = links.spacing();
+  const std::span<const BladeLinks::Node> nodes = links.nodes();
+  for (Strip& strip : strips_) strip.weight = 0, strip.way.setZero();
+  for (const BladeLinks::Link& link : links.links()) {
+    if (!link.crosses) continue;
+    const Vec3 way = at(link, nodes[link.a].way, nodes[link.b].way);
+    const Window near = strips_near(link.p, h);
+    for (std::size_t i = near.first; i < near.last; ++i) {
+      Strip& strip = strips_[i];
+      if (!strip.bites) continue;
+      // When the step began.
+      const double d = link.q - (way + strip.x - frame.tip).dot(frame.ahead);
+      const double w = std::max(0.0, 1 - std::abs(d) / (ahead_reach * h));
+      strip.weight += w;
+      strip.way += w * way;
+    }
+  }
+  for (Strip& strip : strips_) {
+    if (!strip.bites) continue;
+    if (strip.weight > 0) strip.x += strip.way / strip.weight;
+    const Vec3 at = frame.coordinates(strip.x);
+    strip.q = at.y(), strip.r = at.z();
+    strip.bites = strip.weight > 0 && strip.q < back_reach * h;
+  }
+}
+
+/// A free strip that has come to an element in this step bites where that is. Between elements it bites with those at its sides, which are no
+/// farther apart than a spacing.
+void BladeEdge::touch(BladeLinks& links, const BladeFrame& frame) noexcept {
+  if (!seen_) return;
+  const double h = links.spacing();
+  const std::span<const BladeLinks::Node> nodes = links.nodes();
+  for (const BladeLinks::Link& link : links.links()) {
+    if (!link.crosses || link.q > lag_) continue;
+    const double edge_way =
+        (frame.tip - before_.tip + link.p * (frame.along - before_.along)).dot(frame.ahead);
+    const double way = at(link, nodes[link.a].way, nodes[link.b].way).dot(frame.ahead);
+    if (link.q - way + edge_way < lag_before_ - 1e-6 * h) continue;  // it was behind already
+    const Window near = strips_near(link.p, 0.5 * h);
+    for (std::size_t i = near.first; i < near.last; ++i) {
+      Strip& strip = strips_[i];
+      if (strip.bites && strip.q <= link.q) continue;
+      if (strip.bites && strip.ahead > 0) continue;  // it has pressed before this step
+      strip = {.bites = true, .q = link.q, .r = slot_};
+    }
+  }
+}
+
+/// Calls visit(link, strip, weight) for every strip that bites and what it presses on.
+template <class Visit>
+void BladeEdge::each_held(const BladeLinks& links, const Visit& visit) noexcept {
+  const double h = links.spacing();
+  for (const BladeLinks::Link& link : links.links()) {
+    if (!link.crosses) continue;
+    const Window near = strips_near(link.p, h);
+    for (std::size_t i = near.first; i < near.last; ++i) {
+      Strip& strip = strips_[i];
+      if (!strip.bites) continue;
+      const double d = link.q - strip.q;
+      // Less the farther ahead.
+      if (const double w = std::min(1.0, 1 - d / (ahead_reach * h)); d >= -passed_by * h && w > 0)
+        visit(link, strip, w);
+    }
+  }
+}
+
+/// Who holds on to what, and how much of a strip there is tissue for: as far as there are elements on both sides.
+void BladeEdge::weigh(const BladeLinks& links) noexcept {
+  const std::span<const BladeLinks::Node> nodes = links.nodes();
+  for (Strip& strip : strips_) {
+    strip.weight = strip.toughness = strip.cover = 0;
+    strip.low = 2 * length_, strip.high = -2 * length_;
+  }
+  each_held(links, [&](const BladeLinks::Link& link, Strip& strip, double w) {
+    strip.weight += w;
+    strip.low = std::min(strip.low, link.p), strip.high = std::max(strip.high, link.p);
+    strip.toughness += w * 0.5 * (nodes[link.a].toughness + nodes[link.b].toughness);
+  });
+  for (std::size_t i = 0; i < strips_.size(); ++i) {
+    Strip& strip = strips_[i];
+    strip.bites = strip.bites && strip.weight > 0;
+    if (!strip.bites) continue;
+    strip.toughness /= strip.weight;
+    const double begin = static_cast<double>(i) * width_;
+    const double low = std::max(strip.low, begin), high = std::min(strip.high, begin + width_);
+    strip.cover = std::max(0.0, high - low) / width_;
+  }
+}
+
+/// By how much the area before a strip has grown or shrunk: the places at rest of where its elements cross, X = X_0 + A q + B p by least squares,
+/// make of dq dp an area |A x B| dq dp.
+void BladeEdge::compare_with_rest(const BladeLinks& links, double dt) noexcept {
+  struct Sums {
+    double n = 0, q = 0, p = 0, qq = 0, qp = 0, pp = 0;
+    Vec3 x = Vec3::Zero(), xq = Vec3::Zero(), xp = Vec3::Zero();
+  };
+  std::array<Sums, most_strips> sums{};
+  const std::span<const BladeLinks::Node> nodes = links.nodes();
+  each_held(links, [&](const BladeLinks::Link& link, Strip& strip, double w) {
+    Sums& s = sums[static_cast<std::size_t>(&strip - strips_.data())];
+    const Vec3 x = at(link, nodes[link.a].rest, nodes[link.b].rest);
+    s.n += w, s.q += w * link.q, s.p += w * link.p;
+    s.qq += w * link.q * link.q, s.qp += w * link.q * link.p, s.pp += w * link.p * link.p;
+    s.x += w * x, s.xq += w * link.q * x, s.xp += w * link.p * x;
+  });
+  const double least = 1e-3 * links.spacing() * links.spacing();
+  for (std::size_t i = 0; i < strips_.size(); ++i) {
+    const Sums& s = sums[i];
+    Strip& strip = strips_[i];
+    // An element that is cut leaves others to compare with: what is felt of that comes as the edge goes on.
+    const double part =
+        strip.new_bite ? 1.0 : std::min(1.0, strip.slid / links.spacing() + dt / compared_anew_in);
+    strip.slid = 0;
+    if (!strip.bites || s.n <= 0) continue;
+    const double q = s.q / s.n, p = s.p / s.n;
+    const double qq = s.qq / s.n - q * q, qp = s.qp / s.n - q * p, pp = s.pp / s.n - p * p;
+    const double det = qq * pp - qp * qp;
+    if (det < least * least) continue;
+    const Vec3 x = s.x / s.n, xq = s.xq / s.n - q * x, xp = s.xp / s.n - p * x;
+    const Vec3 A = (pp * xq - qp * xp) / det, B = (qq * xp - qp * xq) / det;
+    strip.unstrained += part * (std::clamp(A.cross(B).norm(), 0.1, 10.0) - strip.unstrained);
+    strip.new_bite = false;
+  }
+}
+
+/// How softly what they hold gives way in a step: g.
+void BladeEdge::soften(BladeLinks& links, double dt) noexcept {
+  const double k = hold();
+  const std::span<BladeLinks::Node> nodes = links.nodes();
+  for (Strip& strip : strips_) strip.softness = 0;
+  each_held(links, [&](const BladeLinks::Link& link, Strip& strip, double w) {
+    nodes[link.a].pull += w / strip.weight * (1 - link.t) * k * strip.cover;
+    nodes[link.b].pull += w / strip.weight * link.t * k * strip.cover;
+  });
+  each_held(links, [&](const BladeLinks::Link& link, Strip& strip, double w) {
+    const BladeLinks::Node &a = nodes[link.a], &b = nodes[link.b];
+    strip.softness += dt * dt * w / strip.weight *
+                      ((1 - link.t) * a.inverse_mass * a.pull + link.t * b.inverse_mass * b.pull);
+  });
+}
+
+/// What all strips press with when the blade is there, ahead [N].
+double BladeEdge::hold_ahead(double q) const noexcept {
+  double sum = 0;
+  for (const Strip& strip : strips_)
+    if (strip.bites)
+      sum += std::clamp(hold() * strip.cover * (q - strip.q) / (1 + strip.softness), 0.0,
+                        strip.toughness * strip.cover * width_ * strip.unstrained);
+  return sum;
+}
+
+/// Where the blade is in balance between strips and hand. Ahead by halving, as the sum has a corner for each strip.
+void BladeEdge::find_blade() noexcept {
+  lag_ = aside_ = 0;
+  double low = 0, across = 0, held = 0;
+  for (const Strip& strip : strips_) {
+    if (!strip.bites) continue;
+    low = std::min(low, strip.q);
+    const double k = hold() * strip.cover / (1 + strip.softness);
+    across += k * strip.r, held += k;
+  }
+  if (held == 0) return;
+  aside_ = across / (stiffness_ + held);
+  double high = 0;
+  for (int n = 0; n < 50 && low < high; ++n) {
+    const double middle = 0.5 * (low + high);
+    (hold_ahead(middle) < -stiffness_ * middle ? low : high) = middle;
+  }
+  lag_ = 0.5 * (low + high);
+}
+
+/// The force of a strip, and how far it has to go on for that.
+void BladeEdge::slide(Strip& strip, Outcome& done) const noexcept {
+  strip.ahead = strip.across = 0;
+  if (!strip.bites) return;
+  if (strip.cover == 0) {
+    strip.q = std::max(strip.q, lag_);
+    return;
+  }
+  const double k = hold() * strip.cover / (1 + strip.softness);
+  const double width = strip.cover * width_ * strip.unstrained, most = strip.toughness * width;
+  strip.ahead = std::max(0.0, k * (lag_ - strip.q));
+  strip.across = k * (aside_ - strip.r);
+  if (strip.ahead <= most) return;
+  const double on = lag_ - strip.q - most / k;
+  strip.q += on;
+  strip.slid += on;
+  strip.ahead = most;
+  done.work += most * on;
+  done.area += width * on;
+}
+
+/// Puts the forces of the strips on the nodes that they hold.
+void BladeEdge::press(BladeLinks& links, const BladeFrame& frame, double dt, Outcome& done) noexcept {
+  const std::span<BladeLinks::Node> nodes = links.nodes();
+  each_held(links, [&](const BladeLinks::Link& link, Strip& strip, double w) {
+    const Vec3 force = w / strip.weight * (strip.ahead * frame.ahead + strip.across * frame.side);
+    nodes[link.a].force += (1 - link.t) * force;
+    nodes[link.b].force += link.t * force;
+  });
+  for (Strip& strip : strips_) strip.way.setZero();
+  each_held(links, [&](const BladeLinks::Link& link, Strip& strip, double w) {
+    const BladeLinks::Node &a = nodes[link.a], &b = nodes[link.b];
+    strip.way += dt * dt * w / strip.weight * at(link, a.inverse_mass * a.force, b.inverse_mass * b.force);
+  });
+  for (std::size_t i = 0; i < strips_.size(); ++i) {
+    Strip& strip = strips_[i];
+    if (!strip.bites) continue;
+    const double p = (static_cast<double>(i) + 0.5) * width_;
+    strip.x = frame.tip + p * frame.along + strip.q * frame.ahead + strip.r * frame.side + strip.way;
+  }
+  for (const BladeLinks::Node& node : nodes) {
+    done.force += node.force;
+    done.moment += (node.x - frame.tip).cross(node.force);
+    done.power += node.force.dot(node.v_before);
+  }
+}
+
+BladeEdge::Outcome BladeEdge::step(BladeLinks& links, const BladeFrame& frame, double dt,
+                                   std::vector<EdgeGone>& cuts) noexcept {
+  Outcome done;
+  links.update(frame, slot_, bites_);
+  follow(links, frame);
+  touch(links, frame);
+  lag_before_ = lag_;
+  find_slot();
+  links.cross(slot_);
+  weigh(links);
+  compare_with_rest(links, dt);
+  soften(links, dt);
+  find_blade();
+  for (Strip& strip : strips_) slide(strip, done);
+  cut(links, cuts);
+  weigh(links);
+  press(links, frame, dt, done);
+  bites_ = std::ranges::any_of(strips_, [](const Strip& strip) { return strip.bites; });
+  before_ = frame;
+  seen_ = true;
+  return done;
+}
+
+/// All of the edge lies in one plane.
+void BladeEdge::find_slot() noexcept {
+  slot_ = 0;
+  double n = 0;
+  for (const Strip& strip : strips_)
+    if (strip.bites) slot_ += strip.r, n += 1;
+  if (n > 0) slot_ /= n;
+}
+
+/// Elements that the edge has passed, and those that its body has come to lie in.
+void BladeEdge::cut(BladeLinks& links, std::vector<EdgeGone>& cuts) noexcept {
+  const double passed = passed_by * links.spacing(), behind = cut_behind * links.spacing();
+  std::span<BladeLinks::Node> nodes = links.nodes();
+  for (BladeLinks::Link& link : links.links()) {
+    if (!link.crosses || link.p < 0 || link.p > length_ || cuts.size() == cuts.capacity()) continue;
+    const auto i = std::min(static_cast<std::size_t>(link.p / width_), strips_.size() - 1);
+    const Strip& strip = strips_[i];
+    if (!strip.bites || link.q >= strip.q - passed || link.q < strip.q - behind) continue;
+    link.lives = link.crosses = false;
+    cuts.push_back({nodes[link.a].cell, nodes[link.b].cell});
+  }
+}
+
+}  // namespace palpate::physics

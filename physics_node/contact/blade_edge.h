@@ -1,0 +1,101 @@
+#pragma once
+// A sharp edge in tissue: strips of it, each of which slides against the tissue's toughness as dry friction would have it.
+//
+//   F_i = k_i (b - x_i) . ahead,  0 <= F_i <= T_i = Gc l_i;   where it would be more, x_i goes on until it is not
+//   sum of F_i = K (h - b) . ahead
+//
+// h is where the hand has the blade, b where it is, which is rigid and without mass, x_i where the strip is in the tissue. K is the hand's spring, k_i the
+// stiff hold of a strip on tissue. Tissue carries x_i along; when the hand goes back nothing pulls. The work of going on, T_i dx_i, is Gc times the area that the strip has opened, exactly; whatever
+// elements cross that area are cut. So the force is that of the tissue, not of the lattice: none jumps when an element opens.
+// Across, the slot holds the blade alike, both ways. Along the edge it slides freely.
+//
+// Force and tissue are solved for together, as masses beside an edge are light: with F at the end of the step,
+//   F_i (1 + g_i) = k_i (b - x_i),   g_i = k_i dt^2 sum over n of w_in / m_n sum over j of w_jn k_j / k_i
+// the sum of a row in place of the matrix, which is exact where gaps are alike and never too stiff.
+// Source: Mahvash & Hayward 2001 (energy of a sharp cut); sliders as dry friction: Haessig & Friedland 1991.
+
+#include <span>
+#include <vector>
+
+#include "physics_node/contact/blade_links.h"
+
+namespace palpate::physics {
+
+class BladeEdge {
+ public:
+  static constexpr std::size_t most_strips = 64;
+  /// What a step did.
+  struct Outcome {
+    Vec3 force = Vec3::Zero();   // on the tissue [N]
+    Vec3 moment = Vec3::Zero();  // of it, about the tip [N m]
+    double work = 0;             // of going on, sum of T dx [J]
+    double area = 0;             // opened [m^2]
+    double power = 0;            // of the forces, with the velocities before the step [W]
+  };
+
+  /// @param n_strips  of equal length @param stiffness  of the hand's spring, all of it [N/m]
+  BladeEdge(double length, std::size_t n_strips, double stiffness);
+
+  /// How stiff the hand's spring is now [N/m].
+  void set_stiffness(double stiffness) noexcept { stiffness_ = stiffness; }
+  /// After a step of dt: slides, finds forces on the nodes of `links`, and lists in `cuts` the elements that it has passed.
+  Outcome step(BladeLinks& links, const BladeFrame& frame, double dt, std::vector<EdgeGone>& cuts) noexcept;
+  void let_go() noexcept;
+
+  /// Is any of it in tissue?
+  bool bites() const noexcept { return bites_; }
+  /// Where the plane of the blade is across the hand's, as the slot has it [m].
+  double slot() const noexcept { return slot_; }
+  /// What the hand feels of its spring as long as no strip goes on [N/m].
+  double felt_stiffness() const noexcept;
+  /// Where the blade is from the hand's, ahead: not above 0 [m].
+  double lag() const noexcept { return lag_; }
+
+ private:
+  struct Strip {
+    bool bites = false, new_bite = true;
+    double slid = 0;        // since it was last compared with rest [m]
+    Vec3 x = Vec3::Zero();  // its middle, in the tissue [m]
+    double q = 0, r = 0;    // of that, in the blade's frame
+    double weight = 0;      // of all links ahead
+    double toughness = 0;   // of these
+    double low = 0, high = 0,
+           cover = 0;         // p of the outermost of them; share of its width that lies between [m], [m], 1
+    double unstrained = 1;    // area at rest of what the edge passes by its area now
+    double softness = 0;      // g
+    Vec3 way = Vec3::Zero();  // that tissue carries it in a step [m]
+    double ahead = 0, across = 0;  // force on the tissue [N]
+  };
+  struct Window {
+    std::size_t first = 0, last = 0;
+  };
+  Window strips_near(double p, double reach) const noexcept;
+  void touch(BladeLinks& links, const BladeFrame& frame) noexcept;
+  void follow(BladeLinks& links, const BladeFrame& frame) noexcept;
+  void find_slot() noexcept;
+  template <class Visit>
+  void each_held(const BladeLinks& links, const Visit& visit) noexcept;
+  void weigh(const BladeLinks& links) noexcept;
+  void compare_with_rest(const BladeLinks& links, double dt) noexcept;
+  void soften(BladeLinks& links, double dt) noexcept;
+  /// Of a strip on the tissue, all of which is before it [N/m].
+  double hold() const noexcept { return held_by * stiffness_ * width_ / length_; }
+  double hold_ahead(double q) const noexcept;
+  void find_blade() noexcept;
+  void slide(Strip& strip, Outcome& done) const noexcept;
+  void press(BladeLinks& links, const BladeFrame& frame, double dt, Outcome& done) noexcept;
+  void cut(BladeLinks& links, std::vector<EdgeGone>& cuts) noexcept;
+
+  static constexpr double held_by =
+      20;  // Why: an edge of which a fifth is in tissue is still four times as stiff as the hand's spring
+
+  double length_, width_, stiffness_;
+  std::vector<Strip> strips_;
+  bool bites_ = false;
+  double slot_ = 0, lag_ = 0, aside_ = 0;  // of the slot across; of the blade ahead and across
+  double lag_before_ = 0;
+  bool seen_ = false;
+  BladeFrame before_;
+};
+
+}  // namespace palpate::physics

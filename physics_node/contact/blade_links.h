@@ -1,0 +1,93 @@
+#pragma once
+// The elements of a body of springs that the plane of a blade crosses, near its edge.
+//
+// In the blade's own coordinates (p, q, r): p along the edge from the tip, q ahead of it, r out of the plane to the side. An element whose ends lie on
+// both sides of r = s (r >= s counts as above) crosses the plane at
+//
+//   t = (s - r_a) / (r_b - r_a),   p = (1 - t) p_a + t p_b,   q alike
+//
+// On which side a mass lies is settled once, before the edge comes to it: one that lies in the plane, and is moved to and fro, stays with the lip that
+// it belongs to.
+//
+// so that whether an edge that lies at q(p) has passed it is a question of two numbers. Every element has one answer however the edge is divided
+// and whichever way steps are: no element slips between two strips or two steps.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "physics_node/step/body_model.h"
+
+namespace palpate::physics {
+
+/// Where a blade is; along, ahead and side are unit and right-handed.
+struct BladeFrame {
+  Vec3 tip = Vec3::Zero();  // [m]
+  Vec3 along = Vec3::UnitZ(), ahead = Vec3::UnitX(), side = Vec3::UnitY();
+  Vec3 coordinates(const Vec3& x) const noexcept {  // p, q, r [m]
+    const Vec3 d = x - tip;
+    return {d.dot(along), d.dot(ahead), d.dot(side)};
+  }
+};
+
+class BladeLinks {
+ public:
+  static constexpr std::size_t most_nodes = 8192, most_links = 4096;
+
+  struct Node {
+    Index cell = 0;
+    double inverse_mass = 0;       // 0: held [1/kg]
+    double toughness = 0;          // of its material [J/m^2]
+    Vec3 rest = Vec3::Zero();      // [m]
+    Vec3 x = Vec3::Zero();         // now [m]
+    Vec3 way = Vec3::Zero();       // of the step that has just moved it [m]
+    Vec3 v_before = Vec3::Zero();  // when it began [m/s]
+    Vec3 at = Vec3::Zero();        // p, q, r
+    Vec3 force = Vec3::Zero();     // of the blade in this step [N]
+    std::int8_t side = 0;          // 1: above
+    double pull = 0;               // sum of w k of what holds on to it [N/m]
+  };
+  struct Link {
+    std::uint32_t a = 0, b = 0;  // of nodes()
+    bool lives = true, crosses = false;
+    double t = 0, p = 0, q = 0;
+  };
+
+  /// @param body  of springs; outlives this  @param length  of the edge [m]
+  BladeLinks(const BodyModel& body, double length);
+
+  /// Before the steps of a frame: what may come to cross the plane in it. Cost: a pass over the nodes around; over all of the body once
+  /// the blade has gone a spacing, and every 20 ms.
+  /// @param s  where the plane is, across [m]
+  void gather(const BladeFrame& frame, double s, double t, bool bites) noexcept;
+  void begin_step() noexcept;
+  /// After a step: where its nodes and crossings are now. @param bites  the blade is in the tissue, and sides near it stay
+  void update(const BladeFrame& frame, double s, bool bites) noexcept;
+  /// Anew the crossings alone.
+  void cross(double s) noexcept;
+  void reset() noexcept;
+
+  std::span<Node> nodes() noexcept { return nodes_; }
+  std::span<Link> links() noexcept { return links_; }
+  std::span<const Link> links() const noexcept { return links_; }
+  std::span<const Node> nodes() const noexcept { return nodes_; }
+  /// How far neighbours lie apart [m].
+  double spacing() const noexcept { return h_; }
+  const BodyModel& body() const noexcept { return *body_; }
+
+ private:
+  void look_around(const BladeFrame& frame) noexcept;
+  void settle_side(Node& node, double s, bool bites) noexcept;
+
+  const BodyModel* body_;
+  double length_, h_;
+  std::vector<Index> around_;         // nodes of the body within a margin
+  std::vector<std::int32_t> number_;  // of a node in nodes_, by cell; -1: none
+  std::vector<std::int8_t> side_;     // of what is around, by cell; 0: not settled
+  std::vector<Node> nodes_;
+  std::vector<Link> links_;
+  Vec3 tip_ = Vec3::Zero(), end_ = Vec3::Zero();  // where it looked around last [m]
+  double when_ = -1e9;                            // [s]
+};
+
+}  // namespace palpate::physics

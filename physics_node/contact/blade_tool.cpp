@@ -1,0 +1,154 @@
+#include "physics_node/contact/blade_tool.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/error/error.h"
+#include "common/message/vec3.h"
+#include "common/scene/tool_spec.h"
+
+namespace palpate::physics {
+namespace {
+
+constexpr double strips_a_spacing =
+    2;  // Why: a strip answers for half a spacing of edge, so that a blade that enters does so gradually
+constexpr double edge_lets_go_in = 0.2;  // [s]
+constexpr std::size_t most_cuts = 4096;  // in a step
+
+void refuse_uncut(const ToolSpec& tool, const Body& body) {
+  if (is_of_finite_elements(body))
+    throw InputError(
+        fmt::format("{}: shape = \"scalpel\" cuts bodies of springs, and \"{}\" is of finite elements; write "
+                    "model = \"springs\" there",
+                    tool.place.text(), body.name));
+  if (std::ranges::any_of(body.laws, [](const ElementLaw& law) { return law.cut_toughness <= 0; }))
+    throw InputError(
+        fmt::format("{}: shape = \"scalpel\" needs to know how tough \"{}\" is; give each of its materials "
+                    "cut_toughness_J_per_m2, such as 190 of a liver",
+                    tool.place.text(), body.name));
+}
+
+std::size_t strips_of(const ToolSpec& tool, const BodyModels& bodies) {
+  double finest = tool.length;
+  for (const auto& body : bodies) finest = std::min(finest, body->body().spacing());
+  return static_cast<std::size_t>(std::clamp(std::ceil(strips_a_spacing * tool.length / finest), 1.0,
+                                             static_cast<double>(BladeEdge::most_strips)));
+}
+
+}  // namespace
+
+BladeTool::BladeTool(const ToolSpec& tool, std::uint32_t index, const BodyModels& bodies, double period)
+    : PressingTool(index, tool.set_point),
+      attitude_(tool.attitude),
+      edge_(tool.edge),
+      stiffness_(tool.stiffness),
+      play_(period),
+      blade_(tool.length, strips_of(tool, bodies), tool.stiffness) {
+  for (const auto& body : bodies) {
+    refuse_uncut(tool, body->body());
+    bodies_.emplace_back(*body, tool.length);
+  }
+  forces_.reserve(BladeLinks::most_nodes);
+  cuts_.reserve(most_cuts);
+}
+
+BladeFrame BladeTool::frame_at(double share) const noexcept {
+  const Eigen::Matrix3d axes = play_.attitude(share).toRotationMatrix() * attitude_;
+  const double c = std::cos(edge_), s = std::sin(edge_);
+  BladeFrame frame;
+  frame.tip = play_.at(share).x;
+  frame.along = axes * Vec3(-s, 0, c);
+  frame.ahead = axes * Vec3(-c, 0, -s);
+  frame.side = frame.along.cross(frame.ahead);
+  return frame;
+}
+
+void BladeTool::reset() noexcept {
+  play_.reset();
+  blade_.let_go();
+  for (BladeLinks& body : bodies_) body.reset();
+  engaged_ = near_ = false;
+  keep_ = 1;
+  done_ = {};
+  forces_.clear();
+  cuts_.clear();
+}
+
+void BladeTool::take(const ToolState* state, double dt) noexcept {
+  frame_dt_ = dt;
+  elapsed_ = 0;
+  // A hand that feels a wrench does not number its samples: its ticks are.
+  ToolState hand;
+  if (state != nullptr) {
+    hand = *state;
+    if (hand.sample == 0) hand.sample = hand.tick, hand.n_before = 0;
+  }
+  if (!play_.take(state != nullptr ? &hand : nullptr, dt)) blade_.let_go();
+  keep_ = std::clamp(keep_ + (state == nullptr ? -dt : dt) / edge_lets_go_in, 0.0, 1.0);
+  if (state == nullptr) return;
+  note(*state);
+  engaged_ = state->engaged != 0;
+}
+
+void BladeTool::find_contact(double t) noexcept {
+  near_ = false;
+  done_ = {};
+  forces_.clear();
+  cuts_.clear();
+  if (!play_.seen()) return;
+  if (!engaged_) blade_.let_go();
+  const BladeFrame frame = frame_at(0);
+  hand_ = frame.tip;
+  std::size_t most = 0;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (blade_.bites() && b != touched_) continue;
+    bodies_[b].gather(frame, blade_.slot(), t, blade_.bites());
+    if (bodies_[b].links().size() <= most) continue;
+    most = bodies_[b].links().size();
+    if (b != touched_) blade_.let_go();
+    touched_ = b;
+  }
+  near_ = most > 0;
+  if (!near_) blade_.let_go();
+}
+
+void BladeTool::begin_step() noexcept {
+  if (may_press()) bodies_[touched_].begin_step();
+}
+
+double BladeTool::press(double dt) noexcept {
+  elapsed_ += dt;
+  forces_.clear();
+  cuts_.clear();
+  done_ = {};
+  frame_ = frame_at(frame_dt_ > 0 ? elapsed_ / frame_dt_ : 1.0);
+  hand_ = frame_.tip;
+  if (!may_press() || keep_ == 0) return 0;
+  blade_.set_stiffness(keep_ * stiffness_);
+  BladeLinks& links = bodies_[touched_];
+  done_ = blade_.step(links, frame_, dt, cuts_);
+  for (const BladeLinks::Node& node : links.nodes())
+    if (!node.force.isZero(0)) forces_.push_back({node.cell, node.force});
+  book().cut(done_.area, done_.work);
+  return done_.power;
+}
+
+Wrench BladeTool::wrench() const noexcept {
+  if (forces_.empty()) return {};
+  return {-done_.force, -done_.moment + (hand_ - set_point_).cross(-done_.force)};
+}
+
+void BladeTool::write_wrench(ToolWrench& out, std::uint64_t frame, std::int64_t now_ns,
+                             double t) const noexcept {
+  begin_wrench(out, wrench(), frame, now_ns, t);
+  if (!blade_.bites()) return;
+  const Eigen::Matrix3d ways =
+      frame_.ahead * frame_.ahead.transpose() + frame_.side * frame_.side.transpose();
+  Mat6 K = Mat6::Zero();
+  K.topLeftCorner<3, 3>() = blade_.felt_stiffness() * ways;
+  Eigen::Map<Mat6>(out.stiffness.data()) = K;  // symmetric
+}
+
+}  // namespace palpate::physics

@@ -1,0 +1,183 @@
+// A scalpel in springs: what it feels is toughness times length whatever the lattice, what it passes parts, nothing is lost.
+
+#include "physics_node/contact/blade_tool.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/error/error.h"
+#include "common/scene/scene.h"
+#include "physics_node/world.h"
+#include "tests/support/physics/recorded_hand.h"
+#include "tests/support/physics/small_worlds.h"
+
+namespace palpate::physics::test {
+namespace {
+
+constexpr double toughness = 190, thick = 0.010, wide = 0.030;  // of the block, along the edge and the cut
+constexpr double plane = 0.0003;                                // of the blade: y, through no mass [m]
+
+struct Case {
+  const char* lattice;
+  double spacing_mm, speed;  // [m/s]
+};
+
+Recipe block(const Case& c, const std::string& keys = "edge_deg = 0", double stiffness = 1000) {
+  Recipe recipe;
+  recipe.lattice = c.lattice;
+  recipe.shape = Recipe::box(1e3 * wide, 16, 1e3 * thick);
+  recipe.spacing_mm = c.spacing_mm;
+  recipe.material =
+      "density_kg_per_m3 = 1000\nmodulus_kPa = 400\nviscosity_Pa_s = 20\n"
+      "cut_toughness_J_per_m2 = 190";
+  recipe.body = "fixed = [\"-y\", \"+y\"]";
+  recipe.physics = "frame_Hz = 1000";
+  recipe.world = fmt::format(
+      "[[tool]]\nname = \"blade\"\nshape = \"scalpel\"\nlength_mm = 20\ndevice = \"hand\"\n"
+      "stiffness_N_per_m = {}\n{}\n"
+      "[device.hand]\ndriver = \"simulated\"\nwaypoints = [[0, 30, 0, 0], [1, 20, 0, 0]]\n",
+      stiffness, keys);
+  return recipe;
+}
+
+struct Cut {
+  explicit Cut(const Recipe& recipe) : world(scene_of(recipe)) {}
+  /// A frame after which the hand is there. @return force on the tool
+  Vec3 to(const Vec3& tip) {
+    path.push_back(tip);
+    std::optional<ToolState> hand = recorded_hand(
+        [this](double t) { return path[static_cast<std::size_t>(std::llround(1e3 * t))]; }, path.size() - 1);
+    hand->stiffness = 1000;
+    world.frame(std::span(&hand, 1));
+    return world.tool(0).borne();
+  }
+  /// Straight on at a speed. @return forces of all frames
+  std::vector<Vec3> along(const Vec3& end, double speed) {
+    std::vector<Vec3> forces;
+    const Vec3 begin = path.back();
+    const auto n = static_cast<int>(std::ceil((end - begin).norm() / speed * 1e3));
+    for (int i = 1; i <= n; ++i) forces.push_back(to(begin + (end - begin) * i / n));
+    return forces;
+  }
+  const TouchBook& book() { return world.tool(0).book(); }
+  /// Does anything still hold the halves together?
+  bool hangs_together() const {
+    const BodyModel& body = world.body(0);
+    std::vector<std::uint8_t> seen(static_cast<std::size_t>(body.body().capacity()));
+    std::vector<Index> next;
+    const auto y = [&](Index node) { return body.body().rest_position(node).y(); };
+    for (const Index node : body.body().nodes())
+      if (y(node) < -0.006) next.push_back(node), seen[static_cast<std::size_t>(node)] = 1;
+    while (!next.empty()) {
+      const Index node = next.back();
+      next.pop_back();
+      if (y(node) > 0.006) return true;
+      body.adjacency().each_neighbour(node, [&](Index other) {
+        if (std::exchange(seen[static_cast<std::size_t>(other)], std::uint8_t{1}) == 0) next.push_back(other);
+      });
+    }
+    return false;
+  }
+
+  World world;
+  std::vector<Vec3> path{Vec3(0.020, plane, -0.010), Vec3(0.020, plane, -0.010)};
+};
+
+class Scalpel : public testing::TestWithParam<Case> {};
+
+TEST_P(Scalpel, FeelsToughnessTimesLengthAndPaysForTheAreaThatItOpens) {
+  const Case c = GetParam();
+  Cut cut(block(c));
+  EXPECT_TRUE(cut.hangs_together());
+  const std::vector<Vec3> forces = cut.along(Vec3(-0.035, plane, -0.010), c.speed);
+  // While all of the thickness is before the edge: from a third of the way on.
+  std::vector<double> steady;
+  double jump = 0;
+  const std::size_t n = forces.size(), first = n * 45 / 100, last = n * 65 / 100;
+  for (std::size_t i = first; i < last; ++i) {
+    steady.push_back(forces[i].x());
+    jump = std::max(jump, (forces[i] - forces[i - 1]).norm());
+  }
+  double mean = 0;
+  for (const double f : steady) mean += f / static_cast<double>(steady.size());
+  EXPECT_NEAR(mean, toughness * thick, 0.05 * toughness * thick);
+  EXPECT_LT(jump, 0.03) << "of a frame";
+  EXPECT_FALSE(cut.hangs_together());
+  // Between its first element and its last: less by a spacing at the most, more by what the edge passes before it cuts.
+  EXPECT_NEAR(cut.book().cut_area(), (wide - 1e-3 * c.spacing_mm) * thick,
+              (0.02 * wide + 1e-3 * c.spacing_mm) * thick);
+  const EnergyLedger ledger = cut.world.ledger();
+  EXPECT_NEAR(ledger.cut, toughness * cut.book().cut_area(), 1e-9);
+  EXPECT_LT(ledger.balance_error(), 1e-3);
+  EXPECT_EQ(cut.world.report().restored, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Lattices, Scalpel,
+                         testing::Values(Case{"voxel", 2, 0.05}, Case{"voxel", 2, 0.2}, Case{"voxel", 1, 0.1},
+                                         Case{"fcc", 2, 0.05}, Case{"fcc", 1.2, 0.1}),
+                         [](const testing::TestParamInfo<Case>& one) {
+                           return fmt::format("{}{}", one.param.lattice, one.index);
+                         });
+
+TEST(BladeTool, DoesNotPullBackAndFeelsNothingInItsOwnSlot) {
+  Cut cut(block({"voxel", 2, 0}));
+  cut.along(Vec3(0, plane, -0.010), 0.05);
+  const double opened = cut.book().cut_area();
+  EXPECT_GT(opened, 0.3 * wide * thick);
+  for (const Vec3& force : cut.along(Vec3(0.020, plane, -0.010), 0.05)) EXPECT_GT(force.x(), -0.02);
+  const std::vector<Vec3> again = cut.along(Vec3(0.008, plane, -0.010), 0.05);
+  for (const Vec3& force : again) EXPECT_LT(force.norm(), 0.1);
+  EXPECT_NEAR(cut.book().cut_area(), opened, 0.02 * wide * thick);
+}
+
+TEST(BladeTool, StabsByItsObliqueEdge) {
+  Cut cut(block({"voxel", 2, 0}, "edge_deg = 30"));
+  cut.path = {Vec3(0, plane, 0.008), Vec3(0, plane, 0.008)};
+  const std::vector<Vec3> forces = cut.along(Vec3(0, plane, -0.001), 0.02);
+  EXPECT_GT(forces.back().z(), 0.1) << "out of the tissue";
+  EXPECT_GT(cut.book().cut_area(), 0);
+}
+
+TEST(BladeTool, CutsTheSameOnAnyNumberOfThreads) {
+  std::vector<std::uint64_t> hashes;
+  for (const int threads : {1, 2, 3}) {
+    Recipe recipe = block({"voxel", 1, 0});
+    recipe.physics += fmt::format("\nthreads = {}", threads);
+    Cut cut(recipe);
+    cut.along(Vec3(0.005, plane, -0.010), 0.2);
+    EXPECT_GT(cut.book().cut_area(), 0);
+    hashes.push_back(cut.world.state_hash());
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+  EXPECT_EQ(hashes[0], hashes[2]);
+}
+
+std::string refusal(const Recipe& recipe) {
+  try {
+    World world(scene_of(recipe));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(BladeTool, SaysWhatItCannotCut) {
+  Recipe solid = block({"voxel", 2, 0});
+  solid.body += "\nmodel = \"fem\"";
+  EXPECT_NE(refusal(solid).find("cuts bodies of springs, and \"body\" is of finite elements"),
+            std::string::npos)
+      << refusal(solid);
+  Recipe untold = block({"voxel", 2, 0});
+  untold.material.resize(untold.material.find("\ncut_toughness"));
+  EXPECT_NE(refusal(untold).find("cut_toughness_J_per_m2"), std::string::npos) << refusal(untold);
+  Recipe implicit = block({"voxel", 2, 0});
+  implicit.physics += "\nintegrator = \"backward_euler\"";
+  EXPECT_NE(refusal(implicit).find("a scalpel cuts step by step"), std::string::npos) << refusal(implicit);
+}
+
+}  // namespace
+}  // namespace palpate::physics::test
