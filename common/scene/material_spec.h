@@ -51,7 +51,7 @@ struct MaterialSpec {
   std::optional<double> yield_ratio;  // y_p > 1 |  of springs both or neither: purely elastic
   std::optional<double> break_ratio;  // b_p > y_p; of finite elements each may stand alone
   std::optional<double>
-      fracture_energy;  // of finite elements that break: what a crack takes, by area [J/m^2]
+      fracture_energy;                  // of finite elements that break: what a crack takes, by area [J/m^2]
   std::optional<double> cut_toughness;  // of springs: what a blade takes, by area [J/m^2]
   Place place;
 };

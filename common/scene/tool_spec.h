@@ -38,9 +38,9 @@ struct ToolSpec {
   /// Of the hand between two answers of physics, as the scene has it; who goes by it asks force_model.h.
   std::optional<ForceModel> force_model;
   ForceModel own_model = ForceModel::norton;  // of a point, where the scene has none: settle_force_models()
-  double length = 0.1;                        // from tip to end [m]; of a stick, cylinder, cone, of the edge of a scalpel
-  double edge = 0;                            // of a scalpel: between its edge and the handle [rad]
-  Vec3 size = Vec3::Zero();                   // of a box [m]
+  double length = 0.1;       // from tip to end [m]; of a stick, cylinder, cone, of the edge of a scalpel
+  double edge = 0;           // of a scalpel: between its edge and the handle [rad]
+  Vec3 size = Vec3::Zero();  // of a box [m]
   /// Where the handle is not turned; of all but points and bodies.
   Eigen::Matrix3d attitude = Eigen::Matrix3d::Identity();
   Place place;

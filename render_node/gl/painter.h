@@ -40,7 +40,7 @@ class Painter {
     Eigen::Vector3d axis;  // from the tip up the stick, unit; of a stick, where the handle is not turned
     double length = 0;     // of the stick, or what it is instead [m]; 0: as the picture needs
     ToolShape shape = ToolShape::point;
-    double edge = 0;  // of a scalpel: from its handle [rad]
+    double edge = 0;                                         // of a scalpel: from its handle [rad]
     Eigen::Vector3d size = Eigen::Vector3d::Zero();          // of a box [m]
     Eigen::Matrix3d attitude = Eigen::Matrix3d::Identity();  // of a box, where the handle is not turned
     double force_limit = 0;                                  // of its device [N]

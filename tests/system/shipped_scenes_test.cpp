@@ -80,6 +80,21 @@ TEST_F(ShippedScenes, StickIsFeltAsItIsBorne) {
   EXPECT_LT(std::abs(stick["tissue_work"].get<double>()), 0.1 * rubbed) << "elastic tissue keeps nothing";
 }
 
+/// An incision: what it took and what the books say of it are one, the tissue is in one piece and has all of its masses.
+TEST_F(ShippedScenes, AScalpelOpensTissue) {
+  const auto summary = simulate("scalpel", "");
+  const auto& blade = summary["tools"]["scalpel"];
+  const double area = 1e-6 * blade["cut_area_mm2"].get<double>(),
+               cut = summary["energy"]["cut"].get<double>();
+  EXPECT_GT(area, 100e-6);
+  EXPECT_LT(area, 500e-6) << "of the way at the depth of the hand";
+  EXPECT_NEAR(cut, 190 * area, 1e-6 * cut);
+  EXPECT_GT(blade["tissue_work"].get<double>(), cut);
+  EXPECT_NEAR(blade["felt_over_true_rms"].get<double>(), 1, 0.06);
+  EXPECT_GT(summary["bodies"]["tissue"]["largest_fragment"].get<double>(), 0.999);
+  EXPECT_LT(summary["energy"]["balance_error"].get<double>(), 1e-3);
+}
+
 TEST_F(ShippedScenes, VesselPushedAsideReturns) {
   const auto summary = simulate("vessel_push", "");
   // Let go at 2 s; its length is 1 m.
