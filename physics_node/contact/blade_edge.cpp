@@ -22,6 +22,11 @@ Vec3 at(const BladeLinks::Link& link, const Vec3& a, const Vec3& b) noexcept {
   return (1 - link.t) * a + link.t * b;
 }
 
+/// Of what lies d ahead of a strip: less the farther, and none where it has been passed.
+double weight(double d, double h) noexcept {
+  return d < -passed_by * h ? 0.0 : std::clamp(1 - d / (ahead_reach * h), 0.0, 1.0);
+}
+
 }  // namespace
 
 double BladeEdge::felt_stiffness() const noexcept {
@@ -53,21 +58,23 @@ BladeEdge::Window BladeEdge::strips_near(double p, double reach) const noexcept 
           static_cast<std::size_t>(std::clamp(last + 1, 0.0, most))};
 }
 
-/// Tissue has carried the strips along; who finds none ahead, or was left behind by the hand, lets go.
+/// Tissue has carried the strips along, as what each presses on has moved: by the same weights, so that what the hand gives is what tissue
+/// gets. Who finds none ahead, or was left behind by the hand, lets go.
 void BladeEdge::follow(BladeLinks& links, const BladeFrame& frame) noexcept {
   const double h = links.spacing();
   const std::span<const BladeLinks::Node> nodes = links.nodes();
-  for (Strip& strip : strips_) strip.weight = 0, strip.way.setZero();
+  for (Strip& strip : strips_) {
+    strip.weight = 0, strip.way.setZero();
+    if (strip.bites) strip.q = (strip.x - before_.tip).dot(before_.ahead);
+  }
   for (const BladeLinks::Link& link : links.links()) {
-    if (!link.crosses) continue;
-    const Vec3 way = at(link, nodes[link.a].way, nodes[link.b].way);
-    const Window near = strips_near(link.p, h);
+    if (!link.crossed || !link.lives) continue;
+    const Vec3 way = (1 - link.t_was) * nodes[link.a].way + link.t_was * nodes[link.b].way;
+    const Window near = strips_near(link.p_was, h);
     for (std::size_t i = near.first; i < near.last; ++i) {
       Strip& strip = strips_[i];
       if (!strip.bites) continue;
-      // When the step began.
-      const double d = link.q - (way + strip.x - frame.tip).dot(frame.ahead);
-      const double w = std::max(0.0, 1 - std::abs(d) / (ahead_reach * h));
+      const double w = weight(link.q_was - strip.q, h);
       strip.weight += w;
       strip.way += w * way;
     }
@@ -113,10 +120,7 @@ void BladeEdge::each_held(const BladeLinks& links, const Visit& visit) noexcept 
     for (std::size_t i = near.first; i < near.last; ++i) {
       Strip& strip = strips_[i];
       if (!strip.bites) continue;
-      const double d = link.q - strip.q;
-      // Less the farther ahead.
-      if (const double w = std::min(1.0, 1 - d / (ahead_reach * h)); d >= -passed_by * h && w > 0)
-        visit(link, strip, w);
+      if (const double w = weight(link.q - strip.q, h); w > 0) visit(link, strip, w);
     }
   }
 }
@@ -290,6 +294,7 @@ BladeEdge::Outcome BladeEdge::step(BladeLinks& links, const BladeFrame& frame, d
   cut(links, cuts);
   weigh(links);
   press(links, frame, dt, done);
+  links.remember();
   bites_ = std::ranges::any_of(strips_, [](const Strip& strip) { return strip.bites; });
   before_ = frame;
   seen_ = true;

@@ -90,6 +90,13 @@ void BladeLinks::gather(const BladeFrame& frame, double s, double t, bool bites)
       if (nodes_[a].side == second.side && (low > s + margin || high < s - margin)) return;
       links_.push_back({.a = a, .b = static_cast<std::uint32_t>(b)});
     });
+  cross(s);
+  remember();
+}
+
+void BladeLinks::remember() noexcept {
+  for (Link& link : links_)
+    link.crossed = link.crosses, link.t_was = link.t, link.p_was = link.p, link.q_was = link.q;
 }
 
 void BladeLinks::begin_step() noexcept {

@@ -51,6 +51,8 @@ class BladeLinks {
     std::uint32_t a = 0, b = 0;  // of nodes()
     bool lives = true, crosses = false;
     double t = 0, p = 0, q = 0;
+    bool crossed = false;  // as they were when the last step ended, and what held on to it then pressed
+    double t_was = 0, p_was = 0, q_was = 0;
   };
 
   /// @param body  of springs; outlives this  @param length  of the edge [m]
@@ -65,6 +67,8 @@ class BladeLinks {
   void update(const BladeFrame& frame, double s, bool bites) noexcept;
   /// Anew the crossings alone.
   void cross(double s) noexcept;
+  /// The crossings as they are become those of the step before.
+  void remember() noexcept;
   void reset() noexcept;
 
   std::span<Node> nodes() noexcept { return nodes_; }
