@@ -88,11 +88,11 @@ constexpr std::size_t n_members<Scene>() {
   return 16;
 }
 
-/// use(member...) for each of up to 19 members.
+/// use(member...) for each of up to 20 members.
 template <class T, class Use>
 void with_members(const T& x, Use use) {
   constexpr std::size_t n = n_members<T>();
-  static_assert(n >= 1 && n <= 19, "more members than are named here");
+  static_assert(n >= 1 && n <= 20, "more members than are named here");
   if constexpr (n == 1) {
     const auto& [a] = x;
     use(a);
@@ -168,6 +168,10 @@ void with_members(const T& x, Use use) {
   if constexpr (n == 19) {
     const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, o, p, q, r, s, t] = x;
     use(a, b, c, d, e, f, g, h, i, j, k, l, m, o, p, q, r, s, t);
+  }
+  if constexpr (n == 20) {
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, o, p, q, r, s, t, u] = x;
+    use(a, b, c, d, e, f, g, h, i, j, k, l, m, o, p, q, r, s, t, u);
   }
 }
 
