@@ -89,6 +89,13 @@ void add_of_finite_elements(Keys& keys) {
   add_keys(keys, world, nullptr);
 }
 
+/// A tool that has cut.
+void add_cut(Keys& keys) {
+  World world(pressed_slab());
+  world.tool(0).book().cut(1e-6, 1e-4);
+  add_keys(keys, world, nullptr);
+}
+
 std::vector<palpate::test::Row> rows() {
   return palpate::test::rows_under(palpate::test::reference_page("docs/reference/summary.md"), "Physics");
 }
@@ -99,6 +106,7 @@ TEST(SummaryReference, HasTheKeysThatPhysicsWritesAndNoOthers) {
   add_broken(written);
   add_given_up(written);
   add_of_finite_elements(written);
+  add_cut(written);
   for (const auto& row : rows()) {
     listed.insert(row.at("key"));
     EXPECT_NE(row.at("meaning"), "") << row.at("key");
