@@ -195,8 +195,7 @@ std::vector<bool> wrong_parts(const TriangleSurface& surface, const SurfaceWindi
   const Vec3 origin = surface.points.front();
   for (std::size_t t = 0; t < part.size(); ++t) {
     if (first[part[t]] == none) first[part[t]] = t;
-    const Vec3 a = surface.corner(t, 0) - origin, b = surface.corner(t, 1) - origin;
-    volume[part[t]] += a.dot(b.cross(surface.corner(t, 2) - origin)) / 6;
+    volume[part[t]] += surface.volume_under(t, origin);
   }
   std::vector<bool> wrong(parts);
   for (std::size_t p = 0; p < parts; ++p) {

@@ -5,17 +5,6 @@
 
 namespace palpate {
 
-double enclosed_volume(const TriangleSurface& surface) noexcept {
-  if (surface.points.empty()) return 0;
-  const Vec3 origin = surface.points.front();  // near, so that no digits are lost
-  double six = 0;
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    const Vec3 a = surface.corner(t, 0) - origin, b = surface.corner(t, 1) - origin;
-    six += a.dot(b.cross(surface.corner(t, 2) - origin));
-  }
-  return six / 6;
-}
-
 TriangleTree::TriangleTree(const TriangleSurface& surface) {
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     Eigen::AlignedBox3d box;

@@ -17,11 +17,6 @@ constexpr double passed_by =
 constexpr double cut_behind =
     1.5;  // Why: where the blade's body is there is no element; farther behind there is no blade to be sure of
 
-/// Of where an element crosses the plane, from both its ends.
-Vec3 at(const BladeLinks::Link& link, const Vec3& a, const Vec3& b) noexcept {
-  return (1 - link.t) * a + link.t * b;
-}
-
 /// Of what lies d ahead of a strip: less the farther, and none where it has been passed.
 double weight(double d, double h) noexcept {
   return d < -passed_by * h ? 0.0 : std::clamp(1 - d / (ahead_reach * h), 0.0, 1.0);
@@ -58,8 +53,25 @@ BladeEdge::Window BladeEdge::strips_near(double p, double reach) const noexcept 
           static_cast<std::size_t>(std::clamp(last + 1, 0.0, most))};
 }
 
-/// Tissue has carried the strips along, as what each presses on has moved: by the same weights, so that what the hand gives is what tissue
-/// gets. Who finds none ahead, or was left behind by the hand, lets go.
+/// Calls visit(link, crossing, strip, weight) for every strip that bites and what it presses on.
+template <class Visit>
+void BladeEdge::each_held(const BladeLinks& links, BladeLinks::Crossing BladeLinks::Link::*when,
+                          const Visit& visit) noexcept {
+  const double h = links.spacing();
+  for (const BladeLinks::Link& link : links.links()) {
+    const BladeLinks::Crossing& at = link.*when;
+    if (!at.is || !link.lives) continue;
+    const Window near = strips_near(at.p, h);
+    for (std::size_t i = near.first; i < near.last; ++i) {
+      Strip& strip = strips_[i];
+      if (!strip.bites) continue;
+      if (const double w = weight(at.q - strip.q, h); w > 0) visit(link, at, strip, w);
+    }
+  }
+}
+
+/// Tissue has carried the strips along, as what each presses on has moved: by the same weights, so that what the hand gives
+/// is what tissue gets. Who finds none ahead, or was left behind by the hand, lets go.
 void BladeEdge::follow(BladeLinks& links, const BladeFrame& frame) noexcept {
   const double h = links.spacing();
   const std::span<const BladeLinks::Node> nodes = links.nodes();
@@ -67,18 +79,11 @@ void BladeEdge::follow(BladeLinks& links, const BladeFrame& frame) noexcept {
     strip.weight = 0, strip.way.setZero();
     if (strip.bites) strip.q = (strip.x - before_.tip).dot(before_.ahead);
   }
-  for (const BladeLinks::Link& link : links.links()) {
-    if (!link.crossed || !link.lives) continue;
-    const Vec3 way = (1 - link.t_was) * nodes[link.a].way + link.t_was * nodes[link.b].way;
-    const Window near = strips_near(link.p_was, h);
-    for (std::size_t i = near.first; i < near.last; ++i) {
-      Strip& strip = strips_[i];
-      if (!strip.bites) continue;
-      const double w = weight(link.q_was - strip.q, h);
-      strip.weight += w;
-      strip.way += w * way;
-    }
-  }
+  each_held(links, &BladeLinks::Link::before,
+            [&](const BladeLinks::Link& link, const BladeLinks::Crossing& at, Strip& strip, double w) {
+              strip.weight += w;
+              strip.way += w * at.between(nodes[link.a].way, nodes[link.b].way);
+            });
   for (Strip& strip : strips_) {
     if (!strip.bites) continue;
     if (strip.weight > 0) strip.x += strip.way / strip.weight;
@@ -88,39 +93,24 @@ void BladeEdge::follow(BladeLinks& links, const BladeFrame& frame) noexcept {
   }
 }
 
-/// A free strip that has come to an element in this step bites where that is. Between elements it bites with those at its sides, which are no
-/// farther apart than a spacing.
+/// A free strip that has come to an element in this step bites where that is. Between elements it bites with those at its
+/// sides, which are no farther apart than a spacing.
 void BladeEdge::touch(BladeLinks& links, const BladeFrame& frame) noexcept {
   if (!seen_) return;
   const double h = links.spacing();
   const std::span<const BladeLinks::Node> nodes = links.nodes();
   for (const BladeLinks::Link& link : links.links()) {
-    if (!link.crosses || link.q > lag_) continue;
-    const double edge_way =
-        (frame.tip - before_.tip + link.p * (frame.along - before_.along)).dot(frame.ahead);
-    const double way = at(link, nodes[link.a].way, nodes[link.b].way).dot(frame.ahead);
-    if (link.q - way + edge_way < lag_before_ - 1e-6 * h) continue;  // it was behind already
-    const Window near = strips_near(link.p, 0.5 * h);
+    const BladeLinks::Crossing& at = link.now;
+    if (!at.is || at.q > lag_) continue;
+    const double edge_way = (frame.tip - before_.tip + at.p * (frame.along - before_.along)).dot(frame.ahead);
+    const double way = at.between(nodes[link.a].way, nodes[link.b].way).dot(frame.ahead);
+    if (at.q - way + edge_way < lag_before_ - 1e-6 * h) continue;  // it was behind already
+    const Window near = strips_near(at.p, 0.5 * h);
     for (std::size_t i = near.first; i < near.last; ++i) {
       Strip& strip = strips_[i];
-      if (strip.bites && strip.q <= link.q) continue;
+      if (strip.bites && strip.q <= at.q) continue;
       if (strip.bites && strip.ahead > 0) continue;  // it has pressed before this step
-      strip = {.bites = true, .q = link.q, .r = slot_};
-    }
-  }
-}
-
-/// Calls visit(link, strip, weight) for every strip that bites and what it presses on.
-template <class Visit>
-void BladeEdge::each_held(const BladeLinks& links, const Visit& visit) noexcept {
-  const double h = links.spacing();
-  for (const BladeLinks::Link& link : links.links()) {
-    if (!link.crosses) continue;
-    const Window near = strips_near(link.p, h);
-    for (std::size_t i = near.first; i < near.last; ++i) {
-      Strip& strip = strips_[i];
-      if (!strip.bites) continue;
-      if (const double w = weight(link.q - strip.q, h); w > 0) visit(link, strip, w);
+      strip = {.bites = true, .q = at.q, .r = slot_};
     }
   }
 }
@@ -132,11 +122,12 @@ void BladeEdge::weigh(const BladeLinks& links) noexcept {
     strip.weight = strip.toughness = strip.cover = 0;
     strip.low = 2 * length_, strip.high = -2 * length_;
   }
-  each_held(links, [&](const BladeLinks::Link& link, Strip& strip, double w) {
-    strip.weight += w;
-    strip.low = std::min(strip.low, link.p), strip.high = std::max(strip.high, link.p);
-    strip.toughness += w * 0.5 * (nodes[link.a].toughness + nodes[link.b].toughness);
-  });
+  each_held(links, &BladeLinks::Link::now,
+            [&](const BladeLinks::Link& link, const BladeLinks::Crossing& at, Strip& strip, double w) {
+              strip.weight += w;
+              strip.low = std::min(strip.low, at.p), strip.high = std::max(strip.high, at.p);
+              strip.toughness += w * 0.5 * (nodes[link.a].toughness + nodes[link.b].toughness);
+            });
   for (std::size_t i = 0; i < strips_.size(); ++i) {
     Strip& strip = strips_[i];
     strip.bites = strip.bites && strip.weight > 0;
@@ -148,8 +139,8 @@ void BladeEdge::weigh(const BladeLinks& links) noexcept {
   }
 }
 
-/// By how much the area before a strip has grown or shrunk: the places at rest of where its elements cross, X = X_0 + A q + B p by least squares,
-/// make of dq dp an area |A x B| dq dp.
+/// By how much the area before a strip has grown or shrunk: the places at rest of where its elements cross,
+/// X = X_0 + A q + B p by least squares, make of dq dp an area |A x B| dq dp.
 void BladeEdge::compare_with_rest(const BladeLinks& links, double dt) noexcept {
   struct Sums {
     double n = 0, q = 0, p = 0, qq = 0, qp = 0, pp = 0;
@@ -157,13 +148,14 @@ void BladeEdge::compare_with_rest(const BladeLinks& links, double dt) noexcept {
   };
   std::array<Sums, most_strips> sums{};
   const std::span<const BladeLinks::Node> nodes = links.nodes();
-  each_held(links, [&](const BladeLinks::Link& link, Strip& strip, double w) {
-    Sums& s = sums[static_cast<std::size_t>(&strip - strips_.data())];
-    const Vec3 x = at(link, nodes[link.a].rest, nodes[link.b].rest);
-    s.n += w, s.q += w * link.q, s.p += w * link.p;
-    s.qq += w * link.q * link.q, s.qp += w * link.q * link.p, s.pp += w * link.p * link.p;
-    s.x += w * x, s.xq += w * link.q * x, s.xp += w * link.p * x;
-  });
+  each_held(links, &BladeLinks::Link::now,
+            [&](const BladeLinks::Link& link, const BladeLinks::Crossing& at, Strip& strip, double w) {
+              Sums& s = sums[static_cast<std::size_t>(&strip - strips_.data())];
+              const Vec3 x = at.between(nodes[link.a].rest, nodes[link.b].rest);
+              s.n += w, s.q += w * at.q, s.p += w * at.p;
+              s.qq += w * at.q * at.q, s.qp += w * at.q * at.p, s.pp += w * at.p * at.p;
+              s.x += w * x, s.xq += w * at.q * x, s.xp += w * at.p * x;
+            });
   const double least = 1e-3 * links.spacing() * links.spacing();
   for (std::size_t i = 0; i < strips_.size(); ++i) {
     const Sums& s = sums[i];
@@ -189,15 +181,17 @@ void BladeEdge::soften(BladeLinks& links, double dt) noexcept {
   const double k = hold();
   const std::span<BladeLinks::Node> nodes = links.nodes();
   for (Strip& strip : strips_) strip.softness = 0;
-  each_held(links, [&](const BladeLinks::Link& link, Strip& strip, double w) {
-    nodes[link.a].pull += w / strip.weight * (1 - link.t) * k * strip.cover;
-    nodes[link.b].pull += w / strip.weight * link.t * k * strip.cover;
-  });
-  each_held(links, [&](const BladeLinks::Link& link, Strip& strip, double w) {
-    const BladeLinks::Node &a = nodes[link.a], &b = nodes[link.b];
-    strip.softness += dt * dt * w / strip.weight *
-                      ((1 - link.t) * a.inverse_mass * a.pull + link.t * b.inverse_mass * b.pull);
-  });
+  each_held(links, &BladeLinks::Link::now,
+            [&](const BladeLinks::Link& link, const BladeLinks::Crossing& at, Strip& strip, double w) {
+              nodes[link.a].pull += w / strip.weight * (1 - at.t) * k * strip.cover;
+              nodes[link.b].pull += w / strip.weight * at.t * k * strip.cover;
+            });
+  each_held(links, &BladeLinks::Link::now,
+            [&](const BladeLinks::Link& link, const BladeLinks::Crossing& at, Strip& strip, double w) {
+              const BladeLinks::Node &a = nodes[link.a], &b = nodes[link.b];
+              strip.softness += dt * dt * w / strip.weight *
+                                ((1 - at.t) * a.inverse_mass * a.pull + at.t * b.inverse_mass * b.pull);
+            });
 }
 
 /// What all strips press with when the blade is there, ahead [N].
@@ -205,8 +199,7 @@ double BladeEdge::hold_ahead(double q) const noexcept {
   double sum = 0;
   for (const Strip& strip : strips_)
     if (strip.bites)
-      sum += std::clamp(hold() * strip.cover * (q - strip.q) / (1 + strip.softness), 0.0,
-                        strip.toughness * strip.cover * width_ * strip.unstrained);
+      sum += std::clamp(hold_of(strip) * (q - strip.q), 0.0, strip.toughness * width_at_rest(strip));
   return sum;
 }
 
@@ -217,7 +210,7 @@ void BladeEdge::find_blade() noexcept {
   for (const Strip& strip : strips_) {
     if (!strip.bites) continue;
     low = std::min(low, strip.q);
-    const double k = hold() * strip.cover / (1 + strip.softness);
+    const double k = hold_of(strip);
     across += k * strip.r, held += k;
   }
   if (held == 0) return;
@@ -238,8 +231,7 @@ void BladeEdge::slide(Strip& strip, Outcome& done) const noexcept {
     strip.q = std::max(strip.q, lag_);
     return;
   }
-  const double k = hold() * strip.cover / (1 + strip.softness);
-  const double width = strip.cover * width_ * strip.unstrained, most = strip.toughness * width;
+  const double k = hold_of(strip), width = width_at_rest(strip), most = strip.toughness * width;
   strip.ahead = std::max(0.0, k * (lag_ - strip.q));
   strip.across = k * (aside_ - strip.r);
   if (strip.ahead <= most) return;
@@ -254,16 +246,19 @@ void BladeEdge::slide(Strip& strip, Outcome& done) const noexcept {
 /// Puts the forces of the strips on the nodes that they hold.
 void BladeEdge::press(BladeLinks& links, const BladeFrame& frame, double dt, Outcome& done) noexcept {
   const std::span<BladeLinks::Node> nodes = links.nodes();
-  each_held(links, [&](const BladeLinks::Link& link, Strip& strip, double w) {
-    const Vec3 force = w / strip.weight * (strip.ahead * frame.ahead + strip.across * frame.side);
-    nodes[link.a].force += (1 - link.t) * force;
-    nodes[link.b].force += link.t * force;
-  });
+  each_held(links, &BladeLinks::Link::now,
+            [&](const BladeLinks::Link& link, const BladeLinks::Crossing& at, Strip& strip, double w) {
+              const Vec3 force = w / strip.weight * (strip.ahead * frame.ahead + strip.across * frame.side);
+              nodes[link.a].force += (1 - at.t) * force;
+              nodes[link.b].force += at.t * force;
+            });
   for (Strip& strip : strips_) strip.way.setZero();
-  each_held(links, [&](const BladeLinks::Link& link, Strip& strip, double w) {
-    const BladeLinks::Node &a = nodes[link.a], &b = nodes[link.b];
-    strip.way += dt * dt * w / strip.weight * at(link, a.inverse_mass * a.force, b.inverse_mass * b.force);
-  });
+  each_held(links, &BladeLinks::Link::now,
+            [&](const BladeLinks::Link& link, const BladeLinks::Crossing& at, Strip& strip, double w) {
+              const BladeLinks::Node &a = nodes[link.a], &b = nodes[link.b];
+              strip.way +=
+                  dt * dt * w / strip.weight * at.between(a.inverse_mass * a.force, b.inverse_mass * b.force);
+            });
   for (std::size_t i = 0; i < strips_.size(); ++i) {
     Strip& strip = strips_[i];
     if (!strip.bites) continue;
@@ -315,11 +310,12 @@ void BladeEdge::cut(BladeLinks& links, std::vector<EdgeGone>& cuts) noexcept {
   const double passed = passed_by * links.spacing(), behind = cut_behind * links.spacing();
   std::span<BladeLinks::Node> nodes = links.nodes();
   for (BladeLinks::Link& link : links.links()) {
-    if (!link.crosses || link.p < 0 || link.p > length_ || cuts.size() == cuts.capacity()) continue;
-    const auto i = std::min(static_cast<std::size_t>(link.p / width_), strips_.size() - 1);
+    const BladeLinks::Crossing& at = link.now;
+    if (!at.is || at.p < 0 || at.p > length_ || cuts.size() == cuts.capacity()) continue;
+    const auto i = std::min(static_cast<std::size_t>(at.p / width_), strips_.size() - 1);
     const Strip& strip = strips_[i];
-    if (!strip.bites || link.q >= strip.q - passed || link.q < strip.q - behind) continue;
-    link.lives = link.crosses = false;
+    if (!strip.bites || at.q >= strip.q - passed || at.q < strip.q - behind) continue;
+    link.lives = link.now.is = false;
     cuts.push_back({nodes[link.a].cell, nodes[link.b].cell});
   }
 }

@@ -50,8 +50,6 @@ class BladeEdge {
   double slot() const noexcept { return slot_; }
   /// What the hand feels of its spring as long as no strip goes on [N/m].
   double felt_stiffness() const noexcept;
-  /// Where the blade is from the hand's, ahead: not above 0 [m].
-  double lag() const noexcept { return lag_; }
 
  private:
   struct Strip {
@@ -76,12 +74,17 @@ class BladeEdge {
   void follow(BladeLinks& links, const BladeFrame& frame) noexcept;
   void find_slot() noexcept;
   template <class Visit>
-  void each_held(const BladeLinks& links, const Visit& visit) noexcept;
+  void each_held(const BladeLinks& links, BladeLinks::Crossing BladeLinks::Link::*when,
+                 const Visit& visit) noexcept;
   void weigh(const BladeLinks& links) noexcept;
   void compare_with_rest(const BladeLinks& links, double dt) noexcept;
   void soften(BladeLinks& links, double dt) noexcept;
   /// Of a strip on the tissue, all of which is before it [N/m].
   double hold() const noexcept { return held_by * stiffness_ * width_ / length_; }
+  /// Of as much of a strip as tissue is before, and as softly as that gives way in a step [N/m].
+  double hold_of(const Strip& strip) const noexcept { return hold() * strip.cover / (1 + strip.softness); }
+  /// What it opens by the way that it goes on [m].
+  double width_at_rest(const Strip& strip) const noexcept { return strip.cover * width_ * strip.unstrained; }
   double hold_ahead(double q) const noexcept;
   void find_blade() noexcept;
   void slide(Strip& strip, Outcome& done) const noexcept;

@@ -95,8 +95,7 @@ void BladeLinks::gather(const BladeFrame& frame, double s, double t, bool bites)
 }
 
 void BladeLinks::remember() noexcept {
-  for (Link& link : links_)
-    link.crossed = link.crosses, link.t_was = link.t, link.p_was = link.p, link.q_was = link.q;
+  for (Link& link : links_) link.before = link.now;
 }
 
 void BladeLinks::begin_step() noexcept {
@@ -122,12 +121,13 @@ void BladeLinks::update(const BladeFrame& frame, double s, bool bites) noexcept 
 void BladeLinks::cross(double s) noexcept {
   for (Link& link : links_) {
     const Vec3 &a = nodes_[link.a].at, &b = nodes_[link.b].at;
-    link.crosses = link.lives && nodes_[link.a].side != nodes_[link.b].side;
-    if (!link.crosses) continue;
+    Crossing& now = link.now;
+    now.is = link.lives && nodes_[link.a].side != nodes_[link.b].side;
+    if (!now.is) continue;
     const double apart = b.z() - a.z();
-    link.t = std::abs(apart) > tiny * h_ ? std::clamp((s - a.z()) / apart, 0.0, 1.0) : 0.5;
-    link.p = a.x() + link.t * (b.x() - a.x());
-    link.q = a.y() + link.t * (b.y() - a.y());
+    now.t = std::abs(apart) > tiny * h_ ? std::clamp((s - a.z()) / apart, 0.0, 1.0) : 0.5;
+    now.p = a.x() + now.t * (b.x() - a.x());
+    now.q = a.y() + now.t * (b.y() - a.y());
   }
 }
 

@@ -6,11 +6,11 @@
 //
 //   t = (s - r_a) / (r_b - r_a),   p = (1 - t) p_a + t p_b,   q alike
 //
-// On which side a mass lies is settled once, before the edge comes to it: one that lies in the plane, and is moved to and fro, stays with the lip that
-// it belongs to.
+// so that whether an edge that lies at q(p) has passed it is a question of two numbers. Every element has one answer however
+// the edge is divided and whichever way steps are: no element slips between two strips or two steps.
 //
-// so that whether an edge that lies at q(p) has passed it is a question of two numbers. Every element has one answer however the edge is divided
-// and whichever way steps are: no element slips between two strips or two steps.
+// On which side a mass lies is settled once, before the edge comes to it: one that lies in the plane, and is moved to and fro,
+// stays with the lip that it belongs to.
 
 #include <cstdint>
 #include <span>
@@ -47,12 +47,17 @@ class BladeLinks {
     std::int8_t side = 0;          // 1: above
     double pull = 0;               // sum of w k of what holds on to it [N/m]
   };
+  /// Where an element crosses the plane, if it does.
+  struct Crossing {
+    bool is = false;
+    double t = 0, p = 0, q = 0;
+    /// Of what its ends have.
+    Vec3 between(const Vec3& a, const Vec3& b) const noexcept { return (1 - t) * a + t * b; }
+  };
   struct Link {
     std::uint32_t a = 0, b = 0;  // of nodes()
-    bool lives = true, crosses = false;
-    double t = 0, p = 0, q = 0;
-    bool crossed = false;  // as they were when the last step ended, and what held on to it then pressed
-    double t_was = 0, p_was = 0, q_was = 0;
+    bool lives = true;
+    Crossing now{}, before{};  // before: when the last step ended
   };
 
   /// @param body  of springs; outlives this  @param length  of the edge [m]
@@ -77,7 +82,6 @@ class BladeLinks {
   std::span<const Node> nodes() const noexcept { return nodes_; }
   /// How far neighbours lie apart [m].
   double spacing() const noexcept { return h_; }
-  const BodyModel& body() const noexcept { return *body_; }
 
  private:
   void look_around(const BladeFrame& frame) noexcept;

@@ -14,7 +14,6 @@ namespace {
 
 constexpr double strips_a_spacing =
     2;  // Why: a strip answers for half a spacing of edge, so that a blade that enters does so gradually
-constexpr double edge_lets_go_in = 0.2;  // [s]
 constexpr std::size_t most_cuts = 4096;  // in a step
 
 void refuse_uncut(const ToolSpec& tool, const Body& body) {
@@ -86,7 +85,7 @@ void BladeTool::take(const ToolState* state, double dt) noexcept {
     if (hand.sample == 0) hand.sample = hand.tick, hand.n_before = 0;
   }
   if (!play_.take(state != nullptr ? &hand : nullptr, dt)) blade_.let_go();
-  keep_ = std::clamp(keep_ + (state == nullptr ? -dt : dt) / edge_lets_go_in, 0.0, 1.0);
+  keep_ = spring_left(keep_, state != nullptr, dt);
   if (state == nullptr) return;
   note(*state);
   engaged_ = state->engaged != 0;

@@ -1,5 +1,5 @@
 #pragma once
-// A scalpel: a rigid edge that the hand's recorded motion leads through bodies of springs, and what it passes is cut (blade_edge.h). No mass is lost.
+// A scalpel: a rigid edge that the hand leads through bodies of springs, and what it passes is cut (blade_edge.h). No mass is lost.
 // What the hand pays is the tissue's toughness times the area that has been opened.
 //
 // The hand is told the force of the frame's last step and how its spring would change that: of two ways, as the edge slides along itself.

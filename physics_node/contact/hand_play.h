@@ -3,6 +3,7 @@
 // to the newest that has come, however many lie between. So late and lost messages change when tissue is pressed, not how.
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -14,6 +15,13 @@ namespace palpate::physics {
 /// Of the samples that a state tells before its newest, how many come after `played`; 0 where its hand begins anew.
 /// The record keeps what HandPlay plays: both ask here.
 std::uint32_t new_samples(const ToolState& state, std::uint64_t played) noexcept;
+
+/// What is left of a tool's spring: after silence it lets go within 200 ms, and takes hold again as it went.
+/// @param left  before a frame of dt, 0 to 1
+inline double spring_left(double left, bool heard, double dt) noexcept {
+  constexpr double lets_go_in = 0.2;  // [s]
+  return std::clamp(left + (heard ? dt : -dt) / lets_go_in, 0.0, 1.0);
+}
 
 class HandPlay {
  public:

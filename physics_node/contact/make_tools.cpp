@@ -14,13 +14,19 @@
 namespace palpate::physics {
 namespace {
 
+/// @throws InputError  where steps are implicit; what the tool does step by step, and what to write instead
+void refuse_implicit(const Scene& scene, const ToolSpec& tool, const std::string& what,
+                     const std::string& instead = {}) {
+  if (scene.physics->integrator == Integrator::backward_euler)
+    throw InputError(tool.place.text() + ": " + what + ", which \"backward_euler\" does not; write " +
+                     instead + "integrator = \"symplectic_euler\"");
+}
+
 void add_point(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
                const std::vector<TouchableBody>& touchable, Toolbox& box) {
   const ToolSpec& spec = scene.tools[n];
-  if (spec.contact == PointContact::faces && scene.physics->integrator == Integrator::backward_euler)
-    throw InputError(spec.place.text() +
-                     ": contact = \"faces\" presses step by step, which \"backward_euler\" does not; write "
-                     "contact = \"nodes\", or integrator = \"symplectic_euler\"");
+  if (spec.contact == PointContact::faces)
+    refuse_implicit(scene, spec, "contact = \"faces\" presses step by step", "contact = \"nodes\", or ");
   auto point = std::make_unique<PointTool>(spec, n, touchable, scene.physics->integrator);
   box.pressing.push_back(point.get());
   box.tools.push_back(std::move(point));
@@ -31,11 +37,8 @@ void add_point(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
 void add_tissue(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
                 const std::vector<TouchableBody>& touchable, Toolbox& box) {
   const ToolSpec& spec = scene.tools[n];
-  if (scene.physics->integrator == Integrator::backward_euler)
-    throw InputError(
-        spec.place.text() +
-        ": force_model = \"tissue\" presses step by step, which \"backward_euler\" does not; write "
-        "force_model = \"norton\", or integrator = \"symplectic_euler\"");
+  refuse_implicit(scene, spec, "force_model = \"tissue\" presses step by step",
+                  "force_model = \"norton\", or ");
   auto tool = std::make_unique<TissueTool>(spec, n, touchable, 1 / scene.device(spec.device).rate_Hz,
                                            scene.physics->integrator);
   box.pressing.push_back(tool.get());
@@ -45,10 +48,7 @@ void add_tissue(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
 
 void add_scalpel(const Scene& scene, std::uint32_t n, const BodyModels& bodies, Toolbox& box) {
   const ToolSpec& spec = scene.tools[n];
-  if (scene.physics->integrator == Integrator::backward_euler)
-    throw InputError(spec.place.text() +
-                     ": a scalpel cuts step by step, which \"backward_euler\" does not; write "
-                     "integrator = \"symplectic_euler\"");
+  refuse_implicit(scene, spec, "a scalpel cuts step by step");
   auto blade = std::make_unique<BladeTool>(spec, n, bodies, 1 / scene.device(spec.device).rate_Hz);
   box.pressing.push_back(blade.get());
   box.tools.push_back(std::move(blade));
@@ -58,10 +58,7 @@ void add_scalpel(const Scene& scene, std::uint32_t n, const BodyModels& bodies, 
 void add_stick(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
                const std::vector<TouchableBody>& touchable, Toolbox& box) {
   const ToolSpec& spec = scene.tools[n];
-  if (scene.physics->integrator == Integrator::backward_euler)
-    throw InputError(spec.place.text() +
-                     ": a stick moves masses step by step, which \"backward_euler\" does not; write "
-                     "integrator = \"symplectic_euler\"");
+  refuse_implicit(scene, spec, "a stick moves masses step by step");
   auto stick = std::make_unique<StickTool>(spec, n, bodies, touchable);
   box.led.push_back(stick.get());
   box.tools.push_back(std::move(stick));

@@ -17,7 +17,6 @@
 namespace palpate::physics {
 namespace {
 
-constexpr double lets_go_in = 0.2;  // after silence [s]
 // A touch begins outside: what is deeper in the tissue without bearing has got there otherwise, and would be thrown out.
 constexpr double begins_within = 0.5e-3;  // [m]
 // Of what holds modes where their force does not: weight, what a body lies on, other tools, a law that is curved. Why: slower than a hand palpates.
@@ -89,8 +88,7 @@ void TissueTool::take(const ToolState* state, double dt) noexcept {
   frame_dt_ = dt;
   elapsed_ = 0;
   if (!play_.take(state, dt)) let_go(), told_at_ = 0;
-  // What was let go takes hold again as it went.
-  keep_ = std::clamp(keep_ + (state == nullptr ? -dt : dt) / lets_go_in, 0.0, 1.0);
+  keep_ = spring_left(keep_, state != nullptr, dt);
   if (state == nullptr) return;
   note(*state);
   engaged_ = state->engaged != 0;

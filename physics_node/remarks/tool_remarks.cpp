@@ -38,20 +38,16 @@ std::vector<Vec3> samples_of(const DeviceSpec& device, double apart) {
   return samples;
 }
 
-/// Of a tool, about its tip: the tip, points along a stick, corners of what has flat ends, or the surface of its body.
+/// Of a tool, about its tip: the tip, points along a stick or an edge, corners of what has flat ends, or the surface of its body.
 std::vector<Vec3> shape_of(const ToolSpec& tool, const Scene& scene, const Bodies& bodies, double apart) {
   if (tool.shape == ToolShape::point) return {Vec3::Zero()};
   std::vector<Vec3> points;
-  if (tool.shape == ToolShape::stick) {
-    const Vec3 axis = -(tool.attitude * Vec3::UnitZ());
+  if (tool.shape == ToolShape::stick || tool.shape == ToolShape::scalpel) {
+    const Vec3 axis =
+        tool.attitude * (tool.shape == ToolShape::stick ? Vec3(-Vec3::UnitZ())
+                                                        : Vec3(-std::sin(tool.edge), 0, std::cos(tool.edge)));
     for (double s = 0; s < tool.length; s += apart) points.push_back(s * axis);
     points.push_back(tool.length * axis);
-    return points;
-  }
-  if (tool.shape == ToolShape::scalpel) {
-    const Vec3 edge = tool.attitude * Vec3(-std::sin(tool.edge), 0, std::cos(tool.edge));
-    for (double s = 0; s < tool.length; s += apart) points.push_back(s * edge);
-    points.push_back(tool.length * edge);
     return points;
   }
   if (is_solid_tip(tool.shape)) {

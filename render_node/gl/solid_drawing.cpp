@@ -156,33 +156,28 @@ void SolidDrawing::shape_blade(float length, float angle) {
   const float neck = std::min(0.25F * length, s + back), end = top + 3 * length;
   std::vector<SolidVertex> vertices;
   std::vector<std::uint32_t> indices;
-  using Corner = std::array<float, 2>;  // x, z
-  const auto add = [&](std::initializer_list<Corner> outline, float half) {
-    const auto face = [&](std::initializer_list<std::array<float, 3>> corners,
-                          const std::array<float, 3>& normal) {
-      const auto first = static_cast<std::uint32_t>(vertices.size());
-      for (const auto& corner : corners) vertices.push_back({corner, normal});
-      for (std::uint32_t n = 2; n < corners.size(); ++n)
-        indices.insert(indices.end(), {first, first + n - 1, first + n});
-    };
-    const std::vector<Corner> at(outline);
-    for (const float side : {-1.0F, 1.0F}) {
-      const auto first = static_cast<std::uint32_t>(vertices.size());
-      for (const Corner& corner : at) vertices.push_back({{corner[0], side * half, corner[1]}, {0, side, 0}});
-      for (std::uint32_t n = 2; n < at.size(); ++n)
-        indices.insert(indices.end(), {first, first + n - 1, first + n});
-    }
-    for (std::size_t n = 0; n < at.size(); ++n) {
-      const Corner &a = at[n], &b = at[(n + 1) % at.size()];
-      const float dx = b[0] - a[0], dz = b[1] - a[1], way = std::hypot(dx, dz);
-      if (way <= 0) continue;
-      face({{a[0], -half, a[1]}, {b[0], -half, b[1]}, {b[0], half, b[1]}, {a[0], half, a[1]}},
-           {-dz / way, 0, dx / way});
+  const auto face = [&](std::span<const std::array<float, 3>> corners, const std::array<float, 3>& normal) {
+    const auto first = static_cast<std::uint32_t>(vertices.size());
+    for (const auto& corner : corners) vertices.push_back({corner, normal});
+    for (std::uint32_t n = 2; n < corners.size(); ++n)
+      indices.insert(indices.end(), {first, first + n - 1, first + n});
+  };
+  using Outline = std::array<std::array<float, 2>, 4>;  // x, z
+  const auto add = [&](const Outline& outline, float half) {
+    std::array<std::array<float, 3>, 4> left, right;
+    for (std::size_t n = 0; n < 4; ++n)
+      left[n] = {outline[n][0], -half, outline[n][1]}, right[n] = {outline[n][0], half, outline[n][1]};
+    face(left, {0, -1, 0});
+    face(right, {0, 1, 0});
+    for (std::size_t n = 0; n < 4; ++n) {
+      const std::size_t m = (n + 1) % 4;
+      const float dx = left[m][0] - left[n][0], dz = left[m][2] - left[n][2], way = std::hypot(dx, dz);
+      if (way > 0) face(std::array{left[n], left[m], right[m], right[n]}, {-dz / way, 0, dx / way});
     }
   };
   // Why from the edge to the back in this order: normals point outward.
-  add({{0, 0}, {-s, c}, {-s, top}, {back, top}}, thick);
-  add({{back - neck, top}, {back - neck, end}, {back, end}, {back, top}}, 2 * thick);
+  add({{{0, 0}, {-s, c}, {-s, top}, {back, top}}}, thick);
+  add({{{back - neck, top}, {back - neck, end}, {back, end}, {back, top}}}, 2 * thick);
   upload(vertices, indices);
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 // Small bodies of tetrahedra for tests.
 
+#include <gtest/gtest.h>
+
 #include <random>
 
 #include "physics_node/mesh/renumber.h"
@@ -65,6 +67,22 @@ void stir(Tetrahedra<Real>& body, double displacement, double velocity, std::uin
     const Vec3 u = displacement * dice.vector(), v = velocity * dice.vector();
     if (body.inverse_mass(n) > 0) body.place(n, u, v);
   }
+}
+
+/// Whatever `run` does to it keeps both momenta, to 1e-12 of what its nodes have of them.
+template <class Run>
+void expect_momenta_kept(Tetrahedra<double>& body, const Run& run) {
+  const Momenta start = body.momenta();
+  double linear = 0, angular = 0;
+  for (Index n = 0; n < static_cast<Index>(body.n_nodes()); ++n) {
+    const Vec3 p = body.velocity(n) / body.inverse_mass(n);
+    linear += p.norm();
+    angular += p.norm() * body.model().mesh.nodes[static_cast<std::size_t>(n)].norm();
+  }
+  run();
+  const Momenta end = body.momenta();
+  EXPECT_LT((end.linear - start.linear).norm(), 1e-12 * linear);
+  EXPECT_LT((end.angular - start.angular).norm(), 1e-12 * angular);
 }
 
 }  // namespace palpate::physics::test
