@@ -48,11 +48,15 @@ double World::cut(PressingTool& tool) noexcept {
     BodyModel& body = *bodies_[tool.touched_body()];
     const Losses before = body.losses();
     report_.broken += body.cut(tool.cuts());
-    cut_since_ += body.losses() - before;
+    const Losses lost = body.losses() - before;
+    cut_since_ += lost;
+    tool.take_released(lost.broken);
   }
-  const double work = tool.cut_work();
-  if (std::isfinite(work)) report_.cut += work;
-  return tool.book().tissue(work);
+  const CutWork work = tool.cut_work();
+  if (!std::isfinite(work.hand) || !std::isfinite(work.released)) return work.hand;
+  report_.cut += work.hand + work.released;
+  report_.cut_by_released += work.released;
+  return tool.book().tissue(work.hand);
 }
 
 /// Tools that follow steps: their forces act in the step just integrated, and cut at its end.

@@ -12,6 +12,9 @@ constexpr double ahead_reach =
     1.5;  // Why: a blade between two layers of masses presses on the one ahead whatever the direction
 constexpr double back_reach = 0.5;  // of tissue that an edge holds on to, and that a hand may go back by
 constexpr double compared_anew_in = 0.05;  // [s]
+constexpr double evened_in =
+    2;  // Why: less, and the force would jump with every element, more, and it would lag behind the tissue
+constexpr double most_from_tissue = 0.9;  // of the toughness: an edge that is free does not stand still
 constexpr double passed_by =
     0.25;  // Why: tissue before an edge moves by little against its neighbours without being cut
 constexpr double cut_behind =
@@ -22,6 +25,11 @@ double weight(double d, double h) noexcept {
   return d < -passed_by * h ? 0.0 : std::clamp(1 - d / (ahead_reach * h), 0.0, 1.0);
 }
 
+/// Of what has changed, how much is taken up in a step in which an edge has slid so far.
+double evened_part(double slid, double h, double dt) noexcept {
+  return std::min(1.0, slid / h + dt / compared_anew_in);
+}
+
 }  // namespace
 
 double BladeEdge::felt_stiffness() const noexcept {
@@ -29,6 +37,13 @@ double BladeEdge::felt_stiffness() const noexcept {
   for (const Strip& strip : strips_)
     if (strip.bites) sum += strip.cover * hold();
   return sum > 0 ? stiffness_ * sum / (stiffness_ + sum) : 0.0;
+}
+
+EdgePlace BladeEdge::place() const noexcept {
+  EdgePlace place{.lag = lag_, .last = lag_, .slot = slot_, .bites = bites_};
+  for (const Strip& strip : strips_)
+    if (strip.bites) place.last = std::min(place.last, strip.q);
+  return place;
 }
 
 BladeEdge::BladeEdge(double length, std::size_t n_strips, double stiffness)
@@ -41,6 +56,7 @@ void BladeEdge::let_go() noexcept {
   for (Strip& strip : strips_) strip = {};
   bites_ = false;
   slot_ = lag_ = lag_before_ = aside_ = 0;
+  purse_ = from_tissue_ = 0;
   seen_ = false;
 }
 
@@ -75,10 +91,7 @@ void BladeEdge::each_held(const BladeLinks& links, BladeLinks::Crossing BladeLin
 void BladeEdge::follow(BladeLinks& links, const BladeFrame& frame) noexcept {
   const double h = links.spacing();
   const std::span<const BladeLinks::Node> nodes = links.nodes();
-  for (Strip& strip : strips_) {
-    strip.weight = 0, strip.way.setZero();
-    if (strip.bites) strip.q = (strip.x - before_.tip).dot(before_.ahead);
-  }
+  for (Strip& strip : strips_) strip.weight = 0, strip.way.setZero();
   each_held(links, &BladeLinks::Link::before,
             [&](const BladeLinks::Link& link, const BladeLinks::Crossing& at, Strip& strip, double w) {
               strip.weight += w;
@@ -161,9 +174,9 @@ void BladeEdge::compare_with_rest(const BladeLinks& links, double dt) noexcept {
     const Sums& s = sums[i];
     Strip& strip = strips_[i];
     // An element that is cut leaves others to compare with: what is felt of that comes as the edge goes on.
-    const double part =
-        strip.new_bite ? 1.0 : std::min(1.0, strip.slid / links.spacing() + dt / compared_anew_in);
-    strip.slid = 0;
+    const bool first = strip.new_bite;
+    const double part = first ? 1.0 : evened_part(strip.slid, links.spacing(), dt);
+    strip.slid_before = strip.slid, strip.slid = 0;
     if (!strip.bites || s.n <= 0) continue;
     const double q = s.q / s.n, p = s.p / s.n;
     const double qq = s.qq / s.n - q * q, qp = s.qp / s.n - q * p, pp = s.pp / s.n - p * p;
@@ -173,7 +186,37 @@ void BladeEdge::compare_with_rest(const BladeLinks& links, double dt) noexcept {
     const Vec3 A = (pp * xq - qp * xp) / det, B = (qq * xp - qp * xq) / det;
     strip.unstrained += part * (std::clamp(A.cross(B).norm(), 0.1, 10.0) - strip.unstrained);
     strip.new_bite = false;
+    const double middle = (static_cast<double>(i) + 0.5) * width_;
+    const Vec3 front = x + (strip.q - q) * A + (middle - p) * B;
+    if (!first) count_passed(strip, front, A, B);
+    strip.front = front;
+    const double even = std::clamp(1 + strip.unpaid / (evened_in * links.spacing() * width_), 0.5, 1.5);
+    strip.even += part * (even - strip.even);
   }
+}
+
+/// What a strip has passed since the last step. Counted by where it is, and not by how far it went, this is right in the sum:
+/// where the two differ, as tissue is pressed together before the edge, the next that it opens is booked as so much more or less.
+void BladeEdge::count_passed(Strip& strip, const Vec3& front, const Vec3& A, const Vec3& B) noexcept {
+  const Vec3 normal = A.cross(B);
+  const double size = normal.norm();
+  if (size < 0.1) return;
+  const double passed = (front - strip.front).cross(B).dot(normal) / size * strip.cover * width_;
+  strip.unpaid += passed - strip.booked;
+  strip.booked = 0;
+}
+
+/// Elements that are cut give what they held, and the hand pays the rest (Griffith). Spread over the way to come.
+void BladeEdge::share_released(const BladeLinks& links, double dt) noexcept {
+  double slid = 0, full = 0;
+  for (Strip& strip : strips_) {
+    const double resists = strip.bites ? resistance(strip) : 0.0;
+    full += resists, slid += resists * strip.slid_before;
+  }
+  if (!(full > 0)) return;
+  const double wanted =
+      std::clamp(purse_ / (full * evened_in * links.spacing()), -most_from_tissue, most_from_tissue);
+  from_tissue_ += evened_part(slid / full, links.spacing(), dt) * (wanted - from_tissue_);
 }
 
 /// How softly what they hold gives way in a step: g.
@@ -198,8 +241,7 @@ void BladeEdge::soften(BladeLinks& links, double dt) noexcept {
 double BladeEdge::hold_ahead(double q) const noexcept {
   double sum = 0;
   for (const Strip& strip : strips_)
-    if (strip.bites)
-      sum += std::clamp(hold_of(strip) * (q - strip.q), 0.0, strip.toughness * width_at_rest(strip));
+    if (strip.bites) sum += std::clamp(hold_of(strip) * (q - strip.q), 0.0, most_force(strip));
   return sum;
 }
 
@@ -231,7 +273,7 @@ void BladeEdge::slide(Strip& strip, Outcome& done) const noexcept {
     strip.q = std::max(strip.q, lag_);
     return;
   }
-  const double k = hold_of(strip), width = width_at_rest(strip), most = strip.toughness * width;
+  const double k = hold_of(strip), most = most_force(strip);
   strip.ahead = std::max(0.0, k * (lag_ - strip.q));
   strip.across = k * (aside_ - strip.r);
   if (strip.ahead <= most) return;
@@ -239,8 +281,11 @@ void BladeEdge::slide(Strip& strip, Outcome& done) const noexcept {
   strip.q += on;
   strip.slid += on;
   strip.ahead = most;
+  const double area = width_at_rest(strip) * on;
+  strip.booked += area;
+  done.area += area;
   done.work += most * on;
-  done.area += width * on;
+  done.released += from_tissue_ * resistance(strip) * on;
 }
 
 /// Puts the forces of the strips on the nodes that they hold.
@@ -275,7 +320,7 @@ void BladeEdge::press(BladeLinks& links, const BladeFrame& frame, double dt, Out
 BladeEdge::Outcome BladeEdge::step(BladeLinks& links, const BladeFrame& frame, double dt,
                                    std::vector<EdgeGone>& cuts) noexcept {
   Outcome done;
-  links.update(frame, slot_, bites_);
+  links.update(frame, place());
   follow(links, frame);
   touch(links, frame);
   lag_before_ = lag_;
@@ -283,9 +328,11 @@ BladeEdge::Outcome BladeEdge::step(BladeLinks& links, const BladeFrame& frame, d
   links.cross(slot_);
   weigh(links);
   compare_with_rest(links, dt);
+  share_released(links, dt);
   soften(links, dt);
   find_blade();
   for (Strip& strip : strips_) slide(strip, done);
+  purse_ -= done.released;
   cut(links, cuts);
   weigh(links);
   press(links, frame, dt, done);

@@ -30,7 +30,8 @@ class BladeEdge {
   struct Outcome {
     Vec3 force = Vec3::Zero();   // on the tissue [N]
     Vec3 moment = Vec3::Zero();  // of it, about the tip [N m]
-    double work = 0;             // of going on, sum of T dx [J]
+    double work = 0;             // of going on, which the hand pays [J]
+    double released = 0;         // and that which tissue pays [J]
     double area = 0;             // opened [m^2]
     double power = 0;            // of the forces, with the velocities before the step [W]
   };
@@ -42,28 +43,33 @@ class BladeEdge {
   void set_stiffness(double stiffness) noexcept { stiffness_ = stiffness; }
   /// After a step of dt: slides, finds forces on the nodes of `links`, and lists in `cuts` the elements that it has passed.
   Outcome step(BladeLinks& links, const BladeFrame& frame, double dt, std::vector<EdgeGone>& cuts) noexcept;
+  /// What the elements held that the last step's list names [J].
+  void take_released(double energy) noexcept { purse_ += energy; }
   void let_go() noexcept;
 
   /// Is any of it in tissue?
   bool bites() const noexcept { return bites_; }
-  /// Where the plane of the blade is across the hand's, as the slot has it [m].
-  double slot() const noexcept { return slot_; }
+  EdgePlace place() const noexcept;
   /// What the hand feels of its spring as long as no strip goes on [N/m].
   double felt_stiffness() const noexcept;
 
  private:
   struct Strip {
     bool bites = false, new_bite = true;
-    double slid = 0;        // since it was last compared with rest [m]
-    Vec3 x = Vec3::Zero();  // its middle, in the tissue [m]
-    double q = 0, r = 0;    // of that, in the blade's frame
-    double weight = 0;      // of all links ahead
-    double toughness = 0;   // of these
+    double slid = 0, slid_before = 0;  // in this step, in the last [m]
+    Vec3 x = Vec3::Zero();             // its middle, in the tissue [m]
+    double q = 0, r = 0;               // of that, in the blade's frame
+    double weight = 0;                 // of all links ahead
+    double toughness = 0;              // of these
     double low = 0, high = 0,
-           cover = 0;         // p of the outermost of them; share of its width that lies between [m], [m], 1
-    double unstrained = 1;    // area at rest of what the edge passes by its area now
-    double softness = 0;      // g
-    Vec3 way = Vec3::Zero();  // that tissue carries it in a step [m]
+           cover = 0;       // p of the outermost of them; share of its width that lies between [m], [m], 1
+    double unstrained = 1;  // area at rest of what the edge passes by its area now
+    double booked = 0;      // area at rest that it has opened since that was counted [m^2]
+    double unpaid = 0;      // that it has passed and not booked, or less than none [m^2]
+    double even = 1;        // by how much more it books therefore
+    Vec3 front = Vec3::Zero();     // where its middle is in the tissue at rest [m]
+    double softness = 0;           // g
+    Vec3 way = Vec3::Zero();       // that tissue carries it in a step [m]
     double ahead = 0, across = 0;  // force on the tissue [N]
   };
   struct Window {
@@ -78,13 +84,20 @@ class BladeEdge {
                  const Visit& visit) noexcept;
   void weigh(const BladeLinks& links) noexcept;
   void compare_with_rest(const BladeLinks& links, double dt) noexcept;
+  void count_passed(Strip& strip, const Vec3& front, const Vec3& A, const Vec3& B) noexcept;
   void soften(BladeLinks& links, double dt) noexcept;
   /// Of a strip on the tissue, all of which is before it [N/m].
   double hold() const noexcept { return held_by * stiffness_ * width_ / length_; }
   /// Of as much of a strip as tissue is before, and as softly as that gives way in a step [N/m].
   double hold_of(const Strip& strip) const noexcept { return hold() * strip.cover / (1 + strip.softness); }
   /// What it opens by the way that it goes on [m].
-  double width_at_rest(const Strip& strip) const noexcept { return strip.cover * width_ * strip.unstrained; }
+  double width_at_rest(const Strip& strip) const noexcept {
+    return strip.cover * width_ * strip.unstrained * strip.even;
+  }
+  /// What that takes, and what the hand has to press with for it [N].
+  double resistance(const Strip& strip) const noexcept { return strip.toughness * width_at_rest(strip); }
+  double most_force(const Strip& strip) const noexcept { return (1 - from_tissue_) * resistance(strip); }
+  void share_released(const BladeLinks& links, double dt) noexcept;
   double hold_ahead(double q) const noexcept;
   void find_blade() noexcept;
   void slide(Strip& strip, Outcome& done) const noexcept;
@@ -99,6 +112,8 @@ class BladeEdge {
   bool bites_ = false;
   double slot_ = 0, lag_ = 0, aside_ = 0;  // of the slot across; of the blade ahead and across
   double lag_before_ = 0;
+  double purse_ = 0;        // energy of elements that were cut, to be paid with [J]
+  double from_tissue_ = 0;  // share of the toughness that it pays now
   bool seen_ = false;
   BladeFrame before_;
 };

@@ -7,12 +7,12 @@ namespace palpate::physics {
 namespace {
 
 // In spacings.
-constexpr double around_reach = 5;  // of what is listed now and then
-constexpr double gather_ahead = 3;  // and of what is listed each frame, ahead of the edge and behind it
-constexpr double across_reach = 2;  // Why: the longest element of a lattice is 1.5 spacings
+constexpr double around_reach = 5;   // of what is listed now and then
+constexpr double gather_around = 3;  // and of what is listed each frame, ahead of the edge and behind it
+constexpr double across_reach = 2;   // Why: the longest element of a lattice is 1.5 spacings
 constexpr double across_margin =
     0.3;  // Why: a step moves tissue by much less than that, a frame of 1 ms does, too
-constexpr double settled_ahead = 1;  // of the hand's edge: farther ahead sides may change yet
+constexpr double settled_ahead = 1;  // farther ahead of the edge sides may change yet
 constexpr double look_again_after = 1;
 constexpr double tiny = 1e-6;
 constexpr double look_again_s = 0.020;  // Why: tissue may come by itself
@@ -28,13 +28,14 @@ BladeLinks::BladeLinks(const BodyModel& body, double length)
   links_.reserve(most_links);
 }
 
-void BladeLinks::look_around(const BladeFrame& frame) noexcept {
+void BladeLinks::look_around(const BladeFrame& frame, const EdgePlace& edge) noexcept {
   const double reach = around_reach * h_;
   around_.clear();
   for (const Index cell : body_->body().nodes()) {
     const Vec3 at = frame.coordinates(body_->position(cell));
-    const double beyond = at.x() - std::clamp(at.x(), 0.0, length_);
-    if (beyond * beyond + at.y() * at.y() + at.z() * at.z() <= reach * reach)
+    const Vec3 edge_there(std::clamp(at.x(), 0.0, length_), std::clamp(at.y(), edge.last, edge.lag),
+                          edge.slot);
+    if ((at - edge_there).squaredNorm() <= reach * reach)
       around_.push_back(cell);
     else
       side_[static_cast<std::size_t>(cell)] = 0;
@@ -49,19 +50,22 @@ void BladeLinks::reset() noexcept {
   links_.clear();
 }
 
-void BladeLinks::settle_side(Node& node, double s, bool bites) noexcept {
+void BladeLinks::settle_side(Node& node, const EdgePlace& edge) noexcept {
   std::int8_t& side = side_[static_cast<std::size_t>(node.cell)];
-  if (!bites || side == 0 || node.at.y() > settled_ahead * h_) side = node.at.z() >= s ? 1 : -1;
+  if (!edge.bites || side == 0 || node.at.y() > edge.lag + settled_ahead * h_)
+    side = node.at.z() >= edge.slot ? 1 : -1;
   node.side = side;
 }
 
-void BladeLinks::gather(const BladeFrame& frame, double s, double t, bool bites) noexcept {
-  const Vec3 end = frame.tip + length_ * frame.along;
-  const double moved = std::max((frame.tip - tip_).norm(), (end - end_).norm());
+void BladeLinks::gather(const BladeFrame& frame, const EdgePlace& edge, double t) noexcept {
+  const double s = edge.slot;
+  const Vec3 tip = frame.tip + edge.lag * frame.ahead + s * frame.side, end = tip + length_ * frame.along;
+  const double moved = std::max((tip - tip_).norm(), (end - end_).norm());
   if (moved > look_again_after * h_ || t - when_ >= look_again_s || t < when_) {
-    look_around(frame);
-    tip_ = frame.tip, end_ = end, when_ = t;
+    look_around(frame, edge);
+    tip_ = tip, end_ = end, when_ = t;
   }
+  const double first = edge.last - gather_around * h_, last = edge.lag + gather_around * h_;
   for (const Node& node : nodes_) number_[static_cast<std::size_t>(node.cell)] = -1;
   nodes_.clear();
   links_.clear();
@@ -69,7 +73,7 @@ void BladeLinks::gather(const BladeFrame& frame, double s, double t, bool bites)
   for (const Index cell : around_) {
     const Vec3 x = body_->position(cell), at = frame.coordinates(x);
     if (at.x() < -across_reach * h_ || at.x() > length_ + across_reach * h_) continue;
-    if (std::abs(at.y()) > gather_ahead * h_ || std::abs(at.z() - s) > across_reach * h_) continue;
+    if (at.y() < first || at.y() > last || std::abs(at.z() - s) > across_reach * h_) continue;
     if (nodes_.size() == most_nodes) break;
     number_[static_cast<std::size_t>(cell)] = static_cast<std::int32_t>(nodes_.size());
     nodes_.push_back({.cell = cell,
@@ -78,7 +82,7 @@ void BladeLinks::gather(const BladeFrame& frame, double s, double t, bool bites)
                       .rest = body.rest_position(cell),
                       .x = x,
                       .at = at});
-    settle_side(nodes_.back(), s, bites);
+    settle_side(nodes_.back(), edge);
   }
   const double margin = across_margin * h_;
   for (std::uint32_t a = 0; a < nodes_.size(); ++a)
@@ -105,17 +109,17 @@ void BladeLinks::begin_step() noexcept {
   }
 }
 
-void BladeLinks::update(const BladeFrame& frame, double s, bool bites) noexcept {
+void BladeLinks::update(const BladeFrame& frame, const EdgePlace& edge) noexcept {
   for (Node& node : nodes_) {
     const Vec3 x = body_->position(node.cell);
     node.way = x - node.x;
     node.x = x;
     node.at = frame.coordinates(x);
-    settle_side(node, s, bites);
+    settle_side(node, edge);
     node.force.setZero();
     node.pull = 0;
   }
-  cross(s);
+  cross(edge.slot);
 }
 
 void BladeLinks::cross(double s) noexcept {

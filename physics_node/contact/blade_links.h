@@ -20,7 +20,7 @@
 
 namespace palpate::physics {
 
-/// Where a blade is; along, ahead and side are unit and right-handed.
+/// Where the hand has a blade; along, ahead and side are unit and right-handed.
 struct BladeFrame {
   Vec3 tip = Vec3::Zero();  // [m]
   Vec3 along = Vec3::UnitZ(), ahead = Vec3::UnitX(), side = Vec3::UnitY();
@@ -28,6 +28,13 @@ struct BladeFrame {
     const Vec3 d = x - tip;
     return {d.dot(along), d.dot(ahead), d.dot(side)};
   }
+};
+
+/// Where its edge is in the tissue, which is not where the hand has it.
+struct EdgePlace {
+  double lag = 0, last = 0;  // q of it, and of the part of it that is farthest behind [m]
+  double slot = 0;           // r of its plane [m]
+  bool bites = false;        // it is in the tissue, and the sides of what is near stay
 };
 
 class BladeLinks {
@@ -65,12 +72,11 @@ class BladeLinks {
 
   /// Before the steps of a frame: what may come to cross the plane in it. Cost: a pass over the nodes around; over all of the body once
   /// the blade has gone a spacing, and every 20 ms.
-  /// @param s  where the plane is, across [m]
-  void gather(const BladeFrame& frame, double s, double t, bool bites) noexcept;
+  void gather(const BladeFrame& frame, const EdgePlace& edge, double t) noexcept;
   void begin_step() noexcept;
-  /// After a step: where its nodes and crossings are now. @param bites  the blade is in the tissue, and sides near it stay
-  void update(const BladeFrame& frame, double s, bool bites) noexcept;
-  /// Anew the crossings alone.
+  /// After a step: where its nodes and crossings are now.
+  void update(const BladeFrame& frame, const EdgePlace& edge) noexcept;
+  /// Anew the crossings alone, of a plane at r = s.
   void cross(double s) noexcept;
   /// The crossings as they are become those of the step before.
   void remember() noexcept;
@@ -84,8 +90,8 @@ class BladeLinks {
   double spacing() const noexcept { return h_; }
 
  private:
-  void look_around(const BladeFrame& frame) noexcept;
-  void settle_side(Node& node, double s, bool bites) noexcept;
+  void look_around(const BladeFrame& frame, const EdgePlace& edge) noexcept;
+  void settle_side(Node& node, const EdgePlace& edge) noexcept;
 
   const BodyModel* body_;
   double length_, h_;

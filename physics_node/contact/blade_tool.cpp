@@ -103,7 +103,7 @@ void BladeTool::find_contact(double t) noexcept {
   std::size_t most = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     if (blade_.bites() && b != touched_) continue;
-    bodies_[b].gather(frame, blade_.slot(), t, blade_.bites());
+    bodies_[b].gather(frame, blade_.place(), t);
     if (bodies_[b].links().size() <= most) continue;
     most = bodies_[b].links().size();
     if (b != touched_) blade_.let_go();
@@ -130,7 +130,7 @@ double BladeTool::press(double dt) noexcept {
   done_ = blade_.step(links, frame_, dt, cuts_);
   for (const BladeLinks::Node& node : links.nodes())
     if (!node.force.isZero(0)) forces_.push_back({node.cell, node.force});
-  book().cut(done_.area, done_.work);
+  book().cut(done_.area, done_.work + done_.released);
   return done_.power;
 }
 

@@ -32,7 +32,8 @@ class BladeTool final : public PressingTool {
   void begin_step() noexcept override;
   double press(double dt) noexcept override;
   std::span<const EdgeGone> cuts() const noexcept override { return cuts_; }
-  double cut_work() const noexcept override { return done_.work; }
+  CutWork cut_work() const noexcept override { return {done_.work, done_.released}; }
+  void take_released(double energy) noexcept override { blade_.take_released(energy); }
 
   void write_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) noexcept override {
     begin_patch(patch, frame, now_ns);

@@ -55,8 +55,6 @@ class PointTool final : public PressingTool {
   bool follows_steps() const noexcept override { return pressed_by_faces(); }
   void begin_step() noexcept override;
   double press(double dt) noexcept override;
-  std::span<const EdgeGone> cuts() const noexcept override { return {}; }
-  double cut_work() const noexcept override { return 0; }
   /// Of the sphere below the surface at rest, where it presses on faces; else 0 [m].
   double depth() const noexcept { return depth_; }
 

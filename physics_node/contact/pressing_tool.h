@@ -8,6 +8,11 @@
 
 namespace palpate::physics {
 
+struct CutWork {
+  double hand = 0;      // that the hand pays [J]
+  double released = 0;  // that elements pay which were cut before [J]
+};
+
 class PressingTool : public Tool {
  public:
   /// Forces on masses of the touched body during the coming frame; none: it touches nothing, or does not press.
@@ -25,9 +30,11 @@ class PressingTool : public Tool {
   /// @return their power with the velocities of begin_step() [W]
   virtual double press(double dt) noexcept = 0;
   /// Elements of the touched body that it has cut in the step of press().
-  virtual std::span<const EdgeGone> cuts() const noexcept = 0;
-  /// Toughness times the area that it has cut in that step, which the hand pays [J]
-  virtual double cut_work() const noexcept = 0;
+  virtual std::span<const EdgeGone> cuts() const noexcept { return {}; }
+  /// What that step's way through tissue took: toughness times area.
+  virtual CutWork cut_work() const noexcept { return {}; }
+  /// What the elements of cuts() held [J].
+  virtual void take_released([[maybe_unused]] double energy) noexcept {}
 
  protected:
   using Tool::Tool;

@@ -46,8 +46,6 @@ class TissueTool final : public PressingTool {
   bool follows_steps() const noexcept override { return true; }
   void begin_step() noexcept override;
   double press(double dt) noexcept override;
-  std::span<const EdgeGone> cuts() const noexcept override { return {}; }
-  double cut_work() const noexcept override { return 0; }
 
   void write_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) noexcept override;
   /// For the record.

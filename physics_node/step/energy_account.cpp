@@ -41,6 +41,7 @@ void EnergyAccount::save(bool good, const StepReport& report) noexcept { saved_.
 void EnergyAccount::restore(StepReport& report) noexcept {
   report.contact_lost = saved_.good().contact_lost;
   report.cut = saved_.good().cut;
+  report.cut_by_released = saved_.good().cut_by_released;
   report.tool_exchange = saved_.good().tool_exchange;
   save(false, report);
 }
@@ -58,7 +59,7 @@ EnergyLedger EnergyAccount::book(const Energies& now, const Losses& lost,
   ledger.dissipated = lost.viscous - lost_.viscous;
   ledger.plastic = lost.plastic - lost_.plastic;
   ledger.numerical = lost.numerical - lost_.numerical;
-  ledger.broken = lost.broken - lost_.broken;
+  ledger.broken = lost.broken - lost_.broken - (booked.cut_by_released - booked_.cut_by_released);
   ledger.tool_work = booked.tool_work - booked_.tool_work;
   ledger.contact = booked.contact_lost - booked_.contact_lost;
   ledger.cut = booked.cut - booked_.cut;

@@ -18,12 +18,13 @@ Losses sum_losses_and_due(const BodyModels& bodies);
 
 /// What tools and contact have done, as the report has counted it.
 struct Booked {
-  double tool_work = 0, tool_exchange = 0, contact_lost = 0, cut = 0;  // [J]
+  double tool_work = 0, tool_exchange = 0, contact_lost = 0, cut = 0, cut_by_released = 0;  // [J]
   explicit Booked(const StepReport& report)
       : tool_work(report.tool_work),
         tool_exchange(report.tool_exchange),
         contact_lost(report.contact_lost),
-        cut(report.cut) {}
+        cut(report.cut),
+        cut_by_released(report.cut_by_released) {}
   Booked() = default;
 };
 

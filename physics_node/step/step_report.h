@@ -44,6 +44,7 @@ struct StepReport {
   double least_corner_J = 1;                              // of all bodies: see StepOutcome
   double tool_work = 0;                                   // done by tools on tissue [J]
   double cut = 0;                                         // toughness times the area that tools have cut [J]
+  double cut_by_released = 0;                             // of that, what elements had held that were cut [J]
   double contact_lost = 0;   // kinetic energy, in collisions and at floor and walls [J]
   double tool_exchange = 0;  // sum of its magnitude over all steps [J]
 
