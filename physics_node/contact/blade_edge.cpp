@@ -20,9 +20,9 @@ constexpr double passed_by =
 constexpr double cut_behind =
     1.5;  // Why: where the blade's body is there is no element; farther behind there is no blade to be sure of
 
-/// Of what lies d ahead of a strip: less the farther, and none where it has been passed.
+/// Of what lies d ahead of a strip: less the farther, and none where it has been passed, without a jump.
 double weight(double d, double h) noexcept {
-  return d < -passed_by * h ? 0.0 : std::clamp(1 - d / (ahead_reach * h), 0.0, 1.0);
+  return std::max(0.0, d < 0 ? 1 + d / (passed_by * h) : 1 - d / (ahead_reach * h));
 }
 
 /// Of what has changed, how much is taken up in a step in which an edge has slid so far.
@@ -81,13 +81,13 @@ void BladeEdge::each_held(const BladeLinks& links, BladeLinks::Crossing BladeLin
     for (std::size_t i = near.first; i < near.last; ++i) {
       Strip& strip = strips_[i];
       if (!strip.bites) continue;
-      if (const double w = weight(at.q - strip.q, h); w > 0) visit(link, at, strip, w);
+      if (const double w = weight(at.q - strip.held_q, h); w > 0) visit(link, at, strip, w);
     }
   }
 }
 
-/// Tissue has carried the strips along, as what each presses on has moved: by the same weights, so that what the hand gives
-/// is what tissue gets. Who finds none ahead, or was left behind by the hand, lets go.
+/// About where tissue has carried the strips, by what each has pressed on. Who finds none ahead, or was left behind by the hand,
+/// lets go.
 void BladeEdge::follow(BladeLinks& links, const BladeFrame& frame) noexcept {
   const double h = links.spacing();
   const std::span<const BladeLinks::Node> nodes = links.nodes();
@@ -98,11 +98,28 @@ void BladeEdge::follow(BladeLinks& links, const BladeFrame& frame) noexcept {
               strip.way += w * at.between(nodes[link.a].way, nodes[link.b].way);
             });
   for (Strip& strip : strips_) {
+    strip.follows = strip.bites && strip.weight > 0;
     if (!strip.bites) continue;
-    if (strip.weight > 0) strip.x += strip.way / strip.weight;
-    const Vec3 at = frame.coordinates(strip.x);
+    const Vec3 way = strip.follows ? Vec3(strip.way / strip.weight) : Vec3(Vec3::Zero());
+    const Vec3 at = frame.coordinates(strip.x + way);
     strip.q = at.y(), strip.r = at.z();
-    strip.bites = strip.weight > 0 && strip.q < back_reach * h;
+    strip.bites = strip.follows && strip.q < back_reach * h;
+  }
+}
+
+/// Exactly where: by the weights with which they are about to press, as masses go to and fro in a step by much more than they get on.
+/// So what the hand gives is what tissue gets.
+void BladeEdge::carry(const BladeLinks& links, const BladeFrame& frame) noexcept {
+  const std::span<const BladeLinks::Node> nodes = links.nodes();
+  for (Strip& strip : strips_) strip.way.setZero();
+  each_held(links, &BladeLinks::Link::now,
+            [&](const BladeLinks::Link& link, const BladeLinks::Crossing& at, Strip& strip, double w) {
+              strip.way += w / strip.weight * at.between(nodes[link.a].way, nodes[link.b].way);
+            });
+  for (Strip& strip : strips_) {
+    if (!strip.bites || !strip.follows) continue;
+    const Vec3 at = frame.coordinates(strip.x + strip.way);
+    strip.q = at.y(), strip.r = at.z();
   }
 }
 
@@ -128,10 +145,11 @@ void BladeEdge::touch(BladeLinks& links, const BladeFrame& frame) noexcept {
   }
 }
 
-/// Who holds on to what, and how much of a strip there is tissue for: as far as there are elements on both sides.
+/// From now on in this step: who holds on to what, and how much of a strip there is tissue for: as far as there are elements on both sides.
 void BladeEdge::weigh(const BladeLinks& links) noexcept {
   const std::span<const BladeLinks::Node> nodes = links.nodes();
   for (Strip& strip : strips_) {
+    strip.held_q = strip.q;
     strip.weight = strip.toughness = strip.cover = 0;
     strip.low = 2 * length_, strip.high = -2 * length_;
   }
@@ -327,15 +345,15 @@ BladeEdge::Outcome BladeEdge::step(BladeLinks& links, const BladeFrame& frame, d
   find_slot();
   links.cross(slot_);
   weigh(links);
+  carry(links, frame);
   compare_with_rest(links, dt);
   share_released(links, dt);
   soften(links, dt);
   find_blade();
   for (Strip& strip : strips_) slide(strip, done);
   purse_ -= done.released;
-  cut(links, cuts);
-  weigh(links);
   press(links, frame, dt, done);
+  cut(links, cuts);
   links.remember();
   bites_ = std::ranges::any_of(strips_, [](const Strip& strip) { return strip.bites; });
   before_ = frame;

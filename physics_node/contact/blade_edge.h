@@ -55,10 +55,11 @@ class BladeEdge {
 
  private:
   struct Strip {
-    bool bites = false, new_bite = true;
+    bool bites = false, new_bite = true, follows = false;
     double slid = 0, slid_before = 0;  // in this step, in the last [m]
     Vec3 x = Vec3::Zero();             // its middle, in the tissue [m]
     double q = 0, r = 0;               // of that, in the blade's frame
+    double held_q = 0;                 // q when it was found what it presses on
     double weight = 0;                 // of all links ahead
     double toughness = 0;              // of these
     double low = 0, high = 0,
@@ -78,6 +79,7 @@ class BladeEdge {
   Window strips_near(double p, double reach) const noexcept;
   void touch(BladeLinks& links, const BladeFrame& frame) noexcept;
   void follow(BladeLinks& links, const BladeFrame& frame) noexcept;
+  void carry(const BladeLinks& links, const BladeFrame& frame) noexcept;
   void find_slot() noexcept;
   template <class Visit>
   void each_held(const BladeLinks& links, BladeLinks::Crossing BladeLinks::Link::*when,
