@@ -121,6 +121,19 @@ void BladeEdge::carry(const BladeLinks& links, const BladeFrame& frame) noexcept
     const Vec3 at = frame.coordinates(strip.x + strip.way);
     strip.q = at.y(), strip.r = at.z();
   }
+  stay_before_elements(links);
+}
+
+/// What a strip has not gone past by sliding it is not past: where tissue turns or shears before it, it stays with the element that is
+/// farthest behind.
+void BladeEdge::stay_before_elements(const BladeLinks& links) noexcept {
+  const double passed = passed_by * links.spacing();
+  for (const BladeLinks::Link& link : links.links()) {
+    if (!link.lives || !link.now.is || !link.before.is || !is_along(link.now.p)) continue;
+    Strip& strip = strip_at(link.now.p);
+    if (!strip.bites || !strip.follows || link.before.q < strip.last_q - passed) continue;
+    strip.q = std::min(strip.q, link.now.q + passed);
+  }
 }
 
 /// A free strip that has come to an element in this step bites where that is. Between elements it bites with those at its
@@ -326,6 +339,7 @@ void BladeEdge::press(BladeLinks& links, const BladeFrame& frame, double dt, Out
     Strip& strip = strips_[i];
     if (!strip.bites) continue;
     const double p = (static_cast<double>(i) + 0.5) * width_;
+    strip.last_q = strip.q;
     strip.x = frame.tip + p * frame.along + strip.q * frame.ahead + strip.r * frame.side + strip.way;
   }
   for (const BladeLinks::Node& node : nodes) {
@@ -376,9 +390,8 @@ void BladeEdge::cut(BladeLinks& links, std::vector<EdgeGone>& cuts) noexcept {
   std::span<BladeLinks::Node> nodes = links.nodes();
   for (BladeLinks::Link& link : links.links()) {
     const BladeLinks::Crossing& at = link.now;
-    if (!at.is || at.p < 0 || at.p > length_ || cuts.size() == cuts.capacity()) continue;
-    const auto i = std::min(static_cast<std::size_t>(at.p / width_), strips_.size() - 1);
-    const Strip& strip = strips_[i];
+    if (!at.is || !is_along(at.p) || cuts.size() == cuts.capacity()) continue;
+    const Strip& strip = strip_at(at.p);
     if (!strip.bites || at.q >= strip.q - passed || at.q < strip.q - behind) continue;
     link.lives = link.now.is = false;
     cuts.push_back({nodes[link.a].cell, nodes[link.b].cell});

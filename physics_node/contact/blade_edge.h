@@ -16,6 +16,7 @@
 // Source: Mahvash & Hayward 2001 (energy of a sharp cut); sliders as dry friction: Haessig & Friedland 1991.
 // Deviation: energy that elements held when they were cut does not help the hand; the books have it as broken.
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -59,6 +60,7 @@ class BladeEdge {
     double slid = 0, slid_before = 0;  // in this step, in the last [m]
     Vec3 x = Vec3::Zero();             // its middle, in the tissue [m]
     double q = 0, r = 0;               // of that, in the blade's frame
+    double last_q = 0;                 // q when the last step ended
     double held_q = 0;                 // q when it was found what it presses on
     double weight = 0;                 // of all links ahead
     double toughness = 0;              // of these
@@ -79,6 +81,11 @@ class BladeEdge {
   Window strips_near(double p, double reach) const noexcept;
   void touch(BladeLinks& links, const BladeFrame& frame) noexcept;
   void follow(BladeLinks& links, const BladeFrame& frame) noexcept;
+  bool is_along(double p) const noexcept { return p >= 0 && p <= length_; }
+  Strip& strip_at(double p) noexcept {
+    return strips_[std::min(static_cast<std::size_t>(p / width_), strips_.size() - 1)];
+  }
+  void stay_before_elements(const BladeLinks& links) noexcept;
   void carry(const BladeLinks& links, const BladeFrame& frame) noexcept;
   void find_slot() noexcept;
   template <class Visit>
