@@ -16,17 +16,15 @@
 // Source: Mahvash & Hayward 2001 (energy of a sharp cut); sliders as dry friction: Haessig & Friedland 1991.
 // Deviation: energy that elements held when they were cut does not help the hand; the books have it as broken.
 
-#include <algorithm>
 #include <span>
 #include <vector>
 
-#include "physics_node/contact/blade_links.h"
+#include "physics_node/contact/blade_strips.h"
 
 namespace palpate::physics {
 
 class BladeEdge {
  public:
-  static constexpr std::size_t most_strips = 64;
   /// What a step did.
   struct Outcome {
     Vec3 force = Vec3::Zero();   // on the tissue [N]
@@ -55,69 +53,34 @@ class BladeEdge {
   double felt_stiffness() const noexcept;
 
  private:
-  struct Strip {
-    bool bites = false, new_bite = true, follows = false;
-    double slid = 0, slid_before = 0;  // in this step, in the last [m]
-    Vec3 x = Vec3::Zero();             // its middle, in the tissue [m]
-    double q = 0, r = 0;               // of that, in the blade's frame
-    double last_q = 0;                 // q when the last step ended
-    double held_q = 0;                 // q when it was found what it presses on
-    double weight = 0;                 // of all links ahead
-    double toughness = 0;              // of these
-    double low = 0, high = 0,
-           cover = 0;       // p of the outermost of them; share of its width that lies between [m], [m], 1
-    double unstrained = 1;  // area at rest of what the edge passes by its area now
-    double booked = 0;      // area at rest that it has opened since that was counted [m^2]
-    double unpaid = 0;      // that it has passed and not booked, or less than none [m^2]
-    double even = 1;        // by how much more it books therefore
-    Vec3 front = Vec3::Zero();     // where its middle is in the tissue at rest [m]
-    double softness = 0;           // g
-    Vec3 way = Vec3::Zero();       // that tissue carries it in a step [m]
-    double ahead = 0, across = 0;  // force on the tissue [N]
-  };
-  struct Window {
-    std::size_t first = 0, last = 0;
-  };
-  Window strips_near(double p, double reach) const noexcept;
   void touch(BladeLinks& links, const BladeFrame& frame) noexcept;
-  void follow(BladeLinks& links, const BladeFrame& frame) noexcept;
-  bool is_along(double p) const noexcept { return p >= 0 && p <= length_; }
-  Strip& strip_at(double p) noexcept {
-    return strips_[std::min(static_cast<std::size_t>(p / width_), strips_.size() - 1)];
-  }
-  void stay_before_elements(const BladeLinks& links) noexcept;
-  void carry(const BladeLinks& links, const BladeFrame& frame) noexcept;
   void find_slot() noexcept;
-  template <class Visit>
-  void each_held(const BladeLinks& links, BladeLinks::Crossing BladeLinks::Link::*when,
-                 const Visit& visit) noexcept;
-  void weigh(const BladeLinks& links) noexcept;
-  void compare_with_rest(const BladeLinks& links, double dt) noexcept;
-  void count_passed(Strip& strip, const Vec3& front, const Vec3& A, const Vec3& B) noexcept;
   void soften(BladeLinks& links, double dt) noexcept;
   /// Of a strip on the tissue, all of which is before it [N/m].
-  double hold() const noexcept { return held_by * stiffness_ * width_ / length_; }
+  double hold() const noexcept { return held_by * stiffness_ * strips_.width() / strips_.length(); }
   /// Of as much of a strip as tissue is before, and as softly as that gives way in a step [N/m].
-  double hold_of(const Strip& strip) const noexcept { return hold() * strip.cover / (1 + strip.softness); }
+  double hold_of(const BladeStrip& strip) const noexcept {
+    return hold() * strip.cover / (1 + strip.softness);
+  }
   /// What it opens by the way that it goes on [m].
-  double width_at_rest(const Strip& strip) const noexcept {
-    return strip.cover * width_ * strip.unstrained * strip.even;
+  double width_at_rest(const BladeStrip& strip) const noexcept {
+    return strip.cover * strips_.width() * strip.unstrained * strip.even;
   }
   /// What that takes, and what the hand has to press with for it [N].
-  double resistance(const Strip& strip) const noexcept { return strip.toughness * width_at_rest(strip); }
-  double most_force(const Strip& strip) const noexcept { return (1 - from_tissue_) * resistance(strip); }
+  double resistance(const BladeStrip& strip) const noexcept { return strip.toughness * width_at_rest(strip); }
+  double most_force(const BladeStrip& strip) const noexcept { return (1 - from_tissue_) * resistance(strip); }
   void share_released(const BladeLinks& links, double dt) noexcept;
   double hold_ahead(double q) const noexcept;
   void find_blade() noexcept;
-  void slide(Strip& strip, Outcome& done) const noexcept;
+  void slide(BladeStrip& strip, Outcome& done) const noexcept;
   void press(BladeLinks& links, const BladeFrame& frame, double dt, Outcome& done) noexcept;
   void cut(BladeLinks& links, std::vector<EdgeGone>& cuts) noexcept;
 
   static constexpr double held_by =
       20;  // Why: an edge of which a fifth is in tissue is still four times as stiff as the hand's spring
 
-  double length_, width_, stiffness_;
-  std::vector<Strip> strips_;
+  double stiffness_;
+  BladeStrips strips_;
   bool bites_ = false;
   double slot_ = 0, lag_ = 0, aside_ = 0;  // of the slot across; of the blade ahead and across
   double lag_before_ = 0;

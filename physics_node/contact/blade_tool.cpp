@@ -33,7 +33,7 @@ std::size_t strips_of(const ToolSpec& tool, const BodyModels& bodies) {
   double finest = tool.length;
   for (const auto& body : bodies) finest = std::min(finest, body->body().spacing());
   return static_cast<std::size_t>(std::clamp(std::ceil(strips_a_spacing * tool.length / finest), 1.0,
-                                             static_cast<double>(BladeEdge::most_strips)));
+                                             static_cast<double>(BladeStrips::most)));
 }
 
 }  // namespace

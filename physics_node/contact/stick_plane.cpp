@@ -7,8 +7,8 @@
 namespace palpate::physics {
 namespace {
 
-constexpr double facing_limit = 0.2;  // cosine below which a facet belongs to another side
-constexpr std::size_t room = 16384;   // facets that it may touch at the most
+constexpr double side_limit = 0.2;          // cosine below which a facet belongs to another side
+constexpr std::size_t most_facets = 16384;  // facets that it may touch at the most
 
 }  // namespace
 
@@ -18,7 +18,7 @@ StickSurface::StickSurface(const Boundary& surface, const NodeMotion& moving, do
   reach_ = std::max(2 * radius, 2 * spacing);
   depth_ = 0.25 * spacing;
   near_.reserve(surface.most_facets());
-  facets_.reserve(std::min(room, surface.most_facets()));
+  facets_.reserve(std::min(most_facets, surface.most_facets()));
 }
 
 void StickSurface::look(const Stick& stick, double t) noexcept {
@@ -68,7 +68,7 @@ void StickSurface::collect(const Stick& stick, bool at_rest) noexcept {
     if (apart_now.squaredNorm() < least) least = apart_now.squaredNorm(), side = facet.normal;
     facets_.push_back(facet);
   }
-  std::erase_if(facets_, [&](const Facet& facet) { return facet.normal.dot(side) < facing_limit; });
+  std::erase_if(facets_, [&](const Facet& facet) { return facet.normal.dot(side) < side_limit; });
 }
 
 StickPlane StickSurface::plane(const Stick& stick, bool at_rest) noexcept {
