@@ -1,20 +1,21 @@
 #pragma once
 // A sharp edge in tissue: strips of it, each of which slides against the tissue's toughness as dry friction would.
 //
-//   F_i = k_i (b - x_i) . ahead,   0 <= F_i <= T_i = Gc l_i a_i;   where it would be more, x_i goes on until it is not
+//   F_i = k_i (b - x_i) . ahead,   0 <= F_i <= (1 - c) T_i, T_i = Gc l_i a_i;   where it would be more, x_i goes on until it is not
 //   sum of F_i = K (h - b) . ahead
 //
 // h is where the hand has the blade, b where it is, which is rigid and without mass, x_i where the strip is in the tissue.
 // K is the hand's spring, k_i the stiff hold of a strip on tissue, a_i the area at rest of what it passes by its area
-// now. Tissue carries x_i along; when the hand goes back nothing pulls. The work of going on, sum of T_i dx_i, is Gc times
-// the area that has been opened, as it was at rest. Elements that a strip has passed are cut. So the force is that of
+// now, c the share that elements pay which were cut before (Griffith 1921). Tissue carries x_i along; when the hand goes back
+// nothing pulls. The work of going on, sum of T_i dx_i, is Gc times the area that has been opened, as it was at rest.
+// Elements that a strip has slid past are cut. So the force is that of
 // the tissue and not of the lattice. Across, the slot holds the blade alike, both ways. Along itself the edge is free.
 //
 // Force and tissue are solved for together, as masses beside an edge are light: with F at the end of the step,
 //   F_i (1 + g_i) = k_i (b - x_i),  g_i = dt^2 sum over n of w_in / m_n sum over j of w_jn k_j
 // the sum of a row in place of the matrix, which is exact where gaps are alike and never too stiff.
 // Source: Mahvash & Hayward 2001 (energy of a sharp cut); sliders as dry friction: Haessig & Friedland 1991.
-// Deviation: energy that elements held when they were cut does not help the hand; the books have it as broken.
+// Deviation: what elements held is spread over the next two spacings, so that the force does not jump with each.
 
 #include <span>
 #include <vector>
