@@ -29,7 +29,7 @@ class TouchBook {
   double hand_work() const noexcept { return hand_work_; }      // by the hand on what it felt [J]
   double tissue_work() const noexcept { return tissue_work_; }  // by the tool on tissue [J]
   double cut_area() const noexcept { return cut_area_; }        // opened by a blade [m^2]
-  double cut_work() const noexcept { return cut_work_; }        // that this took, of the hand or of the tissue [J]
+  double cut_work() const noexcept { return cut_work_; }  // that this took, of the hand or of the tissue [J]
   /// Root mean square of the force on the hand over that of the force that tissue bore, of all frames; none:
   /// tissue bore nothing.
   std::optional<double> felt_over_true_rms() const noexcept {
