@@ -5,6 +5,8 @@
 namespace palpate::physics {
 namespace {
 
+constexpr double paid_in =
+    4;  // Why: spacings of way; a row of elements that is cut at once changes the force by a few hundredths
 constexpr double most_from_tissue = 0.9;  // of the toughness: an edge that is free does not stand still
 constexpr double cut_behind =
     1.5;  // Why: spacings; where the blade's body is there is no element; farther behind there is no blade to be sure of
@@ -32,7 +34,7 @@ void BladeEdge::let_go() noexcept {
   for (BladeStrip& strip : strips_) strip = {};
   bites_ = false;
   slot_ = lag_ = lag_before_ = aside_ = 0;
-  purse_ = from_tissue_ = 0;
+  coming_ = purse_ = from_tissue_ = 0;
   seen_ = false;
 }
 
@@ -64,9 +66,10 @@ void BladeEdge::share_released(const BladeLinks& links, double dt) noexcept {
     full += resists, slid += resists * strip.slid_before;
   }
   if (!(full > 0)) return;
-  const double wanted = std::clamp(purse_ / (full * BladeStrips::evened_in * links.spacing()),
-                                   -most_from_tissue, most_from_tissue);
-  from_tissue_ += BladeStrips::evened_part(slid / full, links.spacing(), dt) * (wanted - from_tissue_);
+  const double comes = BladeStrips::evened_part(slid / full, links.spacing(), dt) * coming_;
+  coming_ -= comes;
+  purse_ += comes;
+  from_tissue_ = std::clamp(purse_ / (full * paid_in * links.spacing()), 0.0, most_from_tissue);
 }
 
 /// How softly what they hold gives way in a step: g.

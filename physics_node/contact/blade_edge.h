@@ -15,7 +15,7 @@
 //   F_i (1 + g_i) = k_i (b - x_i),  g_i = dt^2 sum over n of w_in / m_n sum over j of w_jn k_j
 // the sum of a row in place of the matrix, which is exact where gaps are alike and never too stiff.
 // Source: Mahvash & Hayward 2001 (energy of a sharp cut); sliders as dry friction: Haessig & Friedland 1991.
-// Deviation: what elements held is spread over the next two spacings, so that the force does not jump with each.
+// Deviation: what elements held is spread over the next four spacings, so that the force does not jump with each.
 
 #include <span>
 #include <vector>
@@ -44,7 +44,7 @@ class BladeEdge {
   /// After a step of dt: slides, finds forces on the nodes of `links`, and lists in `cuts` the elements that it has passed.
   Outcome step(BladeLinks& links, const BladeFrame& frame, double dt, std::vector<EdgeGone>& cuts) noexcept;
   /// What the elements held that the last step's list names [J].
-  void take_released(double energy) noexcept { purse_ += energy; }
+  void take_released(double energy) noexcept { coming_ += energy; }
   void let_go() noexcept;
 
   /// Is any of it in tissue?
@@ -85,7 +85,8 @@ class BladeEdge {
   bool bites_ = false;
   double slot_ = 0, lag_ = 0, aside_ = 0;  // of the slot across; of the blade ahead and across
   double lag_before_ = 0;
-  double purse_ = 0;        // energy of elements that were cut, to be paid with [J]
+  double coming_ = 0,
+         purse_ = 0;        // energy of elements that were cut, and what of it may be paid with now [J]
   double from_tissue_ = 0;  // share of the toughness that it pays now
   bool seen_ = false;
   BladeFrame before_;
