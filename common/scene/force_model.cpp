@@ -25,7 +25,7 @@ const char* word_of(ForceModel model) noexcept {
 }
 
 bool can_feel(ToolShape shape, ForceModel model) noexcept {
-  if (shape == ToolShape::scalpel) return model == ForceModel::tangent;
+  if (feels_slope(shape)) return model == ForceModel::tangent;
   if (is_solid_tip(shape) || model == ForceModel::tissue)
     return model == ForceModel::tissue && shape != ToolShape::body;
   if (model == ForceModel::direct) return true;

@@ -122,6 +122,19 @@ void read_turning(TableReader& reader, DeviceSpec& spec) {
   }
 }
 
+/// When the simulated hand presses its button.
+void read_pressed(TableReader& reader, DeviceSpec& spec) {
+  constexpr std::string_view form = "[from_s, to_s]";
+  std::string spans;
+  read_path(reader, "pressed_s", "a span", form, 1, [&](const auto& x) {
+    if (!(x[1] > x[0]))
+      reader.complain("pressed_s",
+                      fmt::format("a span from {} to {} s has no length; write {}", x[0], x[1], form));
+    spans += fmt::format("{}{:.17g} {:.17g}", spans.empty() ? "" : "; ", x[0], x[1]);
+  });
+  if (!spans.empty()) spec.options.emplace_back("pressed", spans);
+}
+
 /// Keys that only the driver knows, as text.
 void read_options(TableReader& reader, DeviceSpec& spec) {
   for (const auto& key : reader.left_over()) {
@@ -159,6 +172,7 @@ DeviceSpec read_device(TableReader& reader) {
     if (const auto model = reader.read_word("model", {"plain", "touch", "premium", "omega"}))
       spec.options.emplace_back("model", models[*model]);
     read_turning(reader, spec);
+    read_pressed(reader, spec);
   }
   if (simulated) reader.require("waypoints", "a simulated hand follows a list of [t_s, x_mm, y_mm, z_mm]");
   if (!simulated && !spec.driver.empty()) read_options(reader, spec);

@@ -17,8 +17,8 @@
 namespace palpate {
 namespace {
 
-const std::vector<std::string> tool_shapes = {"point", "stick",   "cylinder", "cone",
-                                              "box",   "scalpel", "knife",    "needle"};
+const std::vector<std::string> tool_shapes = {"point",   "stick",   "cylinder", "cone",  "box",
+                                              "scalpel", "forceps", "knife",    "needle"};
 constexpr Range friction_range{.lo = 0, .hi = 2};
 const std::vector<std::string> point_contacts = {"nodes", "faces"};  // in the order of PointContact
 const std::vector<std::string> force_models = {word_of(ForceModel::norton), word_of(ForceModel::tangent),
@@ -42,6 +42,7 @@ std::optional<ToolShape> rigid_shape(const toml::node* word) {
   if (name == "cone") return ToolShape::cone;
   if (name == "box") return ToolShape::box;
   if (name == "scalpel") return ToolShape::scalpel;
+  if (name == "forceps") return ToolShape::forceps;
   return std::nullopt;
 }
 
@@ -120,6 +121,11 @@ void read_scalpel(TableReader& reader, ToolSpec& spec) {
   read_attitude(reader, spec);
 }
 
+void read_forceps(TableReader& reader, ToolSpec& spec) {
+  set_if(spec.radius, reader.read_length_mm("radius_mm"));
+  set_if(spec.grip, reader.read_number("grip_N", positive));
+}
+
 /// Size and attitude of what is rigid and more than a point; the forces of a stick or body are low-passed.
 void read_rigid(TableReader& reader, ToolSpec& spec) {
   if (spec.shape == ToolShape::box) {
@@ -158,6 +164,7 @@ void read_force_model(TableReader& reader, ToolSpec& spec) {
           ? "a stick is more than a point and feels a wrench; write \"tangent\", \"tissue\" or \"direct\""
       : spec.shape == ToolShape::scalpel
           ? "a scalpel feels what its edge takes; write \"tangent\", or leave it out"
+      : spec.shape == ToolShape::forceps ? "forceps feel what they pull; write \"tangent\", or leave it out"
       : is_solid_tip(spec.shape)
           ? "this tool feels a copy of tissue; write \"tissue\", or leave it out"
           : "this tool is more than a point and feels a wrench; write \"tangent\" or \"direct\"");
@@ -183,6 +190,8 @@ ToolSpec read_tool(TableReader& reader, ReadContext& context) {
     set_if(spec.low_pass_Hz, reader.read_number("low_pass_Hz", positive));
     if (const auto* body = find_tool_body(reader, context, spec))
       check_tool_body(reader, context, spec, *body);
+  } else if (spec.shape == ToolShape::forceps) {
+    read_forceps(reader, spec);
   } else if (spec.shape != ToolShape::point) {
     read_rigid(reader, spec);
   } else {

@@ -12,8 +12,9 @@
 namespace palpate {
 
 /// A point touches tissue by the plane under it; a body is one of the scene's, driven by masses that the
-/// hand holds; cylinder, cone and box are rigid, and go up from the tip; a scalpel is an edge that goes up from its tip and toward -x, and cuts.
-enum class ToolShape { point, stick, body, cylinder, cone, box, scalpel };
+/// hand holds; cylinder, cone and box are rigid, and go up from the tip; a scalpel is an edge that goes up from its tip and toward -x, and cuts;
+/// forceps hold what is around their tip.
+enum class ToolShape { point, stick, body, cylinder, cone, box, scalpel, forceps };
 
 /// How a point presses: by the masses under it, as in the papers, or as a rigid sphere on sampled faces.
 enum class PointContact { nodes, faces };
@@ -29,7 +30,8 @@ struct ToolSpec {
   std::string device;             // name of a [device.NAME]
   Vec3 set_point = Vec3::Zero();  // moments are about this point [m]
   double low_pass_Hz = 20;        // of the force and moment that a body reports
-  double radius = 0.003;  // of the tip; of PointContact::nodes, its force fades out over twice that [m]
+  double radius =
+      0.003;  // of the tip; of PointContact::nodes, its force fades out over twice that; of jaws [m]
   std::optional<PointContact> contact;  // of a point; absent: faces on finite elements, else nodes
   double stiffness = 400;               // of the contact spring between hand and proxy [N/m]
   double damping = 1.0;                 // [N s/m]
@@ -40,6 +42,7 @@ struct ToolSpec {
   ForceModel own_model = ForceModel::norton;  // of a point, where the scene has none: settle_force_models()
   double length = 0.1;       // from tip to end [m]; of a stick, cylinder, cone, of the edge of a scalpel
   double edge = 0;           // of a scalpel: between its edge and the handle [rad]
+  double grip = 2;           // of forceps: pull at which tissue slips from between the jaws [N]
   Vec3 size = Vec3::Zero();  // of a box [m]
   /// Where the handle is not turned; of all but points and bodies.
   Eigen::Matrix3d attitude = Eigen::Matrix3d::Identity();
@@ -48,6 +51,10 @@ struct ToolSpec {
 /// Has it a rigid shape that only force_model = "tissue" presses?
 inline bool is_solid_tip(ToolShape shape) noexcept {
   return shape == ToolShape::cylinder || shape == ToolShape::cone || shape == ToolShape::box;
+}
+/// Has it no proxy on a surface, so that the hand feels nothing but a wrench and its slope?
+inline bool feels_slope(ToolShape shape) noexcept {
+  return shape == ToolShape::scalpel || shape == ToolShape::forceps;
 }
 /// Does it part what it goes through?
 inline bool cuts(const ToolSpec& tool) noexcept { return tool.shape == ToolShape::scalpel; }

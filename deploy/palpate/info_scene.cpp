@@ -104,6 +104,11 @@ std::string tool_text(const ToolSpec& tool, const Scene& scene) {
     return fmt::format("tool         {}: scalpel, edge {:.6g} mm, {:.6g} N/m, device {} (driver {})\n",
                        tool.name, mm_from_m(tool.length), tool.stiffness, tool.device,
                        scene.device(tool.device).driver);
+  if (tool.shape == ToolShape::forceps)
+    return fmt::format(
+        "tool         {}: forceps, jaws of {:.6g} mm, grip {:.6g} N, {:.6g} N/m, device {} (driver {})\n",
+        tool.name, mm_from_m(tool.radius), tool.grip, tool.stiffness, tool.device,
+        scene.device(tool.device).driver);
   if (tool.shape == ToolShape::box)
     return fmt::format(
         "tool         {}: box {:.6g} x {:.6g} x {:.6g} mm, {:.6g} N/m, device {} (driver {})\n", tool.name,

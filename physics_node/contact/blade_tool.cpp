@@ -78,12 +78,7 @@ void BladeTool::reset() noexcept {
 void BladeTool::take(const ToolState* state, double dt) noexcept {
   frame_dt_ = dt;
   elapsed_ = 0;
-  // A hand that feels a wrench does not number its samples: its ticks are.
-  ToolState hand;
-  if (state != nullptr) {
-    hand = *state;
-    if (hand.sample == 0) hand.sample = hand.tick, hand.n_before = 0;
-  }
+  const ToolState hand = state != nullptr ? numbered(*state) : ToolState{};
   if (!play_.take(state != nullptr ? &hand : nullptr, dt)) blade_.let_go();
   keep_ = spring_left(keep_, state != nullptr, dt);
   if (state == nullptr) return;

@@ -23,6 +23,12 @@ inline double spring_left(double left, bool heard, double dt) noexcept {
   return std::clamp(left + (heard ? dt : -dt) / lets_go_in, 0.0, 1.0);
 }
 
+/// A hand that feels a wrench does not number its samples: its ticks are.
+inline ToolState numbered(ToolState state) noexcept {
+  if (state.sample == 0) state.sample = state.tick, state.n_before = 0;
+  return state;
+}
+
 class HandPlay {
  public:
   struct Moment {

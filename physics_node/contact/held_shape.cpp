@@ -21,9 +21,10 @@ HeldShape held_shape(const ToolSpec& tool) {
       return {RigidShape::box(0.5 * tool.size), tool.attitude};
     case ToolShape::body:
     case ToolShape::scalpel:
+    case ToolShape::forceps:
       break;
   }
-  PALPATE_CHECK(false, "a body has elements of its own, a scalpel an edge");
+  PALPATE_CHECK(false, "a body has elements of its own, a scalpel an edge, forceps jaws");
   return {RigidShape::sphere(tool.radius)};
 }
 

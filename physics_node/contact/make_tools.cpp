@@ -8,6 +8,7 @@
 #include "common/scene/tool_spec.h"
 #include "physics_node/contact/blade_tool.h"
 #include "physics_node/contact/body_tool.h"
+#include "physics_node/contact/grip_tool.h"
 #include "physics_node/contact/stick_tool.h"
 #include "physics_node/contact/tissue_tool.h"
 
@@ -55,6 +56,15 @@ void add_scalpel(const Scene& scene, std::uint32_t n, const BodyModels& bodies, 
   for (const auto& body : bodies) body->prepare_for(Disturbance::forces);
 }
 
+void add_forceps(const Scene& scene, std::uint32_t n, const BodyModels& bodies, Toolbox& box) {
+  const ToolSpec& spec = scene.tools[n];
+  refuse_implicit(scene, spec, "forceps hold step by step");
+  auto grip = std::make_unique<GripTool>(spec, n, bodies, 1 / scene.device(spec.device).rate_Hz);
+  box.pressing.push_back(grip.get());
+  box.tools.push_back(std::move(grip));
+  for (const auto& body : bodies) body->prepare_for(Disturbance::forces);
+}
+
 void add_stick(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
                const std::vector<TouchableBody>& touchable, Toolbox& box) {
   const ToolSpec& spec = scene.tools[n];
@@ -89,6 +99,8 @@ Toolbox make_tools(const Scene& scene, const BodyModels& bodies,
       add_point(scene, n, bodies, touchable, box);
     else if (spec.shape == ToolShape::scalpel)
       add_scalpel(scene, n, bodies, box);
+    else if (spec.shape == ToolShape::forceps)
+      add_forceps(scene, n, bodies, box);
     else if (spec.shape == ToolShape::stick)
       add_stick(scene, n, bodies, touchable, box);
     else

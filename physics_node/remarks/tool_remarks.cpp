@@ -40,7 +40,7 @@ std::vector<Vec3> samples_of(const DeviceSpec& device, double apart) {
 
 /// Of a tool, about its tip: the tip, points along a stick or an edge, corners of what has flat ends, or the surface of its body.
 std::vector<Vec3> shape_of(const ToolSpec& tool, const Scene& scene, const Bodies& bodies, double apart) {
-  if (tool.shape == ToolShape::point) return {Vec3::Zero()};
+  if (tool.shape == ToolShape::point || tool.shape == ToolShape::forceps) return {Vec3::Zero()};
   std::vector<Vec3> points;
   if (tool.shape == ToolShape::stick || tool.shape == ToolShape::scalpel) {
     const Vec3 axis =
@@ -66,7 +66,8 @@ std::vector<Vec3> shape_of(const ToolSpec& tool, const Scene& scene, const Bodie
 }
 
 double reach_of(const ToolSpec& tool, double spacing) {
-  return touch * spacing + (tool.shape == ToolShape::stick ? tool.radius : 0.0);
+  return touch * spacing +
+         (tool.shape == ToolShape::stick || tool.shape == ToolShape::forceps ? tool.radius : 0.0);
 }
 
 /// Could a body come to the tool, wherever that is?

@@ -86,13 +86,25 @@ TEST_F(ShippedScenes, AScalpelOpensTissue) {
   const auto& blade = summary["tools"]["scalpel"];
   const double area = 1e-6 * blade["cut_area_mm2"].get<double>(),
                cut = summary["energy"]["cut"].get<double>();
-  EXPECT_GT(area, 100e-6);
-  EXPECT_LT(area, 500e-6) << "of the way at the depth of the hand";
+  EXPECT_GT(area, 300e-6);
+  EXPECT_LT(area, 450e-6) << "of the way at the depth of the hand";
   EXPECT_NEAR(cut, 190 * area, 1e-6 * cut);
   EXPECT_GT(blade["tissue_work"].get<double>(), cut);
   EXPECT_NEAR(blade["felt_over_true_rms"].get<double>(), 1, 0.06);
   EXPECT_GT(summary["bodies"]["tissue"]["largest_fragment"].get<double>(), 0.999);
   EXPECT_LT(summary["energy"]["balance_error"].get<double>(), 1e-3);
+}
+
+TEST_F(ShippedScenes, ForcepsLiftSkinAndLetItGo) {
+  const auto summary = simulate("forceps", "");
+  const auto& jaws = summary["tools"]["forceps"];
+  EXPECT_GT(jaws["force_peak"].get<double>(), 0.5);
+  EXPECT_LT(jaws["force_peak"].get<double>(), 3) << "it would slip";
+  EXPECT_GT(jaws["tissue_work"].get<double>(), 1e-3);
+  EXPECT_LT(jaws["tissue_work"].get<double>(), jaws["hand_work"].get<double>());
+  EXPECT_LT(summary["energy"]["balance_error"].get<double>(), 0.01);
+  EXPECT_LT(summary["energy"]["elastic"].get<double>(), 1e-3 * summary["energy"]["tool_work"].get<double>())
+      << "it has come back";
 }
 
 TEST_F(ShippedScenes, VesselPushedAsideReturns) {

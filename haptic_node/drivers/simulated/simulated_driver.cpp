@@ -133,6 +133,7 @@ hdev_status sim_get_info(hdev* device, hdev_info* info) {
   std::snprintf(full.model, sizeof full.model, "simulated hand%s%s", plain ? "" : " on a device like ",
                 plain ? "" : options.model.c_str());
   full.dof_in = full.dof_out = 3;
+  full.n_buttons = options.pressed.empty() ? 0 : 1;
   for (int i = 0; i < 3; ++i) {
     full.ws_min[i] = -options.half_workspace;
     full.ws_max[i] = options.half_workspace;
@@ -191,6 +192,7 @@ hdev_status sim_read(hdev* device, hdev_state* state, std::uint32_t) {
     const Eigen::Matrix3d R = device->turn.attitude().toRotationMatrix();
     for (Eigen::Index i = 0; i < 9; ++i) full.R[i] = R(i / 3, i % 3);
   }
+  full.buttons = device->hand.presses() ? 1u : 0u;
   full.temperature = -1.0;
   full.force_enabled = device->powered.load() ? 1u : 0u;
   full.cal = HDEV_CAL_OK;

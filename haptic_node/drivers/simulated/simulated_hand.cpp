@@ -1,5 +1,6 @@
 #include "haptic_node/drivers/simulated/simulated_hand.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace palpate::haptic::simulated {
@@ -13,6 +14,13 @@ void SimulatedHand::start_path() noexcept {
   if (started_) return;
   started_ = true;
   start_ns_ = t_ns_;
+}
+
+bool SimulatedHand::presses() const noexcept {
+  if (!started_) return false;
+  const double t = 1e-9 * static_cast<double>(t_ns_ - start_ns_);
+  return std::ranges::any_of(options_.pressed,
+                             [&](const PressedSpan& span) { return t >= span.from && t < span.to; });
 }
 
 void SimulatedHand::path_at(std::int64_t t_ns, Array3& q, Array3& q_dot) noexcept {

@@ -25,6 +25,8 @@ class SimulatedHand {
   /// Steps to `now_ns` under `force` [N], which ends (a device's own watchdog) when `force_until_ns` has passed.
   void advance_to(std::int64_t now_ns, const Array3& force, std::int64_t force_until_ns) noexcept;
 
+  /// Is its button pressed?
+  bool presses() const noexcept;
   const Array3& position() const noexcept { return x_; }
   const Array3& velocity() const noexcept { return v_; }
 

@@ -98,6 +98,21 @@ std::string read_attitudes(const std::string& text, std::vector<AttitudePoint>& 
   return {};
 }
 
+std::string read_pressed(const std::string& text, std::vector<PressedSpan>& pressed) {
+  std::istringstream list(text);
+  for (std::string item; std::getline(list, item, ';');) {
+    std::istringstream fields(item);
+    std::string from, to, more;
+    PressedSpan span;
+    fields >> from >> to;
+    if (fields >> more || !read_number(from, span.from) || !read_number(to, span.to) ||
+        !(span.to > span.from))
+      return "pressed \"" + item + "\": two times that grow are wanted, \"from to\"";
+    pressed.push_back(span);
+  }
+  return {};
+}
+
 /// What was not said follows from hand and device at the end of the lever. @return empty, or why it cannot be stepped
 std::string complete(SimulatedOptions& options) {
   TurnParameters& turn = options.turn;
@@ -125,6 +140,7 @@ std::string read_one(const std::string& key, const std::string& value, Simulated
   if (key == "max_force") return read_max_force(key, value, options.device);
   if (key == "max_stiffness") return read_positive(key, value, options.device.max_stiffness);
   if (key == "attitudes") return read_attitudes(value, options.attitudes);
+  if (key == "pressed") return read_pressed(value, options.pressed);
   if (key == "max_torque") return read_positive(key, value, options.turn.max_torque);
   if (key == "turn_inertia") return read_positive(key, value, options.turn.inertia);
   if (key == "turn_damping") return read_not_negative(key, value, options.turn.damping);
@@ -138,7 +154,8 @@ std::string read_one(const std::string& key, const std::string& value, Simulated
     return !value.empty() && *end == '\0' ? "" : "seed is \"" + value + "\"; a whole number is wanted";
   }
   return "unknown key \"" + key +
-         "\"; known are waypoints, attitudes, hand, model, mass, max_force, max_stiffness, max_torque, "
+         "\"; known are waypoints, attitudes, pressed, hand, model, mass, max_force, max_stiffness, "
+         "max_torque, "
          "turn_inertia, "
          "turn_damping, turn_stiffness, turn_friction, half_workspace, noise, seed";
 }

@@ -25,6 +25,11 @@ struct AttitudePoint {
   std::array<double, 4> q{1, 0, 0, 0};  // w, x, y, z; unit; handle to device frame
 };
 
+/// While its button is pressed.
+struct PressedSpan {
+  double from = 0, to = 0;  // since the forces were first enabled [s]
+};
+
 /// A hand as a mass on a spring and damper that pull the handle toward the path.
 struct HandParameters {
   double mass = 0;       // [kg]
@@ -59,6 +64,7 @@ inline constexpr double turn_lever = 0.03;  // assumed: half the width of what a
 struct SimulatedOptions {
   std::vector<PathPoint> waypoints;      // empty: rests at the origin
   std::vector<AttitudePoint> attitudes;  // empty: the identity
+  std::vector<PressedSpan> pressed;      // empty: it has no button
   HandParameters hand{0.554, 6.45, 135.0, false};
   DeviceParameters device;
   TurnParameters turn;

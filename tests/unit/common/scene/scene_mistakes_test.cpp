@@ -164,7 +164,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::ValuesIn(std::vector<Mistake>{
         {"shape = \"point\"", "shape = \"rod\"", "74:9",
          "\"shape\" in [[tool]] \"tip\" is \"rod\"; write \"point\", \"stick\", \"cylinder\", \"cone\", "
-         "\"box\", \"scalpel\", \"knife\" or \"needle\", or "
+         "\"box\", \"scalpel\", \"forceps\", \"knife\" or \"needle\", or "
          "body = the name of a [[body]]"},
         {"shape = \"point\"", "shape = \"stick\"", "72:1",
          "[[tool]] \"tip\" lacks \"length_mm\"; give it a length"},
@@ -197,6 +197,8 @@ INSTANTIATE_TEST_SUITE_P(
          "attitude at 0 s follows one at 0 s; times must grow"},
         {"hand = \"pinch\"", "attitudes_deg = [[0, 0, 0]]", "90:18",
          "write [t_s, about z, about y, about x]"},
+        {"hand = \"pinch\"", "pressed_s = [[1, 1]]", "90:13",
+         "a span from 1 to 1 s has no length; write [from_s, to_s]"},
         {"hand = \"pinch\"", "max_torque_N_m = 0", "90:18", "write a number above 0"},
         {"hand = \"pinch\"", "turn_friction_N_m = 0.1", "90:21",
          "is of a hand that turns; give attitudes_deg or max_torque_N_m, too"},

@@ -116,6 +116,7 @@ std::vector<std::string> tries_for(const Row& row) {
                                     "\"n\"",
                                     "\"e\"",
                                     "[[0, 1, 2, 3], [1, 4, 5, 6]]",
+                                    "[[0, 1]]",
                                     "[[0, -1, 0], [1, 0, 0], [0, 0, 1]]",
                                     "{ center_voxel = [1, 2, 3] }",
                                     "[{ material = \"n\", intensity = [0, 1] }]"};

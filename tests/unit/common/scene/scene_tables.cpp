@@ -99,6 +99,7 @@ std::vector<SceneTable> all_tables() {
       tool("cylinder", "name = \"t\"\nshape = \"cylinder\"\nlength_mm = 9\n"),
       tool("cone", "name = \"t\"\nshape = \"cone\"\nlength_mm = 9\n"),
       tool("scalpel", "name = \"t\"\nshape = \"scalpel\"\nlength_mm = 9\n"),
+      tool("forceps", "name = \"t\"\nshape = \"forceps\"\n"),
       tool("box", "name = \"t\"\nshape = \"box\"\nsize_mm = [9, 9, 9]\n"),
       tool("body", "name = \"t\"\nbody = \"b\"\n"),
       tool("knife", own + "shape = \"knife\"\n" + knife),
