@@ -184,13 +184,16 @@ void TangentWrench::follow(const Vec6& d_goal, double dt, double share) noexcept
   double part = remaining_ <= dt ? 1.0 : dt / remaining_;
   remaining_ = std::max(0.0, remaining_ - dt);
   const Vec6 W = K_ * pushing(d_, K_, axis_), felt = within_limits(W) * W;
+  const auto far_from = [&](const Vec6& w, const Vec6& was, const Vec6& limited) {
+    return std::max((w - was).norm(), (within_limits(w) * w - limited).norm());
+  };
   const double before = energy(d_, K_, axis_);
   for (int n = 0; n <= most_halvings; ++n) {
     const Vec6 d = d_ + part * (d_goal - d_);
     const Mat6 K = K_ + part * (K_0_ - K_);
     const Vec6 axis = axis_ + part * (axis_0_ - axis_);
     const Vec6 W_next = K * pushing(d, K, axis);
-    const double change = std::max((W_next - W).norm(), (within_limits(W_next) * W_next - felt).norm());
+    const double change = std::min(far_from(W_next, W, felt), far_from(W_next, W_last_, felt_last_));
     const double work = share * (energy(d, K, axis) - before);
     if (change <= answer_rate * dt && work <= tank_.level()) {
       d_ = d;
@@ -203,10 +206,21 @@ void TangentWrench::follow(const Vec6& d_goal, double dt, double share) noexcept
   }
 }
 
+/// The hand stretches the spring. One that fades, as there is nothing behind it, is not stretched any more: work against it is lost, as
+/// against friction.
+void TangentWrench::move(const Vec6& motion) noexcept {
+  const Vec6 d = d_ - motion;
+  const bool left = has_ && !knows_surface_ && K_0_.isZero(0);
+  if (left && energy(d, K_, axis_) > energy(d_, K_, axis_)) return;
+  d_ = d;
+}
+
 ContactResult TangentWrench::tick(const HandMotion& hand, double dt, double share) noexcept {
   ContactResult result;
   result.proxy = hand.x;
-  if (moved_once_) d_ -= in_metres(motion_between(last_x_, last_q_, hand.x, hand.q));
+  W_last_ = K_ * pushing(d_, K_, axis_);
+  felt_last_ = within_limits(W_last_) * W_last_;
+  if (moved_once_) move(in_metres(motion_between(last_x_, last_q_, hand.x, hand.q)));
   moved_once_ = true;
   last_x_ = hand.x;
   last_q_ = hand.q;

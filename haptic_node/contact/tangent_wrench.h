@@ -10,9 +10,11 @@
 // d_0 = (s n, 0). Before contact s is below 0, the gap that is left: the spring stands ready, and what compresses
 // it is the hand's own motion, for which no tank has to pay. A moment beyond what the device can turn with is felt as if
 // the tissue pressed nearer to the hand, so that the force stays.
+// What physics finds nothing at any more fades, and does not press harder however the hand moves.
 // It only pushes: the stretch stays within a cone about the answer's, of 27 degrees by energy. An answer moves
-// stretch and stiffness over about a period, no faster than 80 N/s, and work that this does on the hand is paid from the
-// tank: tissue that answers late cannot feed the hand.
+// stretch and stiffness over about a period, no faster than 80 N/s but for what the hand's own way has just changed: else a
+// fast hand would press a spring that tissue has long yielded to. Work that this does on the hand is paid from the tank:
+// tissue that answers late cannot feed the hand.
 // Source: Astley & Hayward 1998 and Cavusoglu & Tendick 2000 (linear models of slow tissue); the six-dimensional form, the
 // cone and the tank are ours.
 
@@ -67,6 +69,7 @@ class TangentWrench {
   static Vec6 pushing(const Vec6& d, const Mat6& K, const Vec6& axis) noexcept;
   double energy(const Vec6& d, const Mat6& K, const Vec6& axis) const noexcept;
 
+  void move(const Vec6& motion) noexcept;
   double within_limits(const Vec6& W) const noexcept;
 
   double stiffness_, damping_, limit_, torque_limit_;
@@ -83,6 +86,7 @@ class TangentWrench {
   Vec6 d_ = Vec6::Zero();
   Vec6 axis_ = Vec6::Zero();  // of the cone: the answer's, followed
   Mat6 K_ = Mat6::Zero();
+  Vec6 W_last_ = Vec6::Zero(), felt_last_ = Vec6::Zero();  // before the hand moved in this tick
   bool moved_once_ = false;
   Vec3 last_x_ = Vec3::Zero();
   Eigen::Quaterniond last_q_ = Eigen::Quaterniond::Identity();

@@ -112,9 +112,9 @@ void BladeStrips::compare_with_rest(const BladeLinks& links, double dt) noexcept
     const Vec3 A = (pp * xq - qp * xp) / det, B = (qq * xp - qp * xq) / det;
     strip.unstrained += part * (std::clamp(A.cross(B).norm(), 0.1, 10.0) - strip.unstrained);
     strip.new_bite = false;
-    const double middle = (static_cast<double>(i) + 0.5) * width_;
-    const Vec3 front = x + (strip.q - q) * A + (middle - p) * B;
-    if (!first) count_passed(strip, front, A, B);
+    strip.onward += part * (A - strip.onward);
+    const Vec3 front = x + (strip.q - q) * strip.onward + (middle(strip) - p) * B;
+    if (!first) count_passed(strip, front, B);
     strip.front = front;
     const double even = std::clamp(1 + strip.unpaid / (evened_in * links.spacing() * width_), 0.5, 1.5);
     strip.even += part * (even - strip.even);
@@ -123,11 +123,11 @@ void BladeStrips::compare_with_rest(const BladeLinks& links, double dt) noexcept
 
 /// What a strip has passed since the last step. Counted by where it is, and not by how far it went, this is right in the sum:
 /// where the two differ, as tissue is pressed together before the edge, the next that it opens is booked as so much more or less.
-void BladeStrips::count_passed(BladeStrip& strip, const Vec3& front, const Vec3& A, const Vec3& B) noexcept {
-  const Vec3 normal = A.cross(B);
-  const double size = normal.norm();
+void BladeStrips::count_passed(BladeStrip& strip, const Vec3& front, const Vec3& B) noexcept {
+  const double size = strip.onward.norm();
   if (size < 0.1) return;
-  const double passed = (front - strip.front).cross(B).dot(normal) / size * strip.cover * width_;
+  const Vec3 onward = strip.onward / size;
+  const double passed = (front - strip.front).dot(onward) * onward.cross(B).norm() * strip.cover * width_;
   strip.unpaid += passed - strip.booked;
   strip.booked = 0;
 }

@@ -29,6 +29,7 @@ struct BladeStrip {
   double unpaid = 0;                 // that it has passed and not booked, or less than none [m^2]
   double even = 1;                   // by how much more it books therefore
   Vec3 front = Vec3::Zero();         // where its middle is in the tissue at rest [m]
+  Vec3 onward = Vec3::Zero();        // how far it goes on there by its way now, A below
   double softness = 0;               // g
   Vec3 way = Vec3::Zero();           // that tissue carries it in a step [m]
   double ahead = 0, across = 0;      // force on the tissue [N]
@@ -110,7 +111,7 @@ class BladeStrips {
     return std::max(0.0, d < 0 ? 1 + d / passed_by : 1 - d / ahead_reach);
   }
   void stay_before_elements(const BladeLinks& links) noexcept;
-  void count_passed(BladeStrip& strip, const Vec3& front, const Vec3& A, const Vec3& B) noexcept;
+  void count_passed(BladeStrip& strip, const Vec3& front, const Vec3& B) noexcept;
 
   double length_, width_;
   std::vector<BladeStrip> strips_;

@@ -160,6 +160,16 @@ INSTANTIATE_TEST_SUITE_P(Lattices, Scalpel,
                            return fmt::format("{}{}", one.param.lattice, one.index);
                          });
 
+/// A blade in a plane of masses, as symmetry makes it: each goes to one lip, and the area is that of the plane.
+TEST(BladeTool, OpensAPlaneOfMassesAlike) {
+  Cut cut(block({"voxel", 2, 0}));
+  cut.path = {Vec3(0.020, 0, -0.010), Vec3(0.020, 0, -0.010)};
+  const Vec3 size = cut.masses().sizes();
+  cut.along(Vec3(-0.035, 0, -0.010), 0.05);
+  EXPECT_NEAR(cut.book().cut_area(), size.x() * size.z(), 0.04 * size.x() * size.z());
+  EXPECT_EQ(cut.pieces().size(), 2U);
+}
+
 TEST(BladeTool, DoesNotPullBackAndFeelsNothingInItsOwnSlot) {
   Cut cut(block({"voxel", 2, 0}));
   cut.along(Vec3(0, plane, -0.010), 0.05);
