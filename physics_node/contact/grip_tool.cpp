@@ -26,7 +26,6 @@ void GripTool::open() noexcept {
   held_.clear();
   forces_.clear();
   force_.setZero();
-  slips_ = false;
 }
 
 void GripTool::reset() noexcept {
@@ -114,14 +113,12 @@ double GripTool::press(double dt) noexcept {
   elapsed_ += dt;
   forces_.clear();
   force_.setZero();
-  slips_ = false;
   hand_ = play_.at(frame_dt_ > 0 ? elapsed_ / frame_dt_ : 1.0).x;
   if (held_.empty() || keep_ == 0) return 0;
   at_ = held_place();
   const double K = keep_ * stiffness_, give = 1 + K * dt * dt * mobility_;
   force_ = K / give * (hand_ - offset_ - at_);
   if (const double asked = force_.norm(); asked > grip_) {
-    slips_ = true;
     offset_ += (1 - grip_ / asked) * give / K * force_;
     force_ *= grip_ / asked;
     if ((offset_ - offset_at_first_).norm() > radius_) {
@@ -139,11 +136,9 @@ void GripTool::write_wrench(ToolWrench& out, std::uint64_t frame, std::int64_t n
                             double t) const noexcept {
   begin_wrench(out, wrench(), frame, now_ns, t);
   if (forces_.empty()) return;
-  // What slips gives along the way of its force.
-  Eigen::Matrix3d ways = Eigen::Matrix3d::Identity();
-  if (slips_) ways -= force_ * force_.transpose() / force_.squaredNorm();
+  // Also while it slips: of a way that no spring holds the hand feels no force.
   Mat6 K = Mat6::Zero();
-  K.topLeftCorner<3, 3>() = keep_ * stiffness_ * ways;
+  K.topLeftCorner<3, 3>() = keep_ * stiffness_ * Eigen::Matrix3d::Identity();
   Eigen::Map<Mat6>(out.stiffness.data()) = K;  // symmetric
 }
 

@@ -65,7 +65,6 @@ class GripTool final : public PressingTool {
   std::vector<const BodyModel*> bodies_;
   bool wants_ = false;   // the button is pressed
   bool closed_ = false;  // and has been since the jaws closed, whether they still hold something or not
-  bool slips_ = false;   // in the last step
   double keep_ = 1;      // of the spring, after silence
   double frame_dt_ = 0, elapsed_ = 0;
   std::size_t touched_ = 0;

@@ -118,6 +118,10 @@ TEST_P(Forceps, SlipAtTheGripAndLetGoOfWhatHasSlippedOut) {
   held.pull(Vec3(0, 0, 0.002), 0.1);
   EXPECT_GT(held.world.tool(0).contacts(), 0U);
   EXPECT_NEAR(held.most, 0.1, 1e-9);
+  ToolWrench told;
+  held.world.tool(0).write_wrench(told, 1, 0, 0);
+  EXPECT_NEAR(told.force[2], -0.1, 1e-6);
+  EXPECT_EQ(told.stiffness[14], 500) << "else the hand would not feel it";
   held.pull(Vec3(0, 0, 0.02), 0.5);
   EXPECT_LE(held.most, 0.1 + 1e-9);
   EXPECT_EQ(held.world.tool(0).contacts(), 0U);
