@@ -12,8 +12,8 @@
 namespace palpate {
 
 /// A point touches tissue by the plane under it; a body is one of the scene's, driven by masses that the
-/// hand holds; cylinder, cone and box are rigid, and go up from the tip; a scalpel is an edge that goes up from its tip and toward -x, and cuts;
-/// forceps hold what is around their tip.
+/// hand holds; cylinder, cone and box are rigid, and go up from the tip; a scalpel is an edge that goes up from its tip and
+/// toward -x, and cuts; forceps hold what is around their tip.
 enum class ToolShape { point, stick, body, cylinder, cone, box, scalpel, forceps };
 
 /// How a point presses: by the masses under it, as in the papers, or as a rigid sphere on sampled faces.

@@ -206,8 +206,8 @@ void TangentWrench::follow(const Vec6& d_goal, double dt, double share) noexcept
   }
 }
 
-/// The hand stretches the spring. One that fades, as there is nothing behind it, is not stretched any more: work against it is lost, as
-/// against friction.
+/// The hand stretches the spring. One that fades, as there is nothing behind it, is not stretched any more: work against
+/// it is lost, as against friction.
 void TangentWrench::move(const Vec6& motion) noexcept {
   const Vec6 d = d_ - motion;
   const bool left = has_ && !knows_surface_ && K_0_.isZero(0);

@@ -1,9 +1,9 @@
 #pragma once
 // The strips of a sharp edge: where each is in the tissue, what it holds on to there, and what area at rest it passes.
 //
-// A strip presses on the elements that cross the blade's plane before it, with weights that fall with how far ahead they are. Tissue carries
-// it along by those same weights, so that what the hand gives is what tissue gets. Masses go to and fro within a step by much more than
-// they get on: weights of another moment would let it creep through tissue unpaid.
+// A strip presses on the elements that cross the blade's plane before it, with weights that fall with how far ahead they
+// are. Tissue carries it along by those same weights, so that what the hand gives is what tissue gets. Masses go to and
+// fro within a step by much more than they get on: weights of another moment would let it creep through tissue unpaid.
 
 #include <algorithm>
 #include <cmath>
@@ -58,12 +58,14 @@ class BladeStrips {
     return strips_[std::min(static_cast<std::size_t>(p / width_), strips_.size() - 1)];
   }
 
-  /// About where tissue has carried them, by what each has pressed on. Who finds none ahead, or was left behind by the hand, lets go.
+  /// About where tissue has carried them, by what each has pressed on. Who finds none ahead, or was left behind by the
+  /// hand, lets go.
   void follow(const BladeLinks& links, const BladeFrame& frame) noexcept;
-  /// From now on in this step: who holds on to what, and how much of a strip there is tissue for: as far as there are elements on both sides.
+  /// From now on in this step: who holds on to what, and how much of a strip there is tissue for: as far as there are
+  /// elements on both sides.
   void weigh(const BladeLinks& links) noexcept;
-  /// Exactly where tissue has carried them, by those weights. What a strip has not gone past by sliding it is not past: where tissue turns
-  /// or shears before it, it stays with the element that is farthest behind.
+  /// Exactly where tissue has carried them, by those weights. What a strip has not gone past by sliding it is not past:
+  /// where tissue turns or shears before it, it stays with the element that is farthest behind.
   void carry(const BladeLinks& links, const BladeFrame& frame) noexcept;
   /// Of a step of dt: `unstrained` and `even`.
   void compare_with_rest(const BladeLinks& links, double dt) noexcept;

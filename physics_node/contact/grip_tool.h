@@ -4,8 +4,9 @@
 //   x = sum of w_n x_n,   F = K (h - o - x),   on mass n: w_n F,   w_n ~ m_n (1 - (d_n / R)^2)^2, sum 1
 //   |F| <= grip: where it would be more, o follows until it is not;   |o - o_0| > R: out of the jaws
 //
-// h is the hand, K its spring, R the radius of the jaws, d_n how far a mass was from their middle when they closed, o_0 what makes F zero
-// then. With weights as the masses, a free lump between the jaws goes as one. F is that of the end of the step, solved with what it moves:
+// h is the hand, K its spring, R the radius of the jaws, d_n how far a mass was from their middle when they closed, o_0
+// what makes F zero then. With weights as the masses, a free lump between the jaws goes as one. F is that of the end of
+// the step, solved with what it moves:
 //
 //   F = K (h - o - x) / (1 + K C),   C = dt^2 sum of w_n^2 / m_n
 //

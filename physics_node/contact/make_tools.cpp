@@ -23,15 +23,19 @@ void refuse_implicit(const Scene& scene, const ToolSpec& tool, const std::string
                      instead + "integrator = \"symplectic_euler\"");
 }
 
+void add_pressing(std::unique_ptr<PressingTool> tool, const BodyModels& bodies, Toolbox& box) {
+  box.pressing.push_back(tool.get());
+  box.tools.push_back(std::move(tool));
+  for (const auto& body : bodies) body->prepare_for(Disturbance::forces);
+}
+
 void add_point(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
                const std::vector<TouchableBody>& touchable, Toolbox& box) {
   const ToolSpec& spec = scene.tools[n];
   if (spec.contact == PointContact::faces)
     refuse_implicit(scene, spec, "contact = \"faces\" presses step by step", "contact = \"nodes\", or ");
   auto point = std::make_unique<PointTool>(spec, n, touchable, scene.physics->integrator);
-  box.pressing.push_back(point.get());
-  box.tools.push_back(std::move(point));
-  for (const auto& body : bodies) body->prepare_for(Disturbance::forces);
+  add_pressing(std::move(point), bodies, box);
 }
 
 /// A rigid tool that the hand's motion presses. @param n  of the tool
@@ -42,27 +46,21 @@ void add_tissue(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
                   "force_model = \"norton\", or ");
   auto tool = std::make_unique<TissueTool>(spec, n, touchable, 1 / scene.device(spec.device).rate_Hz,
                                            scene.physics->integrator);
-  box.pressing.push_back(tool.get());
-  box.tools.push_back(std::move(tool));
-  for (const auto& body : bodies) body->prepare_for(Disturbance::forces);
+  add_pressing(std::move(tool), bodies, box);
 }
 
 void add_scalpel(const Scene& scene, std::uint32_t n, const BodyModels& bodies, Toolbox& box) {
   const ToolSpec& spec = scene.tools[n];
   refuse_implicit(scene, spec, "a scalpel cuts step by step");
   auto blade = std::make_unique<BladeTool>(spec, n, bodies, 1 / scene.device(spec.device).rate_Hz);
-  box.pressing.push_back(blade.get());
-  box.tools.push_back(std::move(blade));
-  for (const auto& body : bodies) body->prepare_for(Disturbance::forces);
+  add_pressing(std::move(blade), bodies, box);
 }
 
 void add_forceps(const Scene& scene, std::uint32_t n, const BodyModels& bodies, Toolbox& box) {
   const ToolSpec& spec = scene.tools[n];
   refuse_implicit(scene, spec, "forceps hold step by step");
   auto grip = std::make_unique<GripTool>(spec, n, bodies, 1 / scene.device(spec.device).rate_Hz);
-  box.pressing.push_back(grip.get());
-  box.tools.push_back(std::move(grip));
-  for (const auto& body : bodies) body->prepare_for(Disturbance::forces);
+  add_pressing(std::move(grip), bodies, box);
 }
 
 void add_stick(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
