@@ -10,6 +10,8 @@ constexpr std::int64_t frames_between_saves = 50;
 // 1 / (1 - w dt / 2), more than this only for waves of a few cells at steps near the stable one.
 constexpr double largest_growth = 4;       // before the guard acts
 constexpr double suspicious_growth = 1.5;  // before it measures anew
+// Put in since the last frame, as a ratio. Why: a blow, and what it stores in the step it lands in shows only one step later.
+constexpr double blow = 1.2;
 // That are measured after a start. Why: the step is chosen for the shape at rest, and what is shaken may outgrow it at once.
 constexpr int first_frames = 2;
 constexpr double sound_growth = 2;           // between two saves, for the first of them to be good
@@ -40,8 +42,10 @@ Guard::Verdict Guard::look(const BodyModels& bodies, EnergyAccount& account, Ste
     fallen += watch.fallen;
   }
   const double put_in = account.put_in(fallen, report);
+  const bool struck = put_in > blow * last_put_in_ + negligible_energy;
+  last_put_in_ = put_in;
   // The kernels saw elastic energy before the last step; what grows fast is looked at once more, as it is now.
-  if (first_ > 0 || !(energy <= suspicious_growth * put_in + negligible_energy)) {
+  if (first_ > 0 || struck || !(energy <= suspicious_growth * put_in + negligible_energy)) {
     energy = 0;
     for (const auto& body : bodies) energy += body->energy_now();
   }
@@ -56,7 +60,10 @@ Guard::Verdict Guard::look(const BodyModels& bodies, EnergyAccount& account, Ste
   return report.frames % frames_between_saves == frames_between_saves - 1 ? Verdict::save : Verdict::sound;
 }
 
-void Guard::begin() noexcept { first_ = first_frames; }
+void Guard::begin() noexcept {
+  first_ = first_frames;
+  last_put_in_ = 0;
+}
 
 bool Guard::may_try_again() noexcept {
   if (recoveries_ == most_recoveries) {

@@ -14,8 +14,8 @@ class Guard {
 
   /// The books begin anew.
   void begin() noexcept;
-  /// Looks at what the last watched step of a frame saw: a pass over rows, over all elements only where energy has grown
-  /// and in the first frames. `save` is said every 50 frames.
+  /// Looks at what the last watched step of a frame saw: a pass over rows, over all elements only where energy has
+  /// grown, where much was put in, and in the first frames. `save` is said every 50 frames.
   Verdict look(const BodyModels& bodies, EnergyAccount& account, StepReport& report) noexcept;
 
   /// A tool's work was not finite, and what it moved is not either.
@@ -32,7 +32,8 @@ class Guard {
 
  private:
   bool sound_ = true;
-  int first_ = 0;  // frames still to come that are measured whatever they show
+  int first_ = 0;           // frames still to come that are measured whatever they show
+  double last_put_in_ = 0;  // [J], in the frame before
   bool unusable_work_ = false;
   int recoveries_ = 0;  // since the step was last chosen
   std::size_t culprit_ = 0;

@@ -58,6 +58,14 @@ TEST(Stress, OfElementsComesInAllKindsToo) {
   EXPECT_EQ(kinds.size(), 2u + 2u + 2u + 2u + 2u + 2u + 2u) << fmt::format("{}", kinds);
 }
 
+/// A tool strikes a cell; what that stored shows in no step but the one after, which ends the frame with 30 times the energy put in.
+TEST(Stress, WhatABlowStoresInAStepIsSeenInItsFrame) {
+  const StressResult result = run_stress(1993, ElementModel::fem);
+  EXPECT_TRUE(result.finite);
+  EXPECT_LT(result.growth, 2) << "before any frame ended";
+  EXPECT_EQ(result.restored, 1);
+}
+
 TEST(Stress, ResultsSurviveTheirFile) {
   const StressResult result = run_stress(5);
   StressResult read;
