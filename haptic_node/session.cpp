@@ -44,6 +44,7 @@ ControllerSettings settings_of(const Scene& scene, std::uint32_t tool_index, con
   settings.stiffness = tool.stiffness;
   settings.damping = tool.damping;
   settings.friction = tool.friction;
+  if (tool.shape == ToolShape::forceps) settings.grip = tool.grip;
   if (info.max_stiffness > 0)
     settings.stiffness = std::min(tool.stiffness, info.max_stiffness / calibration.stiffness_gain());
   double limit = std::min(spec.force_limit, info.max_force);

@@ -16,14 +16,15 @@ class LocalModel {
   /// @param stiffness, damping, limit  of the spring between hand and tool [N/m], [N s/m], [N]
   /// @param torque_limit  0: the device gives none [N m]
   /// @param period, resolution  of samples [s], [m]
+  /// @param grip  of a tool that holds tissue [N]; 0: it only pushes
   LocalModel(ForceModel model, double stiffness, double damping, double limit, double torque_limit,
-             double friction, double period, double resolution) noexcept
+             double friction, double period, double resolution, double grip) noexcept
       : model_(model),
         stiffness_(stiffness),
         damping_(damping),
         limit_(limit),
         planes_(stiffness, damping, limit, friction),
-        tangent_(stiffness, damping, limit, torque_limit),
+        tangent_(stiffness, damping, limit, torque_limit, grip),
         torque_limit_(torque_limit),
         tissue_({{stiffness, damping}, period, limit, resolution, torque_limit > 0}, friction) {}
 

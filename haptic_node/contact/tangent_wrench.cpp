@@ -16,7 +16,8 @@ constexpr double least_share =
 constexpr double soft_share = 0.15;   // nor is any that it holds softer: a small force would store much there
 constexpr double answer_rate = 80.0;  // most that an answer changes the force [N/s]
 constexpr double outran_way = 0.05;   // from the answer's pose, beyond which it says nothing [m]
-constexpr int most_halvings = 12;
+constexpr int most_tries = 18,
+              slow_steps = 8;        // Why: the farthest part is known but for how the cone bends it
 constexpr double negligible = 1e-9;  // [N]
 constexpr double cone =
     0.5;  // m: how much of the stretch may lie beside the answer's, by the root of the energy
@@ -59,6 +60,17 @@ Parts positive_parts(const Mat6& K, double most) noexcept {
     parts.inverse += 1 / (scale * value) * e * e.transpose();
   }
   return parts;
+}
+
+/// The largest p in [0, 1] for which p change, or moved + p change, is no longer than `most`.
+/// @param change  of a wrench from now to its goal; @param moved  what the hand's way has just changed it by
+double farthest_part(const Vec6& change, const Vec6& moved, double most) noexcept {
+  const double squared = change.squaredNorm();
+  if (!(squared > 0)) return 1;
+  double part = most / std::sqrt(squared);
+  const double half = change.dot(moved), root = half * half - squared * (moved.squaredNorm() - most * most);
+  if (root >= 0) part = std::max(part, (std::sqrt(root) - half) / squared);
+  return std::min(part, 1.0);
 }
 
 /// The projector on what a spring holds.
@@ -138,7 +150,8 @@ void TangentWrench::take_surface(const Mat6& K, const Vec3& normal, double stret
 /// beside it,   y_c = y where b <= m a,   0 where m b <= -a,   else t (y_0 / |y_0| + m b_0),  t = (a + m b) / (1 + m^2),
 /// b_0 the unit vector beside y_0.
 /// W = K d_c is the gradient of |y_c|^2 / 2, so holding back from pulling makes no energy.
-Vec6 TangentWrench::pushing(const Vec6& d, const Mat6& K, const Vec6& axis) noexcept {
+Vec6 TangentWrench::pushing(const Vec6& d, const Mat6& K, const Vec6& axis) const noexcept {
+  if (holds_) return d;
   const Vec6 W_e = K * axis;
   const double squared = axis.dot(W_e);
   if (!(squared > 0)) return Vec6::Zero();
@@ -179,16 +192,29 @@ void TangentWrench::begin(const Vec6& d_goal, bool far) noexcept {
     d_ = d_goal - pushing(d_goal, K_0_, axis_0_);
 }
 
+/// Against an answer that pushes the other way: a cone cannot turn from one side to the other without letting go.
+/// @param goal, now  wrenches @return false: it does not
+bool TangentWrench::give_way(const Vec6& goal, const Vec6& now, double dt, double share) noexcept {
+  if (holds_ || knows_surface_ || !(goal.dot(now) < 0)) return false;
+  const double before = energy(d_, K_, axis_), size = now.norm();
+  d_ *= std::max(0.0, std::min(size, W_last_.norm()) - answer_rate * dt) / size;
+  book(share * (energy(d_, K_, axis_) - before));
+  return true;
+}
+
 /// Toward the answer's spring, as far as force and tank allow.
 void TangentWrench::follow(const Vec6& d_goal, double dt, double share) noexcept {
   double part = remaining_ <= dt ? 1.0 : dt / remaining_;
   remaining_ = std::max(0.0, remaining_ - dt);
   const Vec6 W = K_ * pushing(d_, K_, axis_), felt = within_limits(W) * W;
+  const Vec6 goal = K_0_ * pushing(d_goal, K_0_, axis_0_);
+  if (give_way(goal, W, dt, share)) return;
+  part = std::min(part, farthest_part(goal - W, W - W_last_, answer_rate * dt));
   const auto far_from = [&](const Vec6& w, const Vec6& was, const Vec6& limited) {
     return std::max((w - was).norm(), (within_limits(w) * w - limited).norm());
   };
   const double before = energy(d_, K_, axis_);
-  for (int n = 0; n <= most_halvings; ++n) {
+  for (int n = 0; n <= most_tries; ++n) {
     const Vec6 d = d_ + part * (d_goal - d_);
     const Mat6 K = K_ + part * (K_0_ - K_);
     const Vec6 axis = axis_ + part * (axis_0_ - axis_);
@@ -199,20 +225,30 @@ void TangentWrench::follow(const Vec6& d_goal, double dt, double share) noexcept
       d_ = d;
       K_ = K;
       axis_ = axis;
-      tank_.book(work);
+      book(work);
       return;
     }
-    part *= change > answer_rate * dt ? std::min(0.5, answer_rate * dt / change) : 0.5;
+    part *= n < slow_steps ? 0.8 : 0.5;
   }
 }
 
 /// The hand stretches the spring. One that fades, as there is nothing behind it, is not stretched any more: work against
 /// it is lost, as against friction.
-void TangentWrench::move(const Vec6& motion) noexcept {
+void TangentWrench::move(const Vec6& motion, double share) noexcept {
   const Vec6 d = d_ - motion;
   const bool left = has_ && !knows_surface_ && K_0_.isZero(0);
-  if (left && energy(d, K_, axis_) > energy(d_, K_, axis_)) return;
+  const double before = energy(d_, K_, axis_), after = energy(d, K_, axis_);
+  if (left && after > before) return;
   d_ = d;
+  const double put_in = -felt_last_.dot(motion);
+  never_put_in_ = std::min(share * after, never_put_in_ + std::max(0.0, share * (after - before - put_in)));
+}
+
+/// Work of an answer on the hand. What it takes of the spring and nobody had put in, nobody loses.
+void TangentWrench::book(double work) noexcept {
+  const double nobodys = std::clamp(-work, 0.0, never_put_in_);
+  never_put_in_ -= nobodys;
+  tank_.book(work + nobodys);
 }
 
 ContactResult TangentWrench::tick(const HandMotion& hand, double dt, double share) noexcept {
@@ -220,7 +256,7 @@ ContactResult TangentWrench::tick(const HandMotion& hand, double dt, double shar
   result.proxy = hand.x;
   W_last_ = K_ * pushing(d_, K_, axis_);
   felt_last_ = within_limits(W_last_) * W_last_;
-  if (moved_once_) move(in_metres(motion_between(last_x_, last_q_, hand.x, hand.q)));
+  if (moved_once_) move(in_metres(motion_between(last_x_, last_q_, hand.x, hand.q)), share);
   moved_once_ = true;
   last_x_ = hand.x;
   last_q_ = hand.q;
@@ -242,13 +278,14 @@ ContactResult TangentWrench::tick(const HandMotion& hand, double dt, double shar
     const Vec3 n = F / size;
     const double damper = std::clamp(-damping_ * hand.v.dot(n), -size, 0.5 * size);
     result.force = F + damper * n;
+    if (holds_) result.force *= std::min(1.0, limit_ / result.force.norm());
     result.torque = lever * W.tail<3>();
     result.stored = energy(d_, K_, axis_);
     result.n_planes = 1;
     result.depth = size / stiffness_;
     result.proxy = hand.x + result.force / stiffness_;
   } else if (!knows_surface_) {
-    d_.setZero();  // has left the tissue
+    d_.setZero(), never_put_in_ = 0;  // has left the tissue
   }
   tank_.pass(dt, result.n_planes > 0);
   return result;

@@ -11,13 +11,15 @@
 // it is the hand's own motion, for which no tank has to pay. A moment beyond what the device can turn with is felt as if
 // the tissue pressed nearer to the hand, so that the force stays.
 // What physics finds nothing at any more fades, and does not press harder however the hand moves.
-// It only pushes: the stretch stays within a cone about the answer's, of 27 degrees by energy. An answer moves
+// It only pushes: the stretch stays within a cone about the answer's, of 27 degrees by energy; where the answer pushes the
+// other way it first gives way to nothing. But a tool that holds tissue pulls as well, and by no more than its grip. An answer moves
 // stretch and stiffness over about a period, no faster than 80 N/s but for what the hand's own way has just changed: else a
 // fast hand would press a spring that tissue has long yielded to. Work that this does on the hand is paid from the tank:
 // tissue that answers late cannot feed the hand.
 // Source: Astley & Hayward 1998 and Cavusoglu & Tendick 2000 (linear models of slow tissue); the six-dimensional form, the
 // cone and the tank are ours.
 
+#include <algorithm>
 #include <limits>
 
 #include "common/message/messages.h"
@@ -34,9 +36,14 @@ class TangentWrench {
   /// @param damping    along the force [N s/m]
   /// @param limit, torque_limit  beyond which the spring does not push or turn harder: both are shortened together [N],
   ///                   [N m]. Torque limit 0: the device gives none, and turns neither make nor store anything.
+  /// @param grip       of a tool that holds what it touches [N]; 0: it only pushes
   TangentWrench(double stiffness, double damping, double limit = std::numeric_limits<double>::infinity(),
-                double torque_limit = std::numeric_limits<double>::infinity()) noexcept
-      : stiffness_(stiffness), damping_(damping), limit_(limit), torque_limit_(torque_limit) {}
+                double torque_limit = std::numeric_limits<double>::infinity(), double grip = 0) noexcept
+      : stiffness_(stiffness),
+        damping_(damping),
+        limit_(grip > 0 ? std::min(limit, grip) : limit),
+        torque_limit_(torque_limit),
+        holds_(grip > 0) {}
 
   /// A new answer, reached after about `period` seconds. It must have passed WrenchWatch. Costs three 6 x 6 eigenproblems at most.
   void take(const ToolWrench& wrench, double period) noexcept;
@@ -49,9 +56,9 @@ class TangentWrench {
   ContactResult tick(const HandMotion& hand, double dt, double share = 1) noexcept;
 
   /// The stretch becomes `keep` (0..1) of what it is.
-  void weaken(double keep) noexcept { d_ *= keep; }
+  void weaken(double keep) noexcept { d_ *= keep, never_put_in_ = 0; }
   /// Forgets the spring: the next contact begins at zero force.
-  void release() noexcept { d_.setZero(), K_.setZero(); }
+  void release() noexcept { d_.setZero(), K_.setZero(), never_put_in_ = 0; }
 
   /// @return what the tank allows of `work` [J], booked
   double pay(double work) noexcept { return tank_.pay(work); }
@@ -66,13 +73,16 @@ class TangentWrench {
   void take_surface(const Mat6& K, const Vec3& normal, double stretch) noexcept;
   void begin(const Vec6& d_goal, bool far) noexcept;
   void follow(const Vec6& d_goal, double dt, double share) noexcept;
-  static Vec6 pushing(const Vec6& d, const Mat6& K, const Vec6& axis) noexcept;
+  bool give_way(const Vec6& goal, const Vec6& now, double dt, double share) noexcept;
+  Vec6 pushing(const Vec6& d, const Mat6& K, const Vec6& axis) const noexcept;
   double energy(const Vec6& d, const Mat6& K, const Vec6& axis) const noexcept;
 
-  void move(const Vec6& motion) noexcept;
+  void move(const Vec6& motion, double share) noexcept;
+  void book(double work) noexcept;
   double within_limits(const Vec6& W) const noexcept;
 
   double stiffness_, damping_, limit_, torque_limit_;
+  bool holds_;  // pulls as well as it pushes
   // the newest answer
   bool has_ = false;
   bool knows_surface_ = false;
@@ -88,6 +98,8 @@ class TangentWrench {
   Mat6 K_ = Mat6::Zero();
   Vec6 W_last_ = Vec6::Zero(), felt_last_ = Vec6::Zero();  // before the hand moved in this tick
   bool moved_once_ = false;
+  /// Of what the spring stores: a force that stands for a tick takes less from the hand than one that grows on the way [J].
+  double never_put_in_ = 0;
   Vec3 last_x_ = Vec3::Zero();
   Eigen::Quaterniond last_q_ = Eigen::Quaterniond::Identity();
   WorkTank tank_;

@@ -61,7 +61,7 @@ Controller::Controller(const ControllerSettings& settings) noexcept
       patches_(settings.tool),
       wrenches_(settings.tool),
       model_(settings.model, settings.stiffness, settings.damping, settings.force_limit,
-             settings.torque_limit, settings.friction, settings.period, settings.resolution),
+             settings.torque_limit, settings.friction, settings.period, settings.resolution, settings.grip),
       guard_(settings.force_limit, settings.stiffness, settings.period),
       torque_guard_(settings.torque_limit, settings.stiffness * torque_lever * torque_lever, settings.period),
       energy_(settings.resolution) {}

@@ -36,6 +36,7 @@ struct ControllerSettings {
   double stiffness = 400;   // of the hand spring, in the world [N/m]
   double damping = 1;       // [N s/m]
   double friction = 0;      // Coulomb's coefficient of the surface, where planes are felt
+  double grip = 0;          // of a tool that holds tissue; 0: it only pushes [N]
   double force_limit = 3;   // in the world [N]
   double torque_limit = 0;  // in the world; 0: the device gives none [N m]
   double resolution = 0;    // of a sample, in the world [m]

@@ -180,8 +180,7 @@ void add_tiny(const Scene& scene, const Bodies& bodies, const ToolSpec& tool, Re
   if (tool.shape != ToolShape::point || scene.physics->integrator == Integrator::backward_euler) return;
   for (const auto& body : bodies) {
     const double spacing = body->body().spacing();
-    if (!asks_for_faces(tool, is_of_finite_elements(body->body())) || follows_shape(spacing, tool.radius))
-      continue;
+    if (!asks_for_faces(tool, bears_by_faces(body->body())) || follows_shape(spacing, tool.radius)) continue;
     found.push_back(fmt::format(
         "{}: tool \"{}\", a tip of {:.3g} mm, presses cells of {:.3g} mm of body \"{}\" at their corners, "
         "as if it were two of them wide; cells of at most {:.3g} mm bear it by their faces",
@@ -190,11 +189,26 @@ void add_tiny(const Scene& scene, const Bodies& bodies, const ToolSpec& tool, Re
   }
 }
 
+/// Jaws between whose masses there is room for them.
+void add_empty_jaws(const Scene& scene, const Bodies& bodies, const ToolSpec& tool, Remarks& found) {
+  if (tool.shape != ToolShape::forceps) return;
+  double finest = scene.bodies.empty() ? 0 : HUGE_VAL;
+  for (const auto& body : bodies) finest = std::min(finest, body->body().spacing());
+  if (tool.radius >= 0.5 * finest) return;
+  found.push_back(fmt::format(
+      "{}: tool \"{}\", jaws of {:.3g} mm, close between masses that lie {:.3g} mm apart and may hold none; "
+      "radius_mm of {:.3g} or more holds some",
+      tool.place.text(), tool.name, 1e3 * tool.radius, 1e3 * finest, 1e3 * finest));
+}
+
 }  // namespace
 
 Remarks tool_remarks(const Scene& scene, const Bodies& bodies) {
   Remarks all;
-  for (const ToolSpec& tool : scene.tools) add_tiny(scene, bodies, tool, all);
+  for (const ToolSpec& tool : scene.tools) {
+    add_tiny(scene, bodies, tool, all);
+    add_empty_jaws(scene, bodies, tool, all);
+  }
   for (const ToolSpec& tool : scene.tools)
     for (auto& remark : ToolLook(scene, bodies, tool).remarks()) all.push_back(std::move(remark));
   return all;

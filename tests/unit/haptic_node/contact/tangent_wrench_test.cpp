@@ -196,6 +196,69 @@ TEST(TangentWrench, FeelsWhatYieldsAndWhatHasBeenLeftHoweverFastTheHandGoes) {
   EXPECT_LT(most_after, 0.01);
 }
 
+/// What forceps carry along swings at their spring: bears(t) changes its sign while the hand goes on at 0.3 m/s, where its spring alone
+/// would grow by 240 N/s.
+double most_felt_beside_a_swing(double grip, double amplitude, double last = 0.3) {
+  TangentWrench spring(K_hand, 0, 20, 0, grip);
+  const double speed = 0.3;
+  const auto at = [&](int tick) { return Vec3(-speed * dt * tick, 0, 0); };
+  ToolWrench wrench;
+  wrench.stiffness[0] = wrench.stiffness[7] = wrench.stiffness[14] = K_hand;
+  double most = 0;
+  for (int tick = 2; tick < last / dt; ++tick) {
+    wrench.tick = static_cast<std::uint64_t>(tick);
+    wrench.p_WT = array(at(tick - 2));
+    wrench.force = {0.6 + amplitude * std::sin(40 * dt * tick), 0, 0};
+    spring.take(wrench, dt);
+    most = std::max(most, spring.tick(hand_at(at(tick)), dt).force.norm());
+  }
+  return most;
+}
+
+TEST(TangentWrench, DoesNotRunAwayFromWhatIsCarriedAlong) {
+  const double since_the_answer = K_hand * 0.3 * 3 * dt;
+  for (const double grip : {0.0, 5.0})
+    for (const double amplitude : {0.0, 0.5, 1.5})
+      EXPECT_LT(most_felt_beside_a_swing(grip, amplitude), 0.6 + amplitude + since_the_answer)
+          << grip << " " << amplitude;
+}
+
+/// What yields under the hand takes what the hand gives, and not what a spring would hold whose force grew on the way.
+TEST(TangentWrench, LosesNoMoreThanTheHandGives) {
+  TangentWrench spring(K_hand, 0, 20, 0, 5);
+  const double way = 0.3 * dt;
+  ToolWrench wrench;
+  wrench.stiffness[0] = wrench.stiffness[7] = wrench.stiffness[14] = K_hand;
+  wrench.force = {0.6, 0, 0};
+  double given = 0, felt = 0, lost_before = 0;
+  for (int tick = 2; tick < 300; ++tick) {
+    if (tick == 100) given = 0, lost_before = spring.work();
+    given += felt * way;
+    wrench.p_WT = array(Vec3(-way * (tick - 2), 0, 0));
+    spring.take(wrench, dt);
+    felt = spring.tick(hand_at(Vec3(-way * tick, 0, 0)), dt).force.x();
+  }
+  EXPECT_GT(given, 0.03);
+  EXPECT_NEAR(lost_before - spring.work(), given, 0.02 * given);
+}
+
+TEST(TangentWrench, ThatHoldsGivesNoMoreThanItsGrip) {
+  EXPECT_LE(most_felt_beside_a_swing(1, 1.5), 1 + 1e-12);
+  EXPECT_GT(most_felt_beside_a_swing(1, 1.5), 0.99);
+}
+
+/// Forceps that hold pull as well as they push.
+TEST(TangentWrench, ThatHoldsPullsToo) {
+  TangentWrench spring(K_hand, 0, 20, 0, 5);
+  ToolWrench wrench;
+  wrench.stiffness[0] = wrench.stiffness[7] = wrench.stiffness[14] = K_hand;
+  wrench.force = {0.2, 0, 0};
+  spring.take(wrench, dt);
+  rest(spring, hand_at(Vec3::Zero()), 300);
+  const ContactResult pulled = spring.tick(hand_at(Vec3(1e-3, 0, 0)), dt);
+  EXPECT_NEAR(pulled.force.x(), 0.2 - K_hand * 1e-3, 0.1) << "an answer may undo 80 N/s of it";
+}
+
 TEST(TangentWrench, ForgetsThePlaceWhereNothingHolds) {
   TangentWrench spring(K_hand, 0);
   ToolWrench wrench = sample_wrench();
