@@ -43,6 +43,14 @@ struct RegionSpec {
   Place place;
 };
 
+/// What a surface of springs is besides its material.
+struct MembraneSpec {
+  double thickness = 0;  // [m]
+  double pressure =
+      0;  // of what it is filled with, above what is outside, while its volume is that at rest [Pa]
+  double content_modulus = 0;  // by which that rises as the volume falls; 0: it stays [Pa]
+};
+
 /// Material that is taken away from a shape.
 struct CavitySpec {
   std::variant<BoxRegion, BallRegion> where;
@@ -55,6 +63,7 @@ struct BodySpec {
   ElementModel model = ElementModel::springs;
   HourglassKind hourglass = HourglassKind::physical;       // of fem
   TetElements tet_elements = TetElements::nodal_pressure;  // of a mesh
+  std::optional<MembraneSpec> membrane;                    // of a surface
   StartKind start = StartKind::rest;                       // of fem
   BorderCells border_cells = BorderCells::whole;           // likewise
   std::optional<double> spacing;  // [m]; absent only for a volume of voxels and a mesh, which bring their own

@@ -4,7 +4,8 @@
 namespace palpate {
 
 /// springs: the papers' lattice of springs. fem: finite elements, hexahedra on a voxel lattice or the tetrahedra of a mesh.
-enum class ElementModel { springs, fem };
+/// surface: springs on the edges of the outer triangles of a mesh.
+enum class ElementModel { springs, fem, surface };
 
 /// What a finite element's stress follows: stable neo-Hookean, or St Venant-Kirchhoff, which is linear in Green's strain.
 enum class TissueLaw { neo_hookean, green };

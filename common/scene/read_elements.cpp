@@ -52,7 +52,10 @@ void refuse_materials(TableReader& reader, const ReadContext& context, const Bod
 /// What a mesh has of its own, and what of a scene it cannot follow.
 void read_tetrahedra(TableReader& reader, const ReadContext& context, BodySpec& spec) {
   if (reader.has("model") && spec.model == ElementModel::springs)
-    reader.complain("model", "a mesh is of finite elements; write model = \"fem\", or leave \"model\" out");
+    reader.complain("model",
+                    "a mesh is of finite elements, or a surface of springs; write model = \"fem\" or "
+                    "\"surface\", or leave "
+                    "\"model\" out");
   spec.model = ElementModel::fem;
   if (const auto word = reader.read_word("elements", {"plain", "nodal_pressure", "second_order"}))
     spec.tet_elements = static_cast<TetElements>(*word);
@@ -157,7 +160,7 @@ void refuse_springs(TableReader& reader, const ReadContext& context, const BodyS
 }  // namespace
 
 void read_elements(TableReader& reader, ReadContext& context, BodySpec& spec) {
-  if (const auto word = reader.read_word("model", {"springs", "fem"}))
+  if (const auto word = reader.read_word("model", {"springs", "fem", "surface"}))
     spec.model = static_cast<ElementModel>(*word);
   if (const auto word = reader.read_word("hourglass", {"physical", "isotropic"}))
     spec.hourglass = static_cast<HourglassKind>(*word);
@@ -165,6 +168,8 @@ void read_elements(TableReader& reader, ReadContext& context, BodySpec& spec) {
     spec.start = static_cast<StartKind>(*word);
   if (const auto word = reader.read_word("border_cells", {"whole", "filled"}))
     spec.border_cells = static_cast<BorderCells>(*word);
+  if (spec.model == ElementModel::surface) return read_membrane(reader, context, spec);
+  refuse_membrane_keys(reader);
   if (std::holds_alternative<MeshShape>(spec.shape)) return read_tetrahedra(reader, context, spec);
   if (reader.has("elements")) {
     reader.allow({"elements"});

@@ -52,6 +52,9 @@ void read_handle(TableReader& body, BodySpec& spec);
 void read_regions(TableReader& body, ReadContext& context, BodySpec& spec);
 /// `model`, `hourglass`, `elements`, `border_cells` and `start` of a body, whose lattice and materials are known by now.
 void read_elements(TableReader& body, ReadContext& context, BodySpec& spec);
+/// What a surface of springs has of its own, and what of a scene it cannot follow; such keys where there is none.
+void read_membrane(TableReader& body, const ReadContext& context, BodySpec& spec);
+void refuse_membrane_keys(TableReader& body);
 /// [[body.cavity]]
 void read_cavities(TableReader& body, ReadContext& context, BodySpec& spec);
 

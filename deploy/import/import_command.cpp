@@ -71,6 +71,9 @@ ImportCommand parse_import(CLI::App& app, int argc, char** argv) {
       ->needs(tetrahedra);
   app.add_flag("--largest", command.mesh.largest, "with --tetrahedra-mm: only the largest part of the tissue")
       ->needs(tetrahedra);
+  bool surface = false;
+  app.add_flag("--surface", surface, "of a surface: keep its triangles, for springs on their edges")
+      ->excludes(tetrahedra);
   app.add_option("--unit", unit, "of a mesh or surface: what one unit of its file is")
       ->check(one_of({"mm", "cm", "m"}));
   double gigabytes = 0.5e-9 * static_cast<double>(machine_memory());
@@ -87,6 +90,8 @@ ImportCommand parse_import(CLI::App& app, int argc, char** argv) {
   if (phantom.empty() && is_mesh_format(command.options.input)) command.makes = Makes::mesh_of_file;
   if (phantom.empty() && is_surface_format(command.options.input)) command.makes = Makes::mesh_of_surface;
   const bool of_file = command.makes == Makes::mesh_of_file || command.makes == Makes::mesh_of_surface;
+  refuse(surface && command.makes != Makes::mesh_of_surface, "--surface",
+         "is of a surface (.obj, .stl, .ply or .off); leave it out");
   const bool of_cells = !size.empty() || !partition.empty() || !command.options.transfer.empty();
   refuse(of_cells && command.makes == Makes::lobe, "--phantom lobe",
          "is a mesh of one size; leave out --size, --partition and --transfer");
@@ -103,8 +108,9 @@ ImportCommand parse_import(CLI::App& app, int argc, char** argv) {
       "is of a mesh (.msh, .vtk or .mesh) or a surface (.obj, .stl, .ply or .off); an image brings its own");
   refuse(of_file && unit.empty(), "--unit",
          "write --unit mm, cm or m: a mesh does not say what one unit of it is");
-  refuse(command.makes == Makes::mesh_of_surface && tetrahedra_mm == 0, "--tetrahedra-mm",
-         "write how large the tetrahedra shall be that fill the surface");
+  refuse(command.makes == Makes::mesh_of_surface && tetrahedra_mm == 0 && !surface, "--tetrahedra-mm",
+         "write how large the tetrahedra shall be that fill the surface, or --surface");
+  if (surface) command.makes = Makes::surface;
   command.mesh.edge = m_from_mm(tetrahedra_mm);
   if (tetrahedra_mm > 0 && command.makes != Makes::mesh_of_surface) {
     refuse(command.makes != Makes::volume, "--tetrahedra-mm", "is of an image; leave it out");
@@ -165,6 +171,12 @@ void check_output(const ImportCommand& command) {
       if (ending != ".msh" && !hdf5 && !folder)
         throw InputError(
             fmt::format("{}: a mesh is an .h5 or .msh file, and its name should say so; write --out {}.h5",
+                        command.out, stem_of(command.out)));
+      break;
+    case Makes::surface:
+      if (!hdf5 && !folder)
+        throw InputError(
+            fmt::format("{}: a surface is an HDF5 file, and its name should say so; write --out {}.h5",
                         command.out, stem_of(command.out)));
       break;
     case Makes::volume:

@@ -11,8 +11,8 @@ namespace palpate {
 
 struct ImportCommand {
   /// An image becomes a volume; or slices, or a mesh, are made by formulas; or a mesh of a volume's tissue, of another program's file,
-  /// or of what a surface encloses.
-  enum class Makes { volume, brain, lobe, mesh_of_image, mesh_of_file, mesh_of_surface };
+  /// or of what a surface encloses; or that surface alone.
+  enum class Makes { volume, brain, lobe, mesh_of_image, mesh_of_file, mesh_of_surface, surface };
   Makes makes = Makes::volume;
   ImportOptions options;
   ImageMeshOptions mesh;

@@ -7,6 +7,7 @@
 #include <csignal>
 #include <filesystem>
 #include <new>
+#include <utility>
 
 #include "common/error/error.h"
 #include "common/file/privacy.h"
@@ -25,6 +26,7 @@
 #include "deploy/import/read_surface.h"
 #include "physics_node/mesh/mesh_file.h"
 #include "physics_node/mesh/mesh_pinches.h"
+#include "physics_node/mesh/surface_file.h"
 #include "physics_node/mesh/write_msh.h"
 
 namespace {
@@ -121,10 +123,9 @@ void import_mesh(const ImportCommand& command) {
   report(command, content.mesh, more);
 }
 
-std::string words_of(const SurfaceContent& content, const ClosedSurface& closed, const SurfaceMesh& made) {
+std::string words_of(const SurfaceContent& content, const ClosedSurface& closed) {
   const SurfaceMended& mended = closed.mended;
-  std::string more =
-      fmt::format(", {:.4g} cm3 of the surface's {:.4g} cm3", 1e6 * made.filled, 1e6 * closed.volume);
+  std::string more;
   const auto add = [&more](std::size_t n, const char* what) {
     if (n > 0) more += fmt::format(", {} {}", n, what);
   };
@@ -138,16 +139,22 @@ std::string words_of(const SurfaceContent& content, const ClosedSurface& closed,
     more += fmt::format(", {} triangles that go through others, first at {:.4g}, {:.4g}, {:.4g} mm",
                         mended.cutting, mm_from_m(mended.cut.x()), mm_from_m(mended.cut.y()),
                         mm_from_m(mended.cut.z()));
-  if (made.pieces > 1) more += fmt::format(", in {} pieces", made.pieces);
   return more;
+}
+
+/// Reads a surface within the memory that there is, and closes it.
+std::pair<SurfaceContent, ClosedSurface> read_closed(const ImportCommand& command) {
+  const std::string& file = command.options.input;
+  declare_cells(file, file_bytes(file), surface_bytes_a_byte);
+  keep_as_private_as({file});
+  SurfaceContent content = read_surface(file, command.unit);
+  ClosedSurface closed = close_surface(content.surface, file);
+  return {std::move(content), std::move(closed)};
 }
 
 void fill_surface(const ImportCommand& command) {
   const std::string& file = command.options.input;
-  declare_cells(file, file_bytes(file), surface_bytes_a_byte);
-  keep_as_private_as({file});
-  const SurfaceContent content = read_surface(file, command.unit);
-  const ClosedSurface closed = close_surface(content.surface, file);
+  const auto [content, closed] = read_closed(command);
   SurfaceMeshOptions options{.edge = command.mesh.edge};
   options.before_lattice = [&](double points) {
     declare_cells("--tetrahedra-mm", static_cast<std::uint64_t>(points), lattice_point_bytes);
@@ -155,7 +162,22 @@ void fill_surface(const ImportCommand& command) {
   const SurfaceMesh made = mesh_of_surface(closed, options, file);
   check_mesh(made.mesh, file);
   write(command, made.mesh);
-  report(command, made.mesh, words_of(content, closed, made));
+  std::string more =
+      fmt::format(", {:.4g} cm3 of the surface's {:.4g} cm3", 1e6 * made.filled, 1e6 * closed.volume);
+  more += words_of(content, closed);
+  if (made.pieces > 1) more += fmt::format(", in {} pieces", made.pieces);
+  report(command, made.mesh, more);
+}
+
+void import_surface(const ImportCommand& command) {
+  const std::string& file = command.options.input;
+  const auto [content, closed] = read_closed(command);
+  const physics::TriangleMesh mesh{closed.surface.points, closed.surface.triangles};
+  physics::check_surface(mesh, file);
+  physics::write_surface(command.out, {mesh, std::filesystem::path(file).filename().string()});
+  if (command.quiet) return;
+  fmt::print("{}: {} triangles, {} nodes, around {:.4g} cm3{}, written to {}\n", file, mesh.triangles.size(),
+             mesh.nodes.size(), 1e6 * closed.volume, words_of(content, closed), command.out);
 }
 
 void mesh_image(const ImportCommand& command, const Volume& volume) {
@@ -188,6 +210,7 @@ int import(const ImportCommand& command) {
     if (command.makes == Makes::lobe) return make_lobe(command), exit_ok;
     if (command.makes == Makes::mesh_of_file) return import_mesh(command), exit_ok;
     if (command.makes == Makes::mesh_of_surface) return fill_surface(command), exit_ok;
+    if (command.makes == Makes::surface) return import_surface(command), exit_ok;
     std::vector<std::string> files;
     const Volume volume = import_image(command.options, &files);
     keep_as_private_as(files);

@@ -13,6 +13,7 @@
 #include "common/file/privacy.h"
 #include "deploy/palpate/subcommands.h"
 #include "physics_node/mesh/mesh_file.h"
+#include "physics_node/mesh/surface_file.h"
 #include "physics_node/record/mend_record.h"
 
 namespace palpate::deploy {
@@ -49,9 +50,10 @@ std::string info(const std::string& path) {
   if (extension == ".toml") return info_scene(path);
   try {
     if (extension == ".h5")
-      return is_volume(path)               ? info_volume(path)
-             : physics::is_mesh_file(path) ? info_mesh(path)
-                                           : info_record(path);
+      return is_volume(path)                  ? info_volume(path)
+             : physics::is_mesh_file(path)    ? info_mesh(path)
+             : physics::is_surface_file(path) ? info_surface(path)
+                                              : info_record(path);
   } catch (const InputError&) {
     throw;
   } catch (const std::runtime_error& damaged) {  // of Hdf5File, which names the file

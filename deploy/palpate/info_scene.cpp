@@ -62,6 +62,9 @@ struct ShapeText {
 /// What its masses stand on.
 std::string structure_text(const BodySpec& body, const physics::Body& built) {
   if (!built.mesh) return body.lattice == LatticeKind::fcc ? "fcc lattice" : "voxel lattice";
+  if (physics::is_surface_of_springs(built))
+    return fmt::format("{} springs on {} triangles with {} nodes, edges of {:.3g} mm", built.n_elements(),
+                       built.mesh->faces.size(), built.n_nodes(), mm_from_m(built.spacing()));
   constexpr const char* kinds[] = {"plain", "nodal pressure", "second order"};
   const physics::DihedralAngles angles = physics::dihedral_angles(built.mesh->model.mesh);
   return fmt::format(

@@ -11,6 +11,7 @@
 #include "common/scene/material_spec.h"
 #include "physics_node/body/build_lattice.h"
 #include "physics_node/body/build_mesh_body.h"
+#include "physics_node/body/build_surface_body.h"
 #include "physics_node/body/materials.h"
 
 namespace palpate::physics {
@@ -147,7 +148,10 @@ Body build_body(const BodySpec& spec, const std::vector<MaterialSpec>& materials
   body.name = spec.name;
   body.velocity = spec.velocity;
   if (std::holds_alternative<MeshShape>(spec.shape)) {
-    build_mesh_body(body, spec, materials);
+    if (spec.model == ElementModel::surface)
+      build_surface_body(body, spec, materials);
+    else
+      build_mesh_body(body, spec, materials);
     hold_masses(spec, body);
     body.tip = spec.at;
     return body;

@@ -25,7 +25,7 @@ namespace palpate::physics {
 struct Body {
   std::string name;
   Lattice lattice;                 // empty where the body is a mesh
-  std::shared_ptr<MeshBody> mesh;  // of a body of tetrahedra; else null
+  std::shared_ptr<MeshBody> mesh;  // of a body of tetrahedra or a surface of springs; else null
   ElementLaw law;                  // of its own material
   std::vector<ElementLaw> laws;    // of each material in it; laws[0] is `law`
   std::vector<std::uint8_t>
@@ -52,13 +52,13 @@ struct Body {
   }
   /// How far neighbours lie apart, by which distances of contact go: of a mesh those on its faces, in the mean [m].
   double spacing() const noexcept { return mesh ? mesh->spacing : lattice.spacing(); }
-  std::int64_t n_elements() const { return mesh ? mesh->n_tets() : lattice.n_elements(); }
+  std::int64_t n_elements() const { return mesh ? mesh->n_elements() : lattice.n_elements(); }
   Adjacency adjacency() const noexcept {  // as loaded
     return mesh ? Adjacency(mesh->neighbours) : Adjacency(lattice);
   }
   /// Pieces of a step that threads may share.
   std::size_t n_pieces() const noexcept {
-    return mesh ? 1 + mesh->model.mesh.tets.size() / tets_a_piece : lattice.chunks.size();
+    return mesh ? 1 + static_cast<std::size_t>(mesh->n_elements()) / elements_a_piece : lattice.chunks.size();
   }
   double longest_element() const noexcept {  // at rest [m]
     return mesh ? mesh->longest_edge
@@ -68,7 +68,7 @@ struct Body {
   bool is_beyond(Index node) const noexcept { return !mesh && lattice.is_beyond(node); }
 
  private:
-  static constexpr std::size_t tets_a_piece = 1024;  // Why: no block of a step has more
+  static constexpr std::size_t elements_a_piece = 1024;  // Why: no block of tetrahedra has more
 };
 
 /// The law of the mass in a storage cell.
@@ -81,9 +81,15 @@ inline double node_mass(const Body& body, Index node) {
   if (body.mesh) return body.mesh->mass[n];
   return body.solid ? body.solid->mass[n] : law_at(body, node).mass;
 }
+/// Springs on the edges of a closed surface of triangles.
+inline bool is_surface_of_springs(const Body& body) { return body.mesh && body.mesh->springs; }
 /// Finite elements, in cells or in tetrahedra; else springs.
-inline bool is_of_finite_elements(const Body& body) { return body.solid || body.mesh; }
-/// viscosity / modulus of finite elements [s]
+inline bool is_of_finite_elements(const Body& body) {
+  return body.solid || (body.mesh && !body.mesh->springs);
+}
+/// Its faces bear a small tip rather than its nodes.
+inline bool bears_by_faces(const Body& body) { return body.solid || body.mesh; }
+/// viscosity / modulus of finite elements and of surfaces [s]
 inline double damper_time(const Body& body) {
   return body.mesh ? body.mesh->model.beta : body.solid ? body.solid->beta : 0;
 }
@@ -93,7 +99,7 @@ inline bool any_yields(const Body& body) {
          std::any_of(body.laws.begin(), body.laws.end(), [](const ElementLaw& law) { return law.yields; });
 }
 /// Are there springs that a tool may cut?
-inline bool any_cut(const Body& body) { return body.may_be_cut && !is_of_finite_elements(body); }
+inline bool any_cut(const Body& body) { return body.may_be_cut && !body.solid && !body.mesh; }
 /// May springs or finite elements go, of themselves or because a tool cuts them?
 inline bool any_breaks(const Body& body) {
   return body.solid ? !body.solid->failures.empty() : any_yields(body) || any_cut(body);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -13,10 +12,12 @@
 #include "common/scene/material_spec.h"
 #include "physics_node/body/materials.h"
 #include "physics_node/body/mesh_body.h"
+#include "physics_node/body/put_in_place.h"
 #include "physics_node/body/solid_shape.h"
 #include "physics_node/mesh/mesh_file.h"
 #include "physics_node/mesh/read_msh.h"
 #include "physics_node/mesh/renumber.h"
+#include "physics_node/mesh/surface_file.h"
 
 namespace palpate::physics {
 namespace {
@@ -61,12 +62,6 @@ class MaterialTable {
   std::vector<int> of_region_;
 };
 
-void put_in_place(TetMesh& mesh, const BodySpec& spec) {
-  const Eigen::AlignedBox3d box = box_of(mesh);
-  const Vec3 middle = box.center();
-  for (Vec3& x : mesh.nodes) x = spec.at + spec.orientation * (x - middle);
-}
-
 bool holds_tet(const RegionSpec& region, const Vec3& centre, int group) {
   if (const auto* box = std::get_if<BoxRegion>(&region.where)) return holds(*box, centre);
   if (const auto* ball = std::get_if<BallRegion>(&region.where)) return holds(*ball, centre);
@@ -99,6 +94,11 @@ void build_mesh_body(Body& body, const BodySpec& spec, const std::vector<Materia
   const auto& shape = std::get<MeshShape>(spec.shape);
   const MaterialTable table(spec, materials);
   MshContent content;
+  if (is_surface_file(shape.file))
+    throw InputError(
+        fmt::format("{}: {} is a surface; write model = \"surface\", or fill it by palpate import with "
+                    "--tetrahedra-mm",
+                    spec.place.text(), shape.file));
   if (is_mesh_file_name(shape.file))
     content.mesh = read_mesh(shape.file).mesh;
   else
@@ -116,7 +116,7 @@ void build_mesh_body(Body& body, const BodySpec& spec, const std::vector<Materia
                     spec.place.text(), of_more, shape.file));
   TetModel model;
   model.mesh = std::move(content.mesh);
-  put_in_place(model.mesh, spec);
+  put_in_place(model.mesh.nodes, spec);
   give_regions(model.mesh, spec, table);
   if (spec.tet_elements == TetElements::second_order) add_middles(model.mesh);
   renumber(model.mesh);

@@ -27,26 +27,50 @@ double longest_edge(const TetMesh& mesh) {
   return std::sqrt(longest2);
 }
 
+/// What follows from nodes and faces.
+void give_faces(MeshBody& body) {
+  const std::size_t n = body.model.mesh.nodes.size();
+  body.nodes.resize(n);
+  std::iota(body.nodes.begin(), body.nodes.end(), 0);
+  body.faces_of_first = parts_of_first(n, body.faces);
+  body.filled_of_first = parts_of_first(n, body.filled);
+  body.is_outer.assign(n, 0);
+  for (const MeshTriangle& face : body.faces)
+    for (const Index node : face) body.is_outer[static_cast<std::size_t>(node)] = 1;
+  body.spacing = mean_edge(body.model.mesh, body.faces);
+}
+
 }  // namespace
 
 MeshBody mesh_body(TetModel model) {
   MeshBody body;
   body.model = std::move(model);
   const TetMesh& mesh = body.model.mesh;
-  const std::size_t n = mesh.nodes.size();
-  body.nodes.resize(n);
-  std::iota(body.nodes.begin(), body.nodes.end(), 0);
   body.mass = masses_of(body.model);
   body.neighbours = neighbours_of(mesh);
   body.faces = outer_faces(mesh).triangles;
-  body.faces_of_first = parts_of_first(n, body.faces);
   body.filled = filled_tets(mesh);
-  body.filled_of_first = parts_of_first(n, body.filled);
-  body.is_outer.assign(n, 0);
-  for (const MeshTriangle& face : body.faces)
-    for (const Index node : face) body.is_outer[static_cast<std::size_t>(node)] = 1;
-  body.spacing = mean_edge(mesh, body.faces);
   body.longest_edge = longest_edge(mesh);
+  give_faces(body);
+  return body;
+}
+
+MeshBody mesh_body(SpringSurface surface) {
+  MeshBody body;
+  body.model.mesh.nodes = surface.mesh.nodes;
+  body.model.beta = surface.membrane.beta;
+  body.mass = surface.mass;
+  body.faces = surface.mesh.triangles;
+  std::vector<std::pair<Index, Index>> joined;
+  for (const SurfaceSpring& spring : surface.springs) {
+    const auto [a, b] = spring.node;
+    joined.emplace_back(a, b), joined.emplace_back(b, a);
+    body.longest_edge = std::max(body.longest_edge, spring.length);
+  }
+  std::ranges::sort(joined);
+  body.neighbours = NodeLists(body.model.mesh.nodes.size(), joined);
+  body.springs = std::move(surface);
+  give_faces(body);
   return body;
 }
 

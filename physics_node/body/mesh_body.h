@@ -1,9 +1,11 @@
 #pragma once
-// What a body has that is a mesh of tetrahedra, in the place of a lattice.
+// What a body has that is a mesh, in the place of a lattice: of tetrahedra, or a closed surface of springs.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "physics_node/body/spring_surface.h"
 #include "physics_node/body/tet_model.h"
 #include "physics_node/mesh/mesh_parts.h"
 
@@ -12,6 +14,7 @@ namespace palpate::physics {
 /// Its nodes are numbered from 0 on. It never changes after loading.
 struct MeshBody {
   TetModel model;  // renumbered; where its nodes rest in the world, what it is made of, what is held
+  std::optional<SpringSurface> springs;       // the model then has nodes alone
   std::vector<Index> nodes;                   // 0, 1, 2 ...
   std::vector<double> mass;                   // of each node [kg]
   NodeLists neighbours;                       // of each node
@@ -20,13 +23,18 @@ struct MeshBody {
   NodeLists faces_of_first, filled_of_first;  // by first corner: numbers of the two
   std::vector<std::uint8_t> is_outer;         // of each node: a corner of a face
   double spacing = 0;                         // mean edge of its faces [m]
-  double longest_edge = 0;                    // of a tetrahedron [m]
+  double longest_edge = 0;                    // of an element [m]
   Tidied tidied;                              // what the reader had to mend
 
-  std::int64_t n_tets() const noexcept { return static_cast<std::int64_t>(model.mesh.tets.size()); }
+  /// Tetrahedra, or springs.
+  std::int64_t n_elements() const noexcept {
+    return static_cast<std::int64_t>(springs ? springs->springs.size() : model.mesh.tets.size());
+  }
 };
 
 /// Fills all of it but `tidied` from a model. @param model  renumbered; no face of it is of more than two tetrahedra
 MeshBody mesh_body(TetModel model);
+/// The same of a surface, which fills nothing.
+MeshBody mesh_body(SpringSurface surface);
 
 }  // namespace palpate::physics

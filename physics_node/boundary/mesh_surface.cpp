@@ -22,7 +22,7 @@ Surface mesh_surface(const Body& body, std::uint32_t rgba) {
   }
   surface.rgba.assign(surface.facets.size(), rgba);
   surface.site.assign(surface.facets.size(), 0);
-  surface.hidden = (4 * mesh.filled.size() - mesh.faces.size()) / 2;
+  if (!mesh.filled.empty()) surface.hidden = (4 * mesh.filled.size() - mesh.faces.size()) / 2;
   return surface;
 }
 

@@ -17,11 +17,12 @@ constexpr double strips_a_spacing =
 constexpr std::size_t most_cuts = 4096;  // in a step
 
 void refuse_uncut(const ToolSpec& tool, const Body& body) {
-  if (is_of_finite_elements(body))
+  if (body.solid || body.mesh)
     throw InputError(
-        fmt::format("{}: shape = \"scalpel\" cuts bodies of springs, and \"{}\" is of finite elements; write "
-                    "model = \"springs\" there",
-                    tool.place.text(), body.name));
+        fmt::format("{}: shape = \"scalpel\" cuts lattices of springs, and \"{}\" is {}; write model = "
+                    "\"springs\" there",
+                    tool.place.text(), body.name,
+                    is_surface_of_springs(body) ? "a surface of springs" : "of finite elements"));
   if (std::ranges::any_of(body.laws, [](const ElementLaw& law) { return law.cut_toughness <= 0; }))
     throw InputError(
         fmt::format("{}: shape = \"scalpel\" needs to know how tough \"{}\" is; give each of its materials "

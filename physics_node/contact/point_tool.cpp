@@ -18,7 +18,7 @@ constexpr double all_moves = 0.999;        // of a force, borne by masses: hardl
 /// Of cells too large for the tip the masses bear: a remark says so.
 bool presses_faces(const ToolSpec& tool, const Body& body, Integrator integrator) {
   return integrator != Integrator::backward_euler && follows_shape(body.spacing(), tool.radius) &&
-         asks_for_faces(tool, is_of_finite_elements(body));
+         asks_for_faces(tool, bears_by_faces(body));
 }
 
 }  // namespace

@@ -163,6 +163,24 @@ TEST_F(ShippedScenes, ALiverOfAnImageIsPalpated) {
   EXPECT_TRUE(summary["warnings"].empty()) << summary["warnings"];
 }
 
+/// A patient's gall bladder as a bag of springs, under the pressure of its bile.
+TEST_F(ShippedScenes, AGallBladderOfAnImageIsPressed) {
+  ASSERT_TRUE(fs::exists(LIVER)) << "fetch it with deploy/fetch_liver.sh";
+  const std::string file = (folder / "gall_bladder.h5").string();
+  ASSERT_EQ(palpate("import " + test::quoted(LIVER) + " --keep 85,85 --tetrahedra-mm 4 --largest --out " +
+                    test::quoted(file)),
+            0)
+      << log;
+  const auto summary = simulate("gall_bladder", "--set body.gall_bladder.file=" + test::quoted(file));
+  const auto& finger = summary["tools"]["finger"];
+  // A dent of 5 mm by a ball of 5 mm: some 2 pi R d p = 0.2 N at the most.
+  EXPECT_GT(finger["force_peak"].get<double>(), 0.05);
+  EXPECT_LT(finger["force_peak"].get<double>(), 0.2);
+  EXPECT_LT(finger["felt_off_rms"].get<double>(), 0.2);
+  EXPECT_LT(summary["energy"]["balance_error"].get<double>(), 0.01);
+  EXPECT_TRUE(summary["warnings"].empty()) << summary["warnings"];
+}
+
 /// Rows of a tool's CSV: t, x, y, z, fx, fy, fz.
 std::vector<std::array<double, 7>> read_trace(const fs::path& file) {
   std::vector<std::array<double, 7>> rows;

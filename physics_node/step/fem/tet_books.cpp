@@ -1,9 +1,13 @@
 // What a body of tetrahedra has of energy and momentum.
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "common/math/state_hash.h"
+#include "physics_node/mesh/mesh_parts.h"
 #include "physics_node/step/fem/four_array.h"
 #include "physics_node/step/fem/tetrahedra.h"
 
@@ -65,6 +69,21 @@ double Tetrahedra<Real>::damper_power() {
 }
 
 template <class Real>
+double Tetrahedra<Real>::largest_stretch() const {
+  double largest2 = 1;
+  for (const auto& corners : filled_tets(model_.mesh)) {
+    Eigen::Matrix3d gradient = Eigen::Matrix3d::Identity();
+    const auto slopes = slopes_of(model_.mesh, corners);
+    for (std::size_t k = 0; k < 3; ++k)
+      gradient += (displacement(corners[k + 1]) - displacement(corners[0])) * slopes[k].transpose();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> squared(gradient.transpose() * gradient,
+                                                                 Eigen::EigenvaluesOnly);
+    largest2 = std::max(largest2, squared.eigenvalues()[2]);
+  }
+  return std::sqrt(largest2);
+}
+
+template <class Real>
 Watch Tetrahedra<Real>::watch() const noexcept {
   return watch_;
 }
@@ -98,6 +117,7 @@ template Energies Tetrahedra<float>::energies(const Vec3&);
 template Losses Tetrahedra<float>::losses() const noexcept;
 template Losses Tetrahedra<float>::due();
 template double Tetrahedra<float>::damper_power();
+template double Tetrahedra<float>::largest_stretch() const;
 template Watch Tetrahedra<float>::watch() const noexcept;
 template Momenta Tetrahedra<float>::momenta() const noexcept;
 template std::uint64_t Tetrahedra<float>::hash(std::uint64_t) const noexcept;
@@ -106,6 +126,7 @@ template Energies Tetrahedra<double>::energies(const Vec3&);
 template Losses Tetrahedra<double>::losses() const noexcept;
 template Losses Tetrahedra<double>::due();
 template double Tetrahedra<double>::damper_power();
+template double Tetrahedra<double>::largest_stretch() const;
 template Watch Tetrahedra<double>::watch() const noexcept;
 template Momenta Tetrahedra<double>::momenta() const noexcept;
 template std::uint64_t Tetrahedra<double>::hash(std::uint64_t) const noexcept;

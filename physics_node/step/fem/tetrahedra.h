@@ -66,6 +66,8 @@ class Tetrahedra {
   Losses due();
   double damper_power();                                       // what the damper takes as it moves now [W]
   double least_J() const noexcept { return least_of_all_J_; }  // of all steps that were watched
+  double largest_stretch()
+      const;  // of all directions in all tetrahedra; of second order of the eight parts of each
   Watch watch() const noexcept;
   Momenta momenta() const noexcept;  // about the origin
   std::uint64_t hash(std::uint64_t seed) const noexcept;

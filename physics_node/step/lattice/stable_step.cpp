@@ -8,6 +8,7 @@
 #include "physics_node/step/fem/tet_spectrum.h"
 #include "physics_node/step/lattice/hex_spectrum.h"
 #include "physics_node/step/lattice/lattice_spectrum.h"
+#include "physics_node/step/surface_mesh/surface_springs.h"
 
 namespace palpate::physics {
 namespace {
@@ -52,6 +53,10 @@ StiffestMode stiffest_mode_anyhow(const Body& body) {
 }
 
 StiffestMode stiffest_mode(const Body& body) {
+  if (is_surface_of_springs(body)) {
+    SurfaceSprings<double> springs(*body.mesh->springs, body.inverse_mass);
+    return {springs.omega2(), springs.gamma()};
+  }
   if (body.mesh) return stiffest_mode_of_tetrahedra(body.mesh->model);
   if (body.solid) return stiffest_mode_of_hexahedra(body);
   const StiffestMode anyhow = stiffest_mode_anyhow(body);

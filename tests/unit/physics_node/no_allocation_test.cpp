@@ -94,6 +94,22 @@ TEST(World, OfAMeshTakesNoMemoryInAFrame) {
   EXPECT_GT(world.collisions()->tally().collisions, 0);
 }
 
+TEST(World, OfASurfaceTakesNoMemoryInAFrame) {
+  Recipe recipe = mesh_box({12, 12, 5}, 0.004, "plain", 0);
+  const std::string elements = "elements = \"plain\"\n";
+  recipe.shape.replace(
+      recipe.shape.find(elements), elements.size(),
+      "model = \"surface\"\nthickness_mm = 2\npressure_kPa = 0.5\ncontent_modulus_kPa = 20\n");
+  recipe.precision = "single";
+  recipe.material = "density_kg_per_m3 = 1000\nmodulus_kPa = 50\nviscosity_Pa_s = 1";
+  recipe.body = "fixed = [\"-z\"]";
+  recipe.physics = "threads = 2";
+  recipe.world = point_tool(4) + floor_at(-12);
+  World world(scene_of(recipe));
+  EXPECT_EQ(allocations_in(world, steady_hand({0, 0, 0.2}), 60), 0u);
+  EXPECT_FALSE(forces_of_tool(world).empty());
+}
+
 TEST(World, TakesNoMemoryInAFrameWhateverHappens) {
   World world(pressed_slab());
   EXPECT_EQ(allocations_in(world, std::nullopt, 5), 0u);  // before the hand is there

@@ -127,6 +127,44 @@ TEST_F(SceneMesh, RefusesWhatTetrahedraDoNotFollow) {
                 HasSubstr("a mesh is stepped by \"symplectic_euler\" only"));
 }
 
+TEST_F(SceneMesh, MayBeASurfaceOfSprings) {
+  const BodySpec body = parsed(mm + "model = \"surface\"\nthickness_mm = 2\n").bodies.front();
+  EXPECT_EQ(body.model, ElementModel::surface);
+  ASSERT_TRUE(body.membrane);
+  EXPECT_EQ(body.membrane->thickness, 0.002);
+  EXPECT_EQ(body.membrane->pressure, 0);
+  EXPECT_EQ(body.membrane->content_modulus, 0);
+  const BodySpec full =
+      parsed(mm + "model = \"surface\"\nthickness_mm = 2\npressure_kPa = -1\ncontent_modulus_kPa = 50\n")
+          .bodies.front();
+  EXPECT_EQ(full.membrane->pressure, -1000);
+  EXPECT_EQ(full.membrane->content_modulus, 50e3);
+  EXPECT_FALSE(parsed(mm).bodies.front().membrane);
+}
+
+TEST_F(SceneMesh, SaysWhatASurfaceLacksAndDoesNotFollow) {
+  const std::string surface = mm + "model = \"surface\"\nthickness_mm = 2\n";
+  EXPECT_THAT(complaint(mm + "model = \"surface\"\n"), HasSubstr("lacks \"thickness_mm\""));
+  EXPECT_THAT(complaint(mm + "thickness_mm = 2\n"),
+              HasSubstr("\"thickness_mm\" is of a mesh with model = \"surface\"; leave it out"));
+  EXPECT_THAT(complaint(surface + "elements = \"plain\""), HasSubstr("\"elements\" is of tetrahedra"));
+  EXPECT_THAT(complaint(surface + "start = \"balanced\""), HasSubstr("leave \"start\" out of a surface"));
+  EXPECT_THAT(complaint(surface + "regions = [{ material = \"m\", group = 3 }]"),
+              HasSubstr("\"regions\" is of tetrahedra"));
+  for (const auto& [keys, why] : std::vector<std::pair<std::string, std::string>>{
+           {"yield_ratio = 1.1\nk2_ratio = 0.1\nbreak_ratio = 2", "yields or breaks"},
+           {"viscosity_N_s_per_m = 1", "which is of one spring"},
+           {"viscosity_Pa_s = 1\ndamper = \"drag\"", "another damper"},
+           {"relaxation = [[0.3, 0.05]]", "relaxes"},
+           {"law = \"green\"", "has a law"},
+           {"poisson_ratio = 0.4", "springs in a plane have 1/3"},
+           {"modulus_by_intensity = [[0, 1], [1, 2]]", "no modulus_kPa"}})
+    EXPECT_THAT(complaint(surface, keys),
+                HasSubstr("model = \"surface\" in [[body]] \"organ\", but [material.m]"))
+        << keys << why;
+  EXPECT_THAT(complaints(surface, "viscosity_Pa_s = 1\ndrag_N_s_per_m = 0.1"), IsEmpty());
+}
+
 TEST_F(SceneMesh, KeepsItsKeysToItself) {
   const std::string box =
       "title = \"t\"\n[material.m]\nmass_g = 1\nk1_N_per_m = 1\n[[body]]\nname = \"b\"\nshape = "

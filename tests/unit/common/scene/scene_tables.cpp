@@ -43,6 +43,14 @@ SceneTable mesh() {
           "name = \"b\"\nmaterial = \"m\"\nshape = \"mesh\"\nfile = \"organ.msh\"\nunit = \"mm\"\n", ""};
 }
 
+SceneTable surface() {
+  const std::string tissue = "density_kg_per_m3 = 1\nmodulus_kPa = 10\n";
+  return {"[[body]]", "surface", "[material.m]\n" + tissue + "[material.n]\n" + tissue + "[[body]]\n",
+          "name = \"b\"\nmaterial = \"m\"\nshape = \"mesh\"\nfile = \"organ.msh\"\nunit = \"mm\"\nmodel = "
+          "\"surface\"\nthickness_mm = 1\n",
+          ""};
+}
+
 SceneTable tool(const std::string& of, const std::string& keys) {
   return {"[[tool]]", of, least + hand + "[[tool]]\n", "device = \"d\"\n" + keys, ""};
 }
@@ -79,6 +87,7 @@ std::vector<SceneTable> all_tables() {
       body("box", "size_mm = [5, 5, 5]\nspacing_mm = 1\n"),
       elements(),
       mesh(),
+      surface(),
       body("tube", "outer_radius_mm = 60\nlength_mm = 9\nspacing_mm = 1\n"),
       body("knife", knife),
       body("needle", needle),

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "physics_node/mesh/mesh_file.h"
+#include "physics_node/mesh/surface_file.h"
 #include "tests/support/image/run_importer.h"
 #include "tests/support/image/scratch_folder.h"
 #include "tests/support/image/small_images.h"
@@ -31,6 +32,25 @@ TEST(ImportSurface, SaysWhatItMadeAndWhatItMended) {
   EXPECT_EQ(file.source, "a.obj");
   EXPECT_NEAR(volume_of(file.mesh), 1e-6, 0.05e-6);
   EXPECT_LT(box_of(file.mesh).max().maxCoeff(), 0.01 + 1e-8);
+}
+
+TEST(ImportSurface, KeepsItsTrianglesWhereAskedTo) {
+  const ScratchFolder folder;
+  write_file(folder / "a.obj", as_obj(made_ball(10)));
+  const Outcome made =
+      run_importer({folder / "a.obj", "--unit", "mm", "--surface", "--out", folder / "s.h5"});
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr(" triangles, "));
+  const physics::SurfaceFile file = physics::read_surface_file(folder / "s.h5");
+  EXPECT_EQ(file.mesh.triangles.size(), made_ball(10).triangles.size());
+  EXPECT_EQ(file.source, "a.obj");
+  EXPECT_NEAR(enclosed_volume(file.mesh), 4.19e-6, 0.02e-6);
+  for (const auto& options : {std::vector<std::string>{"--surface", "--tetrahedra-mm", "2", "--out", "t.h5"},
+                              std::vector<std::string>{"--surface", "--out", folder / "t.msh"}}) {
+    std::vector<std::string> arguments = {folder / "a.obj", "--unit", "mm"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    EXPECT_EQ(run_importer(arguments).code, 2);
+  }
 }
 
 TEST(ImportSurface, RefusesMistakesInOneLineAndKeepsWhatIsThere) {

@@ -1,0 +1,182 @@
+#pragma once
+// A body that is a mesh, as the others know it, whatever its elements are. It is stepped by symplectic Euler, never sleeps,
+// and nothing of it breaks.
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "physics_node/step/body_model.h"
+#include "physics_node/step/good_state.h"
+#include "physics_node/step/rebound.h"
+#include "physics_node/step/rigid_fit.h"
+
+namespace palpate::physics {
+
+/// Its nodes move as `Elements` say: Tetrahedra or SurfaceSprings.
+template <class Elements>
+class MeshBodyModel final : public BodyModel {
+ public:
+  /// @param start  as of make_body_model()
+  MeshBodyModel(Body body, std::vector<Vec3> start, Elements elements)
+      : BodyModel(body_),
+        body_(std::move(body)),
+        start_(std::move(start)),
+        elements_(std::move(elements)),
+        saved_(elements_.saved(), elements_.saved()) {
+    NodeMotion::show(NodeField(elements_.displacements()), NodeField(elements_.velocities()));
+    Topology::show(body_.adjacency());
+    reset();
+  }
+
+  StepOutcome advance(const ExplicitStep& step, std::span<const NodalForce> forces) noexcept override {
+    momentum_.step(step.gravity, step.dt, step.dt);
+    const StepOutcome outcome = elements_.step(step);
+    kick(forces, step.dt);
+    return outcome;
+  }
+  PendingStep* pending() noexcept override { return nullptr; }
+
+  void prepare_for(Disturbance from_outside) override {
+    if (from_outside == Disturbance::impulses) v_before_.resize(n_nodes(), Vec3::Zero());
+  }
+  void remember_velocities() noexcept override {
+    for (std::size_t n = 0; n < v_before_.size(); ++n) v_before_[n] = velocity(static_cast<Index>(n));
+  }
+
+  /// As step/lattice/bounce.h.
+  Bounces bounce_off(const Plane& plane, double e, double dt) noexcept override {
+    Bounces sum;
+    for (const Index node : body_.nodes()) {
+      const double w = inverse_mass(node);
+      const Vec3 v_move = velocity(node), x = position(node) - dt * v_move;
+      if (w == 0 || plane.n.dot(x) >= plane.height) continue;
+      const double v_n = plane.n.dot(mean_velocity(node, v_move));
+      if (v_n >= 0) continue;
+      const double dv = rebound(e, v_n, plane.n.dot(v_move));
+      push_one(node, dv * plane.n, dt);
+      ++sum.masses;
+      sum.lost -= (dv * v_n + 0.5 * dv * dv) / w;
+    }
+    return sum;
+  }
+
+  void sleep_and_wake(double) noexcept override {}
+  void wake_all() noexcept override {}
+  double sleeping_fraction() const noexcept override { return 0; }
+  bool is_finite() const noexcept override { return elements_.is_finite(); }
+
+  void save(bool good) noexcept override { elements_.save(saved_.next(good)); }
+  void restore() noexcept override {
+    elements_.bring_back(saved_.good());
+    save(false);
+  }
+  void reset() noexcept override {
+    elements_.forget();
+    for (const Index node : body_.nodes()) {
+      const auto n = static_cast<std::size_t>(node);
+      elements_.place(node, start_.empty() ? Vec3(Vec3::Zero()) : start_[n],
+                      inverse_mass(node) > 0 ? body_.velocity : Vec3(Vec3::Zero()));
+    }
+    momentum_ = {};
+    restart_momentum();
+    save(false);
+    save(true);
+  }
+
+  void read(std::span<const std::uint32_t> which, std::span<const Index> cells, std::span<const Vec3> rest,
+            double dt, std::span<Vec3> x, std::span<Vec3> v, std::span<Vec3> v_move) const noexcept override {
+    for (const std::uint32_t n : which) {
+      v_move[n] = velocity(cells[n]);
+      v[n] = mean_velocity(cells[n], v_move[n]);
+      x[n] = rest[n] + displacement(cells[n]) - dt * v_move[n];
+    }
+  }
+  void push(std::span<const NodalPush> pushes, double dt) noexcept override {
+    for (const NodalPush& one : pushes)
+      if (inverse_mass(one.cell) > 0) push_one(one.cell, one.dv, dt);
+  }
+  void kick(std::span<const NodalForce> forces, double dt) noexcept override {
+    for (const NodalForce& nodal : forces) {
+      const double w = inverse_mass(nodal.cell);
+      if (w == 0) continue;
+      momentum_.push(dt * nodal.force, position(nodal.cell) - dt * velocity(nodal.cell), dt);
+      elements_.push(nodal.cell, w * dt * nodal.force, dt);
+    }
+  }
+  double power(std::span<const NodalForce> forces) const noexcept override {
+    double sum = 0;
+    for (const NodalForce& nodal : forces)
+      if (inverse_mass(nodal.cell) > 0) sum += nodal.force.dot(velocity(nodal.cell));
+    return sum;
+  }
+  void place(Index node, const Vec3& displacement, const Vec3& velocity) noexcept override {
+    if (inverse_mass(node) > 0) elements_.place(node, displacement, velocity);
+  }
+
+  TopologyEvents events() const noexcept override { return {}; }
+  std::int64_t breaks() const noexcept override { return 0; }
+  std::int64_t cut(std::span<const EdgeGone>) noexcept override { return 0; }
+  void conditions(std::span<const Index> nodes, std::span<Condition> out) const noexcept override {
+    std::fill_n(out.begin(), nodes.size(), Condition{});
+  }
+
+  Watch watch() const noexcept override { return elements_.watch(); }
+  Energies energies(const Vec3& gravity) const override { return elements_.energies(gravity); }
+  double energy_now() const noexcept override {
+    const Energies now = elements_.energies(Vec3::Zero());
+    return now.kinetic + now.elastic;
+  }
+  Losses due() const override { return elements_.due(); }
+  Losses losses() const override { return elements_.losses(); }
+  Momenta momenta() const override { return measured().momenta; }
+  bool touched() const noexcept override { return momentum_.hits() > 0; }
+  void restart_momentum() noexcept override { momentum_.restart(measured()); }
+  MomentumBalance momentum_balance() const override { return momentum_.balance(momenta()); }
+  std::uint64_t hash(std::uint64_t seed) const noexcept override { return elements_.hash(seed); }
+
+  BodyCounts counts() const override {
+    BodyCounts counts;
+    counts.elements = counts.live_elements = body_.n_elements();
+    counts.max_stretch = elements_.largest_stretch();
+    if constexpr (requires { elements_.least_J(); }) counts.least_corner_J = elements_.least_J();
+    Eigen::Matrix3Xd rest(3, body_.n_nodes()), now(3, body_.n_nodes());
+    for (const Index node : body_.nodes())
+      rest.col(node) = body_.rest_position(node), now.col(node) = position(node);
+    counts.shape_rms = rigid_fit_rms(rest, now);
+    return counts;
+  }
+
+ private:
+  std::size_t n_nodes() const { return body_.mesh->nodes.size(); }
+  double inverse_mass(Index node) const noexcept {
+    return body_.inverse_mass[static_cast<std::size_t>(node)];
+  }
+  /// Of the velocities that moved it in the last two steps, where that before was remembered.
+  Vec3 mean_velocity(Index node, const Vec3& v_move) const noexcept {
+    return v_before_.empty() ? v_move : Vec3(0.5 * (v_move + v_before_[static_cast<std::size_t>(node)]));
+  }
+  void push_one(Index node, const Vec3& dv, double dt) noexcept {
+    momentum_.push(dv / inverse_mass(node), position(node) - dt * velocity(node), dt);
+    elements_.push(node, dv, dt);
+    // It acts before the elements do: who reads the mean of this and the velocity after them finds all of it.
+    if (!v_before_.empty()) v_before_[static_cast<std::size_t>(node)] += dv;
+  }
+
+  MomentumAccount::Start measured() const noexcept {
+    MomentumAccount::Start sum;
+    for (const Index node : body_.nodes())
+      sum.add(body_.mesh->mass[static_cast<std::size_t>(node)], position(node), velocity(node));
+    return sum;
+  }
+
+  Body body_;
+  std::vector<Vec3> start_;  // displacements of its nodes; EMPTY: none [m]
+  mutable Elements
+      elements_;  // what measures it writes forces and energies of its elements, which the next step makes anew
+  std::vector<Vec3> v_before_;  // that moved its nodes in the step before the last; EMPTY: not for contact
+  MomentumAccount momentum_;
+  GoodState<typename Elements::Saved> saved_;
+};
+
+}  // namespace palpate::physics
