@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 
 namespace palpate::render {
 
@@ -14,27 +15,48 @@ class HandEvents {
   static constexpr double tap_s =
       1.0 / 30;  // how long a key is taken to have been down that came and went in one poll [s]
 
+  static constexpr double click_px = 4;  // a button that goes down and up within this way is a click
+
   void key(int code, bool down) {
     Key& key = keys_[code];
     if (down && !key.down) ++key.presses;
     key.down = down;
   }
+  /// A character was typed, on whatever keys a keyboard has for it: as a key of its own that came and went.
+  void character(unsigned c) {
+    if (c >= most_characters) return;  // Why: what is remembered is bounded
+    key(of_character(c), true);
+    key(of_character(c), false);
+  }
+  static constexpr int of_character(unsigned c) { return first_character + static_cast<int>(c); }
+
   void button(int number, bool down) {
-    if (number >= 0 && number < static_cast<int>(down_.size()))
-      down_[static_cast<std::size_t>(number)] = down;
+    if (number < 0 || number >= static_cast<int>(buttons_.size())) return;
+    Button& button = buttons_[static_cast<std::size_t>(number)];
+    if (button.down && !down && !button.drags) {
+      ++button.clicks;
+      button.clicked = cursor_;
+    }
+    if (down && !button.down) button.drags = false, button.way.setZero();
+    button.down = down;
   }
   void cursor(double x, double y) {
     const Eigen::Vector2d now(x, y);
-    if (known_)
-      for (std::size_t b = 0; b < down_.size(); ++b)
-        if (down_[b]) drag_[b] += now - cursor_;
+    for (Button& button : buttons_) {
+      if (!known_ || !button.down) continue;
+      button.way += now - cursor_;
+      if (!button.drags && button.way.norm() <= click_px) continue;
+      button.drags = true;
+      button.drag += button.way;
+      button.way.setZero();
+    }
     cursor_ = now;
     known_ = true;
   }
   /// The window is no longer spoken to: what was down is up.
   void leave() {
     for (auto& [code, key] : keys_) key.down = false;
-    down_ = {};
+    for (Button& button : buttons_) button.down = false;
   }
 
   /// Times that the key went down since the last picture.
@@ -54,23 +76,33 @@ class HandEvents {
     if (key->second.down && key->second.presses == 0) return seconds;
     return std::min(seconds, tap_s * key->second.presses);
   }
-  /// Way of the cursor with this button down since the last picture [px].
-  const Eigen::Vector2d& drag(std::size_t button) const { return drag_[button]; }
+  /// Way of the cursor with this button down since the last picture, of drags only [px].
+  const Eigen::Vector2d& drag(std::size_t button) const { return buttons_[button].drag; }
+  /// Where this button was last clicked since the last picture [px]; nothing: it was not, or it was dragged.
+  std::optional<Eigen::Vector2d> click(std::size_t button) const {
+    return buttons_[button].clicks > 0 ? std::optional(buttons_[button].clicked) : std::nullopt;
+  }
 
   /// The picture has been drawn.
   void forget() {
     for (auto& [code, key] : keys_) key.presses = 0;
-    drag_ = {Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+    for (Button& button : buttons_) button.drag.setZero(), button.clicks = 0;
   }
 
  private:
+  static constexpr int first_character = 1 << 16;  // Why: above all codes of GLFW
+  static constexpr unsigned most_characters = 128;
   struct Key {
     bool down = false;
     int presses = 0;
   };
   std::map<int, Key> keys_;
-  std::array<bool, 2> down_{};  // left, right
-  std::array<Eigen::Vector2d, 2> drag_{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+  struct Button {
+    bool down = false, drags = false;
+    int clicks = 0;
+    Eigen::Vector2d drag = Eigen::Vector2d::Zero(), way = Eigen::Vector2d::Zero(), clicked = way;
+  };
+  std::array<Button, 2> buttons_{};  // left, right
   Eigen::Vector2d cursor_ = Eigen::Vector2d::Zero();
   bool known_ = false;
 };

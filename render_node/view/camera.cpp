@@ -23,7 +23,20 @@ void Camera::reset() {
   pitch_ = std::clamp(spec_.pitch, -max_pitch, max_pitch);
   target_ = spec_.target.value_or(Vec3::Zero());
   distance_ = spec_.distance.value_or(1.0);
+  moved_ = all_ = false;
+}
+
+void Camera::look_from(double yaw, double pitch) {
+  yaw_ = yaw;
+  pitch_ = std::clamp(pitch, -max_pitch, max_pitch);
   moved_ = false;
+  all_ = true;
+}
+
+void Camera::look_at(const Vec3& p, double height) {
+  target_ = p;
+  distance_ = std::max(height / (2 * tan_half()), 1e-6);
+  moved_ = true;
 }
 
 void Camera::set_picture(int width, int height, int covered_left) {
@@ -50,8 +63,8 @@ void Camera::fit(const Eigen::AlignedBox3d& box) {
   if (box.isEmpty()) return;
   radius_ = std::max(box.diagonal().norm() / 2, 1e-6);
   if (moved_) return;
-  if (!spec_.target) target_ = box.center();
-  if (spec_.distance) return;
+  if (all_ || !spec_.target) target_ = box.center();
+  if (spec_.distance && !all_) return;
   double distance = 0;
   for (int i = 0; i < 8; ++i) {
     const Vec3 corner = axes() * (box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)) - target_);

@@ -28,6 +28,15 @@ class Camera {
   void zoom(double steps);  // > 0: nearer
   void reset();             // back to the scene's view; the next fit() counts again
 
+  /// From another side, with all in the picture whatever the scene says: fit() chooses target and distance.
+  void look_from(double yaw, double pitch);
+  void fit_all() { look_from(yaw_, pitch_); }
+  /// At a point from where it looks now, so near that this height of it fills the picture. @param height  > 0 [m]
+  void look_at(const Vec3& p, double height);
+
+  /// Of lengths across the view at the depth of the target.
+  double pixels_per_metre() const { return height_ / (2 * distance_ * tan_half()); }
+
   Eigen::Matrix4d view() const;        // world to camera (x right, y up, z towards the viewer)
   Eigen::Matrix4d projection() const;  // camera to clip space
   /// Where a point appears, in pixels from the top left corner; nothing if behind the camera.
@@ -52,8 +61,8 @@ class Camera {
   double yaw_, pitch_;
   Vec3 target_ = Vec3::Zero();
   double distance_ = 1;
-  bool moved_ = false;
-  double radius_ = 0.5;  // of what is looked at, for the depth range [m]
+  bool moved_ = false, all_ = false;  // a hand has moved it; it shows all, whatever the scene says
+  double radius_ = 0.5;               // of what is looked at, for the depth range [m]
   double width_ = 1280, height_ = 720, covered_ = 0;
 };
 

@@ -89,6 +89,53 @@ TEST(Camera, FitsABoxIntoTheFreePart) {
   EXPECT_LT(air, 72);  // and it is not small
 }
 
+/// Whatever the scene says, all eight corners come into the free part, seen from the side that was asked for.
+TEST(Camera, LooksFromASideWithAllInThePicture) {
+  Camera camera(level());
+  camera.set_picture(1280, 720, 300);
+  const Eigen::AlignedBox3d box(Vec3(-0.2, -0.1, 0), Vec3(0.3, 0.1, 0.05));
+  const auto sees_all = [&] {
+    for (int i = 0; i < 8; ++i) {
+      const auto p = camera.project(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
+      if (!p || p->x() < 300 || p->x() > 1280 || p->y() < 0 || p->y() > 720) return false;
+    }
+    return true;
+  };
+  camera.fit(box);
+  EXPECT_FALSE(sees_all()) << "the scene looks elsewhere";
+  const double quarter = std::acos(0.0);
+  struct View {
+    double yaw, pitch;
+    Vec3 from;
+  };
+  for (const View& view :
+       {View{0, 0, -Vec3::UnitY()}, View{quarter, 0, Vec3::UnitX()}, View{0, quarter, Vec3::UnitZ()}}) {
+    camera.rotate(30, 20);  // a hand has moved it
+    camera.look_from(view.yaw, view.pitch);
+    camera.fit(box);
+    EXPECT_TRUE(sees_all());
+    EXPECT_GT((camera.eye() - camera.target()).normalized().dot(view.from), 0.999);
+  }
+  camera.reset();
+  camera.fit(box);
+  EXPECT_TRUE(camera.eye().isApprox(Vec3(1, 0, 3), 1e-12)) << "the scene's view again";
+  camera.fit_all();
+  camera.fit(box);
+  EXPECT_TRUE(sees_all());
+}
+
+TEST(Camera, LooksAtAPointSoNearThatAHeightFillsThePicture) {
+  Camera camera(level(0.4));
+  camera.set_picture(800, 600, 0);
+  const Vec3 p(0.1, 0.2, 0.3), up = camera.axes().row(1).transpose();
+  camera.look_at(p, 0.06);
+  EXPECT_LT((*camera.project(p) - Eigen::Vector2d(400, 300)).norm(), 1e-9);
+  EXPECT_NEAR(camera.project(p + 0.03 * up)->y(), 0, 1e-6);
+  EXPECT_NEAR(camera.pixels_per_metre(), 600 / 0.06, 1e-6);
+  camera.fit({Vec3::Constant(-1), Vec3::Constant(1)});
+  EXPECT_EQ(camera.target(), p) << "a hand has moved it";
+}
+
 TEST(Camera, DoesNotFitAgainOnceAHandMovedIt) {
   Camera camera(CameraSpec{});
   const Eigen::AlignedBox3d box(Vec3(-1, -1, -1), Vec3(1, 1, 1));
