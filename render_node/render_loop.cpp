@@ -24,6 +24,8 @@
 #include "common/wire/heard_report.h"
 #include "render_node/frame_schedule.h"
 #include "render_node/image/frame_folder.h"
+#include "render_node/image/screenshot.h"
+#include "render_node/model/hand_state.h"
 #include "render_node/picture.h"
 #include "render_node/ui/window.h"
 #include "render_node/wire.h"
@@ -155,10 +157,27 @@ int run_headless(const NodeOptions& options, const Scene& scene) {
   return wire.unwelcome() ? exit_mistake : kept;
 }
 
-void pass_on(const PanelWishes& wishes, ThresholdControl& threshold, Wire& wire) {
-  if (wishes.pause) wire.command(CommandKind::pause);
-  if (wishes.resume) wire.command(CommandKind::resume);
-  if (wishes.reset) wire.command(CommandKind::reset);
+/// A reset is of the tissue, and of each device at fault, as `palpate reset` does it.
+void reset(const Scene& scene, const ViewModel& model, Wire& wire) {
+  wire.command(CommandKind::reset);
+  const auto& hand = model.node(NodeKind::haptic);
+  for (const ToolSpec& tool : scene.tools)
+    if (hand && hand_state(hand->note.data(), tool.name).state == "fault")
+      wire.command(CommandKind::device, 1, tool.name);
+}
+
+/// @return words for the person
+std::string keep(const Image& picture, const std::string& out) {
+  try {
+    return "saved " + save_screenshot(picture, out.empty() ? "." : out);
+  } catch (const InputError& error) {
+    log_warn("{}", error.what());
+    return error.what();
+  }
+}
+
+void pass_on(const PanelWishes& wishes, bool paused, ThresholdControl& threshold, Wire& wire) {
+  if (wishes.paused != paused) wire.command(wishes.paused ? CommandKind::pause : CommandKind::resume);
   if (const auto value = threshold.due(seconds_from_ns(now_ns()), wishes.threshold_released)) {
     wire.command(CommandKind::threshold, *value);
   }
@@ -192,7 +211,10 @@ int run_window(const NodeOptions& options, const Scene& given) {
     facts.t = model.t();
     facts.interactive = true;
     facts.paused = news.paused;
-    pass_on(window.draw(facts), window.threshold(), wire);
+    const PanelWishes wishes = window.draw(facts);
+    pass_on(wishes, facts.paused, window.threshold(), wire);
+    if (wishes.reset) reset(scene, model, wire);
+    if (wishes.picture) window.say(keep(*wishes.picture, options.out));
     for (auto& pointer : window.pointers()) wire.point(pointer.message(now_ns()));
     fare.drew(model.t());
     if (window.closing()) {

@@ -1,5 +1,7 @@
 #include "render_node/wire.h"
 
+#include <algorithm>
+
 #include "common/report/log.h"
 
 namespace palpate::render {
@@ -83,11 +85,12 @@ Wire::News Wire::take_into(ViewModel& model) {
   return news;
 }
 
-void Wire::command(CommandKind kind, double value) {
+void Wire::command(CommandKind kind, double value, const std::string& name) {
   Command command;
   command.id = ++last_command_;
   command.kind = kind;
   command.value = value;
+  std::copy_n(name.begin(), std::min(name.size(), command.name.size() - 1), command.name.begin());
   command_.write(command);
 }
 

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "common/message/messages.h"
@@ -30,7 +31,8 @@ class Wire {
   /// Takes all that has come into the model.
   News take_into(ViewModel& model);
 
-  void command(CommandKind kind, double value = 0);
+  /// @param name  of what it is about, of less than 64 characters; see Command
+  void command(CommandKind kind, double value = 0, const std::string& name = {});
   void point(const Pointer& pointer) { pointer_.write(pointer); }
   /// Fills in what the readers counted, and sends; says who is not heard.
   void tell(NodeStatus status);

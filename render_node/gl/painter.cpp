@@ -102,7 +102,8 @@ void Painter::draw(ViewModel& model, const Camera& camera, const PaintOptions& o
   backdrop_.draw_gradient();
   draw_bodies(model, camera, options, height);
   at_pixels_.begin(camera);
-  for (std::size_t i = 0; i < tools_.size(); ++i) draw_tool(tools_[i], model.tools()[i], model, options);
+  for (std::size_t i = 0; i < tools_.size(); ++i)
+    if (!is_hidden(options.hidden.tools, i)) draw_tool(tools_[i], model.tools()[i], model, options);
   draw_planes(model, camera);
 }
 
@@ -122,7 +123,7 @@ void Painter::draw_bodies(ViewModel& model, const Camera& camera, const PaintOpt
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     BodyPicture& body = model.bodies()[i];
     TissueDrawing& drawing = bodies_[i];
-    if (body.empty()) continue;
+    if (body.empty() || is_hidden(options.hidden.bodies, i)) continue;
     bytes_uploaded_ += drawing.upload(body);
     const LitProgram& lit = drawing.closed() && drawing.dense() ? at_vertices_ : at_pixels_;
     lit.begin(camera);

@@ -15,12 +15,14 @@
 #include "render_node/gl/tissue_drawing.h"
 #include "render_node/model/view_model.h"
 #include "render_node/view/camera.h"
+#include "render_node/view/hidden.h"
 
 namespace palpate::render {
 
 /// What of the scene's [render] table a hand may switch while it runs.
 struct PaintOptions {
   bool tool = true, force = true, wire = false, fragments = false;
+  Hidden hidden = {};
 };
 
 class Painter {

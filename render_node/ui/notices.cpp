@@ -16,15 +16,19 @@ std::string note_of(const ViewModel& model, NodeKind kind) {
 
 std::string why_no_force(const HandState& hand, const std::string& tool, const ToolPointer* pointer,
                          bool pointed) {
-  if (hand.state == "fault")
-    return fmt::format("{}: device fault, no forces; palpate reset {} opens it anew", tool, tool);
+  if (hand.state == "fault") return fmt::format("{}: device fault, no forces; Backspace opens it anew", tool);
   if (hand.state == "ready" || hand.state == "safe") {
-    if (pointed && !pointer->held())
-      return fmt::format("{}: press T to take it, over the place to touch", tool);
+    if (pointed && !pointer->held()) return fmt::format("{}: click on the tissue to take it", tool);
     if (!hand.reason.empty()) return fmt::format("{}: no force yet: {}", tool, hand.reason);
   }
   if (hand.state == "stale") return fmt::format("{}: no force: physics is silent", tool);
   return {};
+}
+
+std::string why_nothing_is_seen(const ViewModel& model) {
+  const auto& physics = model.node(NodeKind::physics);
+  if (!physics) return "loading: waiting for physics";
+  return physics->phase == NodePhase::loading ? "loading the tissue" : "loading: waiting for its surface";
 }
 
 }  // namespace
@@ -32,8 +36,8 @@ std::string why_no_force(const HandState& hand, const std::string& tool, const T
 std::vector<std::string> hindrances(const Scene& scene, const ViewModel& model, bool paused,
                                     const ToolPointer* pointer) {
   std::vector<std::string> lines;
-  if (!model.anything_to_see()) lines.emplace_back("loading the tissue");
-  if (paused) lines.emplace_back("paused: Resume goes on");
+  if (!model.anything_to_see()) lines.push_back(why_nothing_is_seen(model));
+  if (paused) lines.emplace_back("paused: P goes on");
   const std::string note = note_of(model, NodeKind::haptic);
   for (std::size_t i = 0; i < scene.tools.size(); ++i) {
     const bool pointed = pointer != nullptr && pointer->tool() == i;

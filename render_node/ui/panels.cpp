@@ -7,17 +7,21 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 
 #include "common/math/units.h"
+#include "common/scene/body_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
 #include "render_node/ui/history_plot.h"
+#include "render_node/ui/scene_tree.h"
 
 namespace palpate::render {
 namespace {
 
 constexpr double per_milli = 1e3;
+constexpr std::size_t few = 4;  // Why: so many rows leave room for the plots at 1280 x 720
 
 // 1234567 as 1,234,567.
 std::string grouped(std::uint64_t n) {
@@ -79,6 +83,25 @@ void node_rows(const ViewModel& model) {
   if (any) ImGui::Separator();
 }
 
+struct ActionButton {
+  const char* words;
+  Action action;
+};
+
+/// Buttons of one width, so many a line.
+void buttons(std::initializer_list<ActionButton> all, int a_line, PanelWishes& wishes) {
+  const float gap = ImGui::GetStyle().ItemSpacing.x / 2;
+  const float width =
+      (ImGui::GetContentRegionAvail().x - static_cast<float>(a_line - 1) * gap) / static_cast<float>(a_line);
+  int n = 0;
+  for (const auto& [words, action] : all) {
+    if (n++ % a_line != 0) ImGui::SameLine(0, gap);
+    if (ImGui::Button(words, {width, 0})) wishes.actions.push_back(action);
+    const Binding* binding = ImGui::IsItemHovered() ? binding_of(action) : nullptr;
+    if (binding != nullptr) ImGui::SetTooltip("%s: %s", binding->keys, binding->does);
+  }
+}
+
 PanelWishes controls(const PanelFacts& facts, ThresholdControl& threshold) {
   PanelWishes wishes;
   if (threshold.applies()) {
@@ -94,16 +117,21 @@ PanelWishes controls(const PanelFacts& facts, ThresholdControl& threshold) {
       row("tissue from intensity", fmt::format("{:.0f}", threshold.value()));
     }
   }
-  if (facts.interactive) {
-    const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
-    const bool pressed = ImGui::Button(facts.paused ? "Resume" : "Pause", {width, 0});
-    wishes.pause = pressed && !facts.paused;
-    wishes.resume = pressed && facts.paused;
-    ImGui::SameLine();
-    wishes.reset = ImGui::Button("Reset", {width, 0});
-  }
+  if (facts.interactive)
+    buttons({{facts.paused ? "Go on" : "Pause", Action::pause},
+             {"Reset", Action::reset},
+             {"Help", Action::help},
+             {"Picture", Action::picture},
+             {"Fold", Action::fold}},
+            3, wishes);
   if (facts.interactive || threshold.applies()) ImGui::Separator();
   return wishes;
+}
+
+/// A part of the column that a person may fold away; in a picture without a hand it has no heading.
+bool section(const char* heading, bool interactive, bool open) {
+  if (!interactive) return true;
+  return ImGui::CollapsingHeader(heading, open ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None);
 }
 
 /// What the plots of the first tool may take of the height that is left, so that what follows them stays in sight; legible at least.
@@ -116,7 +144,7 @@ float plot_height(const ViewModel& model, const PanelFacts& facts, float scale) 
   const float legends = plots > 1 ? 2.0F : 1.0F;
   const float left =
       ImGui::GetContentRegionAvail().y - (rows + legends) * line - ImGui::GetStyle().ItemSpacing.y;
-  return std::clamp(left / plots, 58 * scale, 150 * scale);
+  return std::clamp(left / plots, 84 * scale, 150 * scale);
 }
 
 void tool_rows(const Scene& scene, const ViewModel& model, const PanelFacts& facts, float scale) {
@@ -139,23 +167,15 @@ void tool_rows(const Scene& scene, const ViewModel& model, const PanelFacts& fac
   }
 }
 
-/// How the mouse leads the tool.
-void pointer_rows(const Scene& scene, const ToolPointer& pointer) {
-  row("mouse", fmt::format("{} {}", pointer.held() ? "holds" : "lets lie", scene.tools[pointer.tool()].name));
-  if (!pointer.held()) {
-    row("take it, at the cursor", "T");
-  } else {
-    row("move it", "mouse");
-    row("deeper, finely", "wheel, Shift");
-    row("turn it", "arrows, PgUp, PgDn");
-    row("its button", "Space");
-    row("let it go", "T");
-  }
-}
-
-void view_rows() {
-  row("turn, move the view", "drag left, right");
-  row("wires, first view, end", "W, R, Esc");
+void view_rows(PanelWishes& wishes) {
+  buttons({{"Front", Action::front},
+           {"Side", Action::side},
+           {"Top", Action::top},
+           {"Tool", Action::at_tool},
+           {"Fit", Action::fit},
+           {"Home", Action::first_view},
+           {"Wires", Action::wires}},
+          4, wishes);
 }
 
 void warning_rows(const ViewModel& model) {
@@ -169,7 +189,7 @@ void warning_rows(const ViewModel& model) {
 }  // namespace
 
 PanelWishes lay_out_panels(const Scene& scene, const ViewModel& model, const PanelFacts& facts,
-                           ThresholdControl& threshold, float scale) {
+                           ThresholdControl& threshold, Hidden& hidden, float scale) {
   const ImVec2 picture = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({0, 0});
   ImGui::SetNextWindowSize({panel_width_in(picture.x, scale), picture.y});
@@ -181,16 +201,19 @@ PanelWishes lay_out_panels(const Scene& scene, const ViewModel& model, const Pan
   row("simulated time", fmt::format("{:.2f} s", facts.t));
   warning_rows(model);
   ImGui::Separator();
-  const PanelWishes wishes = controls(facts, threshold);
-  if (facts.pointer != nullptr) pointer_rows(scene, *facts.pointer);
-  if (facts.interactive) {
-    view_rows();
+  PanelWishes wishes = controls(facts, threshold);
+  if (facts.pointer != nullptr)
+    row("mouse", fmt::format("{} {}", facts.pointer->held() ? "holds" : "lets lie",
+                             scene.tools[facts.pointer->tool()].name));
+  if (facts.interactive && section("View", true, true)) view_rows(wishes);
+  if (facts.interactive && section("Bodies and tools", true, scene.bodies.size() + scene.tools.size() <= few))
+    lay_out_scene_tree(scene, hidden);
+  if (section("Nodes", facts.interactive, false)) {
+    node_rows(model);
+    row("facets visible",
+        fmt::format("{} of {}", grouped(model.facets_visible()), grouped(model.facets_total())));
     ImGui::Separator();
   }
-  node_rows(model);
-  row("facets visible",
-      fmt::format("{} of {}", grouped(model.facets_visible()), grouped(model.facets_total())));
-  ImGui::Separator();
   tool_rows(scene, model, facts, scale);
   ImGui::End();
   return wishes;
@@ -200,21 +223,15 @@ float panel_width_in(float picture_width, float scale) {
   return std::min(panel_width * scale, 0.4F * picture_width);
 }
 
-void lay_out_hindrances(const std::vector<std::string>& lines, float scale) {
-  if (lines.empty()) return;
-  const ImVec2 picture = ImGui::GetIO().DisplaySize;
-  const float panel = panel_width_in(picture.x, scale), free = picture.x - panel;
-  const float pad = ImGui::GetStyle().WindowPadding.x;
-  float widest = 0;
-  for (const auto& line : lines) widest = std::max(widest, ImGui::CalcTextSize(line.c_str()).x);
-  const float width = std::min(widest + 2 * pad, 0.9F * free);
-  ImGui::SetNextWindowPos({panel + 0.5F * free, 0.5F * picture.y}, ImGuiCond_Always, {0.5F, 0.5F});
-  ImGui::SetNextWindowSize({width, 0});  // as high as its words
-  ImGui::Begin("hindrances", nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoSavedSettings |
-                   ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing);
-  for (const auto& line : lines) ImGui::TextWrapped("%s", line.c_str());
+PanelWishes lay_out_folded() {
+  PanelWishes wishes;
+  ImGui::SetNextWindowPos({0, 0});
+  ImGui::Begin("folded", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoMove);
+  if (ImGui::Button("Unfold (F2)")) wishes.actions.push_back(Action::fold);
   ImGui::End();
+  return wishes;
 }
 
 }  // namespace palpate::render

@@ -7,8 +7,11 @@
 #include <vector>
 
 #include "common/scene/scene_fwd.h"
+#include "render_node/image/image.h"
 #include "render_node/model/threshold_control.h"
 #include "render_node/model/view_model.h"
+#include "render_node/ui/bindings.h"
+#include "render_node/view/hidden.h"
 #include "render_node/view/tool_pointer.h"
 
 namespace palpate::render {
@@ -19,26 +22,34 @@ struct PanelFacts {
   double arrow_metres_per_newton = 0;  // 0: not known yet
   bool interactive = false;            // a window: with slider and buttons
   bool paused = false;
-  const ToolPointer* pointer = nullptr;  // the tool that the mouse leads, if any: with help
+  const ToolPointer* pointer = nullptr;  // the tool that the mouse leads, if any
+  bool help = false;                     // is shown
+  bool folded = false;                   // the column is
+  std::string words;                     // over the picture; empty: none
 };
 
 /// What the person asked for in this frame.
 struct PanelWishes {
   bool threshold_moved = false;  // ThresholdControl has the value
   bool threshold_released = false;
-  bool pause = false, resume = false, reset = false;
+  std::vector<Action> actions;  // by buttons, as if by keys
+  // What of buttons and keys is not the window's own.
+  bool paused = false;  // it should be
+  bool reset = false;
+  std::optional<Image> picture;  // to be saved: of the window as it is
 };
 
 inline constexpr float panel_width = 308;  // [px] at a picture height of 720
 
-/// Width of the column in a picture: at most two fifths of it [px].
+/// Width of the column in a picture where it is not folded: at most two fifths of it [px].
 float panel_width_in(float picture_width, float scale);
 
 /// Lays out the column in the current ImGui frame. @param scale  of all lengths, 1 at 720 px
+/// @param hidden  what its list of bodies and tools switches
 PanelWishes lay_out_panels(const Scene& scene, const ViewModel& model, const PanelFacts& facts,
-                           ThresholdControl& threshold, float scale);
+                           ThresholdControl& threshold, Hidden& hidden, float scale);
 
-/// What hinders the hand (notices.h), in the middle of the free part of the picture. Nothing where there are no lines.
-void lay_out_hindrances(const std::vector<std::string>& lines, float scale);
+/// What is left of a folded column: a button that unfolds it.
+PanelWishes lay_out_folded();
 
 }  // namespace palpate::render

@@ -7,6 +7,9 @@
 
 #include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
+#include "render_node/ui/captions.h"
+#include "render_node/ui/help.h"
+#include "render_node/ui/measures.h"
 #include "render_node/ui/notices.h"
 
 namespace palpate::render {
@@ -15,8 +18,11 @@ Stage::Stage(const Scene& scene, ViewModel& model, int height)
     : scene_(scene),
       model_(model),
       camera_(scene.render->camera),
-      options_{scene.render->show_tool, scene.render->show_force, scene.render->show_wire,
-               scene.render->show_fragments},
+      options_{scene.render->show_tool,
+               scene.render->show_force,
+               scene.render->show_wire,
+               scene.render->show_fragments,
+               {}},
       threshold_(scene),
       painter_(scene, model),
       imgui_(height) {}
@@ -24,9 +30,8 @@ Stage::Stage(const Scene& scene, ViewModel& model, int height)
 PanelWishes Stage::draw(const PanelFacts& facts, int width, int height, float seconds) {
   const bool panels = scene_.render->show_panels;
   const float scale = imgui_.fit(height);
-  camera_.set_picture(
-      width, height,
-      panels ? static_cast<int>(std::lround(panel_width_in(static_cast<float>(width), scale))) : 0);
+  const float left = panels && !facts.folded ? panel_width_in(static_cast<float>(width), scale) : 0;
+  camera_.set_picture(width, height, static_cast<int>(std::lround(left)));
   camera_.fit(box_with_floor());
   painter_.draw(model_, camera_, options_, width, height);
   if (!panels && !facts.interactive) return {};
@@ -37,8 +42,13 @@ PanelWishes Stage::draw(const PanelFacts& facts, int width, int height, float se
   PanelFacts shown = facts;
   shown.arrow_metres_per_newton = options_.force ? painter_.arrow_metres_per_newton() : 0;
   PanelWishes wishes;
-  if (panels) wishes = lay_out_panels(scene_, model_, shown, threshold_, scale);
-  if (facts.interactive) lay_out_hindrances(hindrances(scene_, model_, facts.paused, facts.pointer), scale);
+  if (panels)
+    wishes = facts.folded ? lay_out_folded()
+                          : lay_out_panels(scene_, model_, shown, threshold_, options_.hidden, scale);
+  if (model_.anything_to_see()) lay_out_measures(camera_, left, scale);
+  if (facts.interactive) lay_out_hindrances(hindrances(scene_, model_, facts.paused, facts.pointer), left);
+  lay_out_words(facts.words, left);
+  if (facts.help && lay_out_help(facts.pointer != nullptr, scale)) wishes.actions.push_back(Action::help);
   ImGui::Render();
   panels_.draw();
   return wishes;

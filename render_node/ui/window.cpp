@@ -8,17 +8,16 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <numbers>
 #include <string>
 
 #include "common/error/error.h"
-#include "common/scene/body_spec.h"
 #include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
 #include "render_node/gl/egl_context.h"
 #include "render_node/gl/framebuffer.h"
 #include "render_node/ui/stage.h"
-#include "render_node/view/surface_under.h"
 
 namespace palpate::render {
 namespace {
@@ -32,8 +31,7 @@ constexpr int samples_per_pixel = 4;
                    "); use --headless, or a display with OpenGL 3.3");
 }
 
-/// How far before a surface a tool starts, besides what the surface's own steps ask for [m]. A point has no extent to the hand.
-double clearance(const ToolSpec& tool) { return tool.shape == ToolShape::stick ? tool.radius : 0.0; }
+constexpr double words_s = 6;  // how long say() is shown [s]
 
 bool variable_set(const char* name) {
   const char* value = std::getenv(name);
@@ -75,7 +73,7 @@ Window::Window(const Scene& scene, ViewModel& model, const std::vector<std::uint
       stage_(std::make_unique<Stage>(scene, model, scene.render->size_px[1])),
       scene_(scene),
       model_(model),
-      pointed_(pointed),
+      leading_(scene, model, pointed),
       last_draw_(glfwGetTime()) {
   stage_->make_current();
   hear();
@@ -91,6 +89,7 @@ void Window::hear() {
   glfwSetKeyCallback(glfw_->window, [](GLFWwindow* window, int key, int, int action, int) {
     if (action != GLFW_REPEAT) events(window).key(key, action == GLFW_PRESS);
   });
+  glfwSetCharCallback(glfw_->window, [](GLFWwindow* window, unsigned c) { events(window).character(c); });
   glfwSetMouseButtonCallback(glfw_->window, [](GLFWwindow* window, int button, int action, int) {
     events(window).button(button, action == GLFW_PRESS);
   });
@@ -112,88 +111,128 @@ PanelWishes Window::draw(const PanelFacts& facts, Image* seen) {
   stage_->make_current();
   int width = 0, height = 0;
   glfwGetFramebufferSize(glfw_->window, &width, &height);
-  if (width == 0 || height == 0) return {};  // minimised
+  if (width == 0 || height == 0) {  // minimised
+    PanelWishes none;
+    none.paused = facts.paused;
+    return none;
+  }
   const double now = glfwGetTime();
   ImGui_ImplGlfw_NewFrame();
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   const double seconds = std::max(now - last_draw_, 1e-3);
   PanelFacts shown = facts;
-  shown.pointer = pointers_.empty() ? nullptr : &pointers_[led_];
+  shown.pointer = leading_.led();
+  shown.help = help_;
+  shown.folded = folded_;
+  if (now < words_until_) shown.words = words_;
   const auto wheel = static_cast<double>(ImGui::GetIO().MouseWheel);  // the end of the frame forgets it
-  const auto wishes = stage_->draw(shown, width, height, static_cast<float>(seconds));
+  auto wishes = stage_->draw(shown, width, height, static_cast<float>(seconds));
   last_draw_ = now;
-  lay_out_pointers();
-  follow_hand(wheel, seconds);
+  const CursorNow cursor = cursor_now(wheel);
+  leading_.lay_out(stage_->camera());
+  move_camera(cursor);
+  leading_.lead(events_, cursor, stage_->camera(), stage_->options().hidden, seconds);
+  wishes.paused = facts.paused;
+  for (const Action action : wishes.actions) perform(action, wishes);
+  if (!cursor.typing) perform_keys(wishes);
   events_.forget();
+  if (wishes.picture) wishes.picture = read_pixels(width, height);
   if (seen != nullptr) *seen = read_pixels(width, height);
   glfwSwapBuffers(glfw_->window);
   return wishes;
 }
 
-/// A tool that is a body lies where its body is; another before the surface in the middle of the view, or before all bodies.
-void Window::lay_out_pointers() {
-  if (pointed_.empty() || !pointers_.empty() || !model_.anything_to_see()) return;
-  const Camera& camera = stage_->camera();
-  const auto box = model_.box();
-  const Vec3 before = box.center() + 0.5 * box.diagonal().norm() * camera.axes().row(2).transpose();
-  const auto middle = camera.project(camera.target());
-  for (const std::uint32_t tool : pointed_) {
-    const auto surface = middle
-                             ? surface_under(model_.bodies(), camera, *middle, clearance(scene_.tools[tool]))
-                             : std::nullopt;
-    const auto body = std::find_if(scene_.bodies.begin(), scene_.bodies.end(), [&](const BodySpec& spec) {
-      return spec.name == scene_.tools[tool].body;
-    });
-    pointers_.emplace_back(tool, body == scene_.bodies.end() ? surface.value_or(before) : body->at);
-  }
+void Window::say(const std::string& words) {
+  words_ = words;
+  words_until_ = glfwGetTime() + words_s;
 }
 
-/// A tool that is a body starts where it lies: to jump would tear what it is in.
-std::optional<Vec3> Window::surface_under_cursor(std::uint32_t tool) const {
+CursorNow Window::cursor_now(double wheel) const {
   const ImGuiIO& io = ImGui::GetIO();
-  if (scene_.tools[tool].shape == ToolShape::body || !ImGui::IsMousePosValid() || io.WantCaptureMouse)
-    return std::nullopt;
-  return surface_under(model_.bodies(), stage_->camera(),
-                       {static_cast<double>(io.MousePos.x), static_cast<double>(io.MousePos.y)},
-                       clearance(scene_.tools[tool]));
+  CursorNow cursor;
+  cursor.pixel = {static_cast<double>(io.MousePos.x), static_cast<double>(io.MousePos.y)};
+  cursor.in_picture = ImGui::IsMousePosValid() && !io.WantCaptureMouse && !help_;
+  cursor.drags = io.MouseDown[0] || io.MouseDown[1];
+  cursor.wheel = wheel;
+  cursor.fine = io.KeyShift;
+  cursor.typing = io.WantTextInput;
+  return cursor;
 }
 
-void Window::follow_hand(double wheel, double seconds) {
-  const ImGuiIO& io = ImGui::GetIO();
+void Window::move_camera(const CursorNow& cursor) {
+  if (ImGui::GetIO().WantCaptureMouse || help_) return;
   Camera& camera = stage_->camera();
   const Eigen::Vector2d left = events_.drag(0), right = events_.drag(1);
-  const bool holds = !pointers_.empty() && pointers_[led_].held();
-  if (!io.WantCaptureMouse) {
-    if (!left.isZero()) camera.rotate(left.x(), left.y());
-    if (!right.isZero()) camera.pan(right.x(), right.y());
-    if (wheel != 0 && !holds) camera.zoom(wheel);
-  }
-  if (!pointers_.empty()) lead_tool(wheel, seconds);
-  if (io.WantTextInput) return;
-  if (events_.presses(GLFW_KEY_W) % 2 == 1) stage_->options().wire = !stage_->options().wire;
-  if (events_.presses(GLFW_KEY_R) > 0) camera.reset();
-  if (events_.presses(GLFW_KEY_ESCAPE) > 0) leave_ = true;
+  if (!left.isZero()) camera.rotate(left.x(), left.y());
+  if (!right.isZero()) camera.pan(right.x(), right.y());
+  if (cursor.wheel != 0 && !leading_.holds()) camera.zoom(cursor.wheel);
 }
 
-void Window::lead_tool(double wheel, double seconds) {
-  const ImGuiIO& io = ImGui::GetIO();
-  for (int n = io.WantTextInput ? 0 : events_.presses(GLFW_KEY_TAB); n > 0; --n) {
-    pointers_[led_].let_go();
-    led_ = (led_ + 1) % pointers_.size();
+/// Every tap counts: what switches to and fro does so as often.
+void Window::perform_keys(PanelWishes& wishes) {
+  for (int i = 1; i < n_actions; ++i)
+    for (int n = presses(events_, static_cast<Action>(i)); n > 0; --n)
+      perform(static_cast<Action>(i), wishes);
+}
+
+void Window::perform(Action action, PanelWishes& wishes) {
+  Camera& camera = stage_->camera();
+  constexpr double quarter = std::numbers::pi / 2;
+  switch (action) {
+    case Action::help:
+      help_ = !help_;
+      break;
+    case Action::fold:
+      folded_ = !folded_;
+      break;
+    case Action::pause:
+      wishes.paused = !wishes.paused;
+      break;
+    case Action::reset:
+      wishes.reset = true;
+      break;
+    case Action::picture:
+      wishes.picture.emplace();
+      break;
+    case Action::close:
+      leave_ = leave_ || !help_;
+      help_ = false;
+      break;
+    case Action::front:
+      camera.look_from(0, 0);
+      break;
+    case Action::side:
+      camera.look_from(quarter, 0);
+      break;
+    case Action::top:
+      camera.look_from(0, quarter);
+      break;
+    case Action::at_tool:
+      look_at_tool();
+      break;
+    case Action::fit:
+      camera.fit_all();
+      break;
+    case Action::first_view:
+      camera.reset();
+      break;
+    case Action::wires:
+      stage_->options().wire = !stage_->options().wire;
+      break;
+    default:
+      break;  // about the tool that the mouse leads
   }
-  const auto key = [&](int code) { return io.WantTextInput ? 0.0 : events_.held(code, seconds) / seconds; };
-  PointerInput input;
-  input.cursor = {static_cast<double>(io.MousePos.x), static_cast<double>(io.MousePos.y)};
-  const bool in_window = ImGui::IsMousePosValid() && !io.WantCaptureMouse;
-  input.follows = in_window && !io.MouseDown[0] && !io.MouseDown[1];
-  input.wheel = in_window ? wheel : 0.0;
-  input.fine = io.KeyShift;
-  input.turn = {key(GLFW_KEY_DOWN) - key(GLFW_KEY_UP), key(GLFW_KEY_RIGHT) - key(GLFW_KEY_LEFT),
-                key(GLFW_KEY_PAGE_UP) - key(GLFW_KEY_PAGE_DOWN)};
-  input.toggle = !io.WantTextInput && events_.presses(GLFW_KEY_T) % 2 == 1;
-  if (input.toggle && !pointers_[led_].held()) input.surface = surface_under_cursor(pointers_[led_].tool());
-  input.buttons = !io.WantTextInput && events_.down(GLFW_KEY_SPACE) ? 1u : 0u;
-  pointers_[led_].follow(input, stage_->camera(), seconds);
+}
+
+/// At the tool that the mouse leads, or else the first that is known.
+void Window::look_at_tool() {
+  const double least = 0.15 * model_.box().diagonal().norm();
+  for (std::size_t i = 0; i < model_.tools().size(); ++i) {
+    const ToolView& tool = model_.tools()[i];
+    if (!tool.tip || (leading_.led() != nullptr && leading_.led()->tool() != i)) continue;
+    stage_->camera().look_at(tool.proxy, std::max(least, 12 * scene_.tools[i].radius));
+    return;
+  }
 }
 
 bool Window::closing() const { return leave_ || glfwWindowShouldClose(glfw_->window) != 0; }

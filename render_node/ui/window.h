@@ -1,19 +1,19 @@
 #pragma once
-// The picture in a window. Nothing that a hand does is lost between two pictures (hand_events.h). Left drag turns the object, right drag moves it, the wheel zooms; w: wires, r: first view,
-// Esc: close. Of the tools that the mouse leads, t takes one or lets it go, Tab goes to the next; while one is held, the
-// mouse and its wheel move it, arrows and page keys turn it, Space is its button.
+// The picture in a window, with the keys and ways of the mouse of bindings.h. Nothing that a hand does is lost between two
+// pictures (hand_events.h).
 
 #include <cstdint>
 #include <memory>
-#include <optional>
+#include <string>
 #include <vector>
 
 #include "common/scene/scene_fwd.h"
 #include "render_node/image/image.h"
 #include "render_node/model/view_model.h"
+#include "render_node/ui/bindings.h"
 #include "render_node/ui/hand_events.h"
 #include "render_node/ui/panels.h"
-#include "render_node/view/tool_pointer.h"
+#include "render_node/ui/tool_leading.h"
 
 namespace palpate::render {
 
@@ -36,8 +36,11 @@ class Window {
   /// @param seen  written, if given: the picture shown
   PanelWishes draw(const PanelFacts& facts, Image* seen = nullptr);
 
+  /// Says something over the picture for some seconds; newer words replace older ones.
+  void say(const std::string& words);
+
   /// The tools that the mouse leads, once there is a body to see.
-  std::vector<ToolPointer>& pointers() noexcept { return pointers_; }
+  std::vector<ToolPointer>& pointers() noexcept { return leading_.pointers(); }
 
   bool closing() const;   // the person wants to leave
   bool software() const;  // drawn by the processor, not by a graphics card
@@ -46,20 +49,22 @@ class Window {
  private:
   struct Glfw;
   void hear();
-  void lay_out_pointers();
-  std::optional<Vec3> surface_under_cursor(std::uint32_t tool) const;
-  void follow_hand(double wheel, double seconds);
-  void lead_tool(double wheel, double seconds);
+  CursorNow cursor_now(double wheel) const;
+  void move_camera(const CursorNow& cursor);
+  void perform_keys(PanelWishes& wishes);
+  void perform(Action action, PanelWishes& wishes);
+  void look_at_tool();
+
   HandEvents events_;
   std::unique_ptr<Glfw> glfw_;  // made before, and gone after, all that draws
   std::unique_ptr<Stage> stage_;
   const Scene& scene_;
   ViewModel& model_;
-  std::vector<std::uint32_t> pointed_;
-  std::vector<ToolPointer> pointers_;  // empty until a body is seen
-  std::size_t led_ = 0;                // which of them the keys are about
-  double last_draw_ = 0;               // [s]
-  bool leave_ = false;
+  ToolLeading leading_;
+  double last_draw_ = 0;  // [s]
+  std::string words_;     // of say(), and until when [s]
+  double words_until_ = 0;
+  bool help_ = false, folded_ = false, leave_ = false;
 };
 
 }  // namespace palpate::render

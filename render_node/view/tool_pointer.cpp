@@ -7,16 +7,23 @@
 namespace palpate::render {
 
 void ToolPointer::follow(const PointerInput& input, const Camera& camera, double seconds) {
-  if (input.toggle) {
-    held_ = !held_;
-    if (held_ && input.surface) p_ = *input.surface;
+  if (input.toggle) held_ = !held_;
+  const bool placed = input.place && input.surface;
+  if (placed || (input.toggle && held_)) {
+    held_ = true;
+    deep_ = 0;
+    if (input.surface) p_ = *input.surface;
   }
+  if (input.let_go) held_ = false;
   buttons_ = held_ ? input.buttons : 0;
   if (!held_) return;
 
   const double step = depth_per_notch * camera.distance() * (input.fine ? 0.1 : 1.0);
   const double before = camera.depth(p_);
-  const double depth = std::max(before + input.wheel * step, nearest * camera.distance());
+  deep_ += input.wheel * step;
+  const double wish =
+      input.follows && input.surface ? camera.depth(*input.surface) + deep_ : before + input.wheel * step;
+  const double depth = std::max(wish, nearest * camera.distance());
   if (input.follows)
     p_ = camera.at(input.cursor, depth);
   else

@@ -1,9 +1,11 @@
 #pragma once
 // A tool led by mouse and keys. Taken, it starts on the surface under the cursor, where there is one. Then the tip follows the
-// cursor in the plane through it that faces the camera, the wheel moves that plane in depth, keys turn the tool about the axes
-// of the camera.
+// cursor over that surface, as deep in it as the wheel says; where there is none, in the plane through the tip that faces the
+// camera. Keys turn the tool about the axes of the camera.
 //
-//   p = eye + d r(cursor),    d := d + step (wheel towards the scene)       r(c) the ray of pixel c, 1 deep
+//   p = eye + (s(cursor) + d) r(cursor),    d := d + step (wheel towards the scene)
+//
+//   r(c) the ray of pixel c, 1 deep;  s(c) depth of the surface there;  d = 0 where it is taken
 //
 // No window and no keys in here: ui/ says what the person did.
 
@@ -24,9 +26,10 @@ struct PointerInput {
   bool fine = false;                // a tenth of the way per notch
   Vec3 turn = Vec3::Zero();         // keys held, -1..1 about right, up and towards the viewer
   bool toggle = false;              // take it, or let it go
-  std::optional<Vec3>
-      surface;  // under the cursor, where a tool that is taken starts [m]; nothing: where it lies
-  std::uint32_t buttons = 0;  // bit i: button i of the tool
+  bool place = false;  // on the surface under the cursor, taken; nothing happens where there is none
+  bool let_go = false;
+  std::optional<Vec3> surface;  // under the cursor [m]; nothing: there is none, or the tool keeps to a plane
+  std::uint32_t buttons = 0;    // bit i: button i of the tool
 };
 
 class ToolPointer {
@@ -53,6 +56,7 @@ class ToolPointer {
  private:
   std::uint32_t tool_;
   Vec3 p_;                                                 // [m]
+  double deep_ = 0;                                        // in the surface [m]
   Eigen::Quaterniond q_ = Eigen::Quaterniond::Identity();  // tool to world
   std::uint32_t buttons_ = 0;
   bool held_ = false;

@@ -44,7 +44,15 @@ std::string all_of(const std::vector<std::string>& lines) {
 TEST(Hindrances, SayWhyThereIsNoForce) {
   const Scene scene = test::small_scene();
   ViewModel model(scene);
+  EXPECT_EQ(all_of(hindrances(scene, model, false, nullptr)), "loading: waiting for physics\n");
+  NodeStatus loading;
+  loading.node = NodeKind::physics;
+  loading.phase = NodePhase::loading;
+  model.take(loading);
   EXPECT_EQ(all_of(hindrances(scene, model, false, nullptr)), "loading the tissue\n");
+  loading.phase = NodePhase::running;
+  model.take(loading);
+  EXPECT_EQ(all_of(hindrances(scene, model, false, nullptr)), "loading: waiting for its surface\n");
   for (const auto& chunk : test::chunks_of(test::cube_surface(2, 0.1, 0xffffffffU), 0, 1)) model.take(chunk);
   EXPECT_EQ(all_of(hindrances(scene, model, false, nullptr)), "");
   hear_note(model, "rights; finger: ready (inside the tissue, move out)");
@@ -52,10 +60,10 @@ TEST(Hindrances, SayWhyThereIsNoForce) {
             "finger: no force yet: inside the tissue, move out\n");
   ToolPointer pointer(0, Vec3::Zero());
   EXPECT_EQ(all_of(hindrances(scene, model, true, &pointer)),
-            "paused: Resume goes on\nfinger: press T to take it, over the place to touch\n");
+            "paused: P goes on\nfinger: click on the tissue to take it\n");
   hear_note(model, "rights; finger: fault");
   EXPECT_EQ(all_of(hindrances(scene, model, false, nullptr)),
-            "finger: device fault, no forces; palpate reset finger opens it anew\n");
+            "finger: device fault, no forces; Backspace opens it anew\n");
   hear_note(model, "rights; finger: run");
   EXPECT_EQ(all_of(hindrances(scene, model, false, nullptr)), "");
 }

@@ -37,7 +37,8 @@ class WindowHand {
     XWarpPointer(display_, 0, window_, 0, 0, 0, 0, x, y);
     XSync(display_, False);
   }
-  void key(KeySym key, bool down) {
+  /// @param shifted  the shift key is down meanwhile
+  void key(KeySym key, bool down, bool shifted = false) {
     XEvent event = {};
     event.xkey.type = down ? KeyPress : KeyRelease;
     event.xkey.display = display_;
@@ -45,21 +46,26 @@ class WindowHand {
     event.xkey.root = XDefaultRootWindow(display_);
     event.xkey.keycode = XKeysymToKeycode(display_, key);
     event.xkey.same_screen = True;
+    event.xkey.state = shifted ? ShiftMask : 0;
     send(event, down ? KeyPressMask : KeyReleaseMask);
   }
-  /// One notch away from the person (up) or towards.
-  void wheel(bool away) {
-    for (const int type : {ButtonPress, ButtonRelease}) {
-      XEvent event = {};
-      event.xbutton.type = type;
-      event.xbutton.display = display_;
-      event.xbutton.window = window_;
-      event.xbutton.root = XDefaultRootWindow(display_);
-      event.xbutton.button = away ? 4 : 5;
-      event.xbutton.same_screen = True;
-      send(event, type == ButtonPress ? ButtonPressMask : ButtonReleaseMask);
-    }
+  /// Down or up, where the cursor is: 1 left, 3 right.
+  void button(unsigned number, bool down) {
+    XEvent event = {};
+    event.xbutton.type = down ? ButtonPress : ButtonRelease;
+    event.xbutton.display = display_;
+    event.xbutton.window = window_;
+    event.xbutton.root = XDefaultRootWindow(display_);
+    event.xbutton.button = number;
+    event.xbutton.same_screen = True;
+    send(event, down ? ButtonPressMask : ButtonReleaseMask);
   }
+  void click(unsigned number) {
+    button(number, true);
+    button(number, false);
+  }
+  /// One notch away from the person (up) or towards.
+  void wheel(bool away) { click(away ? 4 : 5); }
 
  private:
   void send(XEvent& event, long mask) {

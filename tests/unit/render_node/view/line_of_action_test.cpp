@@ -8,7 +8,6 @@
 
 #include "common/scene/scene.h"
 #include "render_node/model/view_model.h"
-#include "render_node/view/surface_under.h"
 #include "tests/unit/render_node/render_support.h"
 
 namespace palpate::render {
@@ -72,21 +71,6 @@ TEST(LineOfAction, MeetsAStickAtItsSide) {
   EXPECT_LT((pushed_point(of({0, 0, 0}), a, b, radius) - Vec3(0.01, 0, -radius)).norm(), 1e-12);
   const LineOfAction lengthwise{Vec3(0, 0, 0), Vec3(-1, 0, 0)};
   EXPECT_LT((pushed_point(lengthwise, a, b, radius) - Vec3(0.11 + radius, 0, 0)).norm(), 1e-12);
-}
-
-TEST(SurfaceUnder, IsTheNearestOneUnderThePixel) {
-  Scene scene = test::small_scene();  // looks along +y
-  ViewModel model(scene);
-  for (const auto& chunk : test::chunks_of(test::cube_surface(5, 0.1, 0xffffffffU), 0, 1)) model.take(chunk);
-  const auto bodies = model.bodies();
-  const Camera camera = test::camera_of_cube(scene, 0.1);
-  const Vec3 wanted(0.02, -0.05, 0.013);
-  const auto found = surface_under(bodies, camera, *camera.project(wanted), 0.002);
-  ASSERT_TRUE(found);
-  const Vec3 ray = (wanted - camera.eye()).normalized();
-  const double off = 0.002 + 0.5 * static_cast<double>(bodies[0].edge_length());
-  EXPECT_LT((*found - (wanted - off * ray)).norm(), 1e-6);
-  EXPECT_FALSE(surface_under(bodies, camera, {3, 3}, 0));
 }
 
 }  // namespace

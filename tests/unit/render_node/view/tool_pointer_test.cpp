@@ -137,6 +137,50 @@ TEST(ToolPointer, TurnsAboutTheAxesOfTheCamera) {
   EXPECT_NEAR(pointer.attitude().norm(), 1, 1e-12);
 }
 
+TEST(ToolPointer, IsPlacedWhereOneClicksAndPressesFromThereOn) {
+  const Camera camera = camera_at(0, 0);
+  ToolPointer pointer(0, {0, 0, 0});
+  auto input = cursor_at(640, 360);
+  input.place = true;
+  pointer.follow(input, camera, 0.03);
+  EXPECT_FALSE(pointer.held()) << "there is no tissue under the cursor";
+  const double surface = camera.distance();  // deep
+  input.surface = camera.at(input.cursor, surface);
+  pointer.follow(input, camera, 0.03);
+  ASSERT_TRUE(pointer.held());
+  EXPECT_LT((pointer.position() - *input.surface).norm(), 1e-12);
+  // 1. three notches press by three steps
+  const double step = ToolPointer::depth_per_notch * camera.distance();
+  input.place = false;
+  input.wheel = 3;
+  pointer.follow(input, camera, 0.03);
+  EXPECT_NEAR(camera.depth(pointer.position()), surface + 3 * step, 1e-12);
+  // 2. led over a slope it stays as deep in it, under the cursor
+  input.wheel = 0;
+  for (int i = 1; i < 20; ++i) {
+    input.cursor.x() += 5;
+    input.surface = camera.at(input.cursor, surface + 0.002 * i);
+    pointer.follow(input, camera, 0.03);
+    EXPECT_NEAR(camera.depth(pointer.position()), surface + 0.002 * i + 3 * step, 1e-12);
+    EXPECT_LT((*camera.project(pointer.position()) - input.cursor).norm(), 1e-8);
+  }
+  // 3. beside the tissue it keeps to a plane
+  const double last = camera.depth(pointer.position());
+  input.surface.reset();
+  input.cursor.x() += 50;
+  pointer.follow(input, camera, 0.03);
+  EXPECT_NEAR(camera.depth(pointer.position()), last, 1e-12);
+  // 4. another click places it on the surface again
+  input.surface = camera.at(input.cursor, surface);
+  input.place = true;
+  pointer.follow(input, camera, 0.03);
+  EXPECT_NEAR(camera.depth(pointer.position()), surface, 1e-12);
+  input.place = false;
+  input.let_go = true;
+  pointer.follow(input, camera, 0.03);
+  EXPECT_FALSE(pointer.held());
+}
+
 TEST(ToolPointer, LetsGoWhereItIs) {
   const Camera camera = camera_at(0, 0);
   ToolPointer pointer(0, camera.target());

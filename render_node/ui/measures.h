@@ -1,0 +1,13 @@
+#pragma once
+// What helps to read the picture: a scale bar in its lower right corner and the axes of the world in the lower left of
+// what the column leaves free.
+
+#include "render_node/view/camera.h"
+
+namespace palpate::render {
+
+/// Lays both out in the current ImGui frame, beneath its windows.
+/// @param left  covered by the column [px]  @param scale  of all lengths, 1 at 720 px
+void lay_out_measures(const Camera& camera, float left, float scale);
+
+}  // namespace palpate::render
