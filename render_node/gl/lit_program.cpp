@@ -1,5 +1,7 @@
 #include "render_node/gl/lit_program.h"
 
+#include <algorithm>
+#include <array>
 #include <string>
 
 namespace palpate::render {
@@ -13,11 +15,24 @@ uniform vec3 fill;
 uniform float gloss;
 uniform float opacity;
 uniform float paleness;
-vec4 lit(vec3 n, vec3 v, vec3 albedo) {
+uniform vec4 touch[4];  // where, and how large
+uniform vec4 ring;      // 1 each: drawn
+uniform float touches;
+float shadow(vec3 p) {
+  float light = 1.0;
+  for (int i = 0; i < 4; ++i) {
+    if (float(i) >= touches) break;
+    float r = distance(p, touch[i].xyz) / touch[i].w;
+    light *= 1.0 - 0.5 * exp(-r * r);
+    light *= 1.0 - 0.4 * ring[i] * (1.0 - smoothstep(0.05, 0.12, abs(r - 1.25)));
+  }
+  return light;
+}
+vec4 lit(vec3 n, vec3 v, vec3 albedo, vec3 p) {
   vec3 ambient = mix(vec3(0.12, 0.10, 0.09), vec3(0.29, 0.31, 0.35), 0.5 + 0.5 * n.z);
   float k = max((dot(n, key) + 0.12) / 1.12, 0.0);
   float f = max(dot(n, fill), 0.0);
-  vec3 light = ambient + vec3(0.88, 0.84, 0.77) * k + vec3(0.13, 0.15, 0.19) * f;
+  vec3 light = shadow(p) * (ambient + vec3(0.88, 0.84, 0.77) * k + vec3(0.13, 0.15, 0.19) * f);
   float h = max(dot(n, normalize(key + v)), 0.0);
   float h8 = h * h * h * h;
   h8 *= h8;
@@ -61,7 +76,7 @@ in vec3 albedo;
 out vec4 pixel;
 void main() {
   vec3 n = normalize(outward);
-  pixel = lit(gl_FrontFacing ? n : -n, normalize(eye - world), albedo);
+  pixel = lit(gl_FrontFacing ? n : -n, normalize(eye - world), albedo, world);
 }
 )";
 
@@ -69,7 +84,7 @@ const std::string vertex_lit = R"(
 out vec4 seen;
 void main() {
   vec4 p = world_from_model * vec4(position, 1.0);
-  seen = lit(mat3(world_from_model) * normal, normalize(eye - p.xyz), albedo_here());
+  seen = lit(mat3(world_from_model) * normal, normalize(eye - p.xyz), albedo_here(), p.xyz);
   gl_Position = clip_from_world * p;
 }
 )";
@@ -103,7 +118,7 @@ void main() {
   float up2 = 1.0 - dot(q, q);
   if (up2 < 0.0) discard;
   vec3 n = q.x * to_right - q.y * upwards + sqrt(up2) * to_viewer;
-  pixel = lit(n, normalize(eye - world), albedo);
+  pixel = lit(n, normalize(eye - world), albedo, world);
 }
 )";
 
@@ -141,6 +156,7 @@ void LitProgram::begin(const Camera& camera) const {
   program_.set("to_right", in_world(camera, Vec3::UnitX()));
   program_.set("upwards", in_world(camera, Vec3::UnitY()));
   program_.set("to_viewer", in_world(camera, Vec3::UnitZ()));
+  touched({});
   finish(0, 1);
   pale(0);
   shade(1);
@@ -157,6 +173,21 @@ void LitProgram::finish(float gloss, float opacity) const {
 
 void LitProgram::pale(float share) const { program_.set("paleness", share); }
 void LitProgram::shade(float share) const { program_.set("shading", share); }
+
+void LitProgram::touched(std::span<const Touch> touches) const {
+  static constexpr std::array<const char*, most_touches> names = {"touch[0]", "touch[1]", "touch[2]",
+                                                                  "touch[3]"};
+  const std::size_t n = std::min(touches.size(), most_touches);
+  Eigen::Vector4f rings = Eigen::Vector4f::Zero();
+  for (std::size_t i = 0; i < n; ++i) {
+    Eigen::Vector4f where;
+    where << touches[i].at, touches[i].radius;
+    program_.set(names[i], where);
+    rings[static_cast<Eigen::Index>(i)] = touches[i].presses ? 1.0F : 0.0F;
+  }
+  program_.set("ring", rings);
+  program_.set("touches", static_cast<float>(n));
+}
 
 void LitProgram::size_beads(const Camera& camera, float radius, int height) const {
   // A length l at the distance w of clip space covers l / w * P_11 * height / 2 pixels.

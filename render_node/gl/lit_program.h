@@ -5,6 +5,8 @@
 // the more of its live elements have yielded.
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <span>
 
 #include "render_node/gl/program.h"
 #include "render_node/view/camera.h"
@@ -22,6 +24,15 @@ inline constexpr unsigned at_colour = 3;    // vec4, as shown
 /// balls that face the viewer; lines are not lit, their colour says enough.
 enum class Lighting { at_pixels, at_vertices, as_beads, as_lines };
 
+/// A tool near a surface. What lies within about its radius is darker, the nearer the darker: it shows how far off the tool is,
+/// and the dent in which it lies. Where it presses there is a ring, too.
+struct Touch {
+  Eigen::Vector3f at = Eigen::Vector3f::Zero();  // [m]
+  float radius = 0;                              // > 0 [m]
+  bool presses = false;
+};
+inline constexpr std::size_t most_touches = 4;  // further ones are left out
+
 class LitProgram {
  public:
   explicit LitProgram(Lighting lighting);
@@ -35,6 +46,8 @@ class LitProgram {
   void pale(float share) const;
   /// How dark elements are shown that have yielded: 1 nearly black, less where colours are to be told apart.
   void shade(float share) const;
+  /// By tools; none after begin().
+  void touched(std::span<const Touch> touches) const;
   /// Of beads. @param radius [m]  @param height  of the picture [px]
   void size_beads(const Camera& camera, float radius, int height) const;
 

@@ -100,6 +100,7 @@ void Painter::draw(ViewModel& model, const Camera& camera, const PaintOptions& o
   glDepthFunc(GL_LEQUAL);
   glClear(GL_DEPTH_BUFFER_BIT);
   backdrop_.draw_gradient();
+  find_touches(model, options);
   draw_bodies(model, camera, options, height);
   at_pixels_.begin(camera);
   for (std::size_t i = 0; i < tools_.size(); ++i)
@@ -129,6 +130,7 @@ void Painter::draw_bodies(ViewModel& model, const Camera& camera, const PaintOpt
     lit.begin(camera);
     lit.shade(options.wire ? 0.0F : shade);
     lit.pale(options.wire ? 0.75F : 0.0F);
+    lit.touched(touches_);
     glEnable(GL_POLYGON_OFFSET_FILL);  // lines lie before the surface
     glPolygonOffset(1, 1);
     drawing.draw(lit);
@@ -144,6 +146,24 @@ void Painter::draw_bodies(ViewModel& model, const Camera& camera, const PaintOpt
       as_beads_.size_beads(camera, bead_radius * body.edge_length(), height);
       drawing.draw_beads(as_beads_);
     }
+  }
+}
+
+/// Tools that are shown, where they are or where tissue pushes them. A tool that is a body shades only where it is pushed.
+void Painter::find_touches(const ViewModel& model, const PaintOptions& options) {
+  touches_.clear();
+  for (std::size_t i = 0; options.tool && i < tools_.size() && touches_.size() < most_touches; ++i) {
+    const Tool& tool = tools_[i];
+    const ToolView& view = model.tools()[i];
+    if (!view.tip || size_ <= 0 || is_hidden(options.hidden.tools, i)) continue;
+    const bool presses = view.n_contacts > 0 && view.force.norm() > 0;
+    if (tool.body && !presses) continue;
+    const Eigen::Vector3d at = tool.at_hand ? *view.tip : view.proxy;
+    const Eigen::Vector3d axis = tool.length > 0 ? Eigen::Vector3d(view.attitude * tool.axis) : tool.axis;
+    const Eigen::Vector3d where = presses ? pushed_at(tool, view, model, at, axis) : at;
+    // Why: a thin tool's own radius would be too small to see.
+    const double radius = tool.body ? 0.05 * size_ : std::max(tool.radius, 0.03 * size_);
+    touches_.push_back({where.cast<float>(), static_cast<float>(radius), presses});
   }
 }
 

@@ -51,6 +51,7 @@ class Painter {
     SolidDrawing stick, arrow;
   };
   void adapt_sizes(const Eigen::AlignedBox3d& box);
+  void find_touches(const ViewModel& model, const PaintOptions& options);
   void draw_bodies(ViewModel& model, const Camera& camera, const PaintOptions& options, int height);
   void draw_planes(const ViewModel& model, const Camera& camera);
   void draw_tool(Tool& tool, const ToolView& view, const ViewModel& model, const PaintOptions& options);
@@ -66,6 +67,7 @@ class Painter {
   BackdropDrawing backdrop_;
   std::vector<TissueDrawing> bodies_;
   std::vector<Tool> tools_;
+  std::vector<Touch> touches_;
   double size_ = 0;  // half the diagonal of all bodies [m]
   double metres_per_newton_ = 0;
   std::size_t bytes_uploaded_ = 0;

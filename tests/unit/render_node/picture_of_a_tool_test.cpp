@@ -57,7 +57,10 @@ Scene small_scene_with_a_path() {
   return scene;
 }
 
-/// Pixels that a tool changes in the picture of the cube: the box round them.
+/// Steel or backdrop, not skin, however dark the skin is.
+bool is_bluish(const std::uint8_t* c) { return c[2] + 6 > c[0]; }
+
+/// Pixels of a tool before the picture of the cube: the box round them. Skin that it shades does not count.
 Eigen::AlignedBox2i box_of_tool(const Scene& scene, const HapticTrace& trace, const ToolWrench& wrench) {
   Picture picture(scene);
   show(picture, cube);
@@ -69,9 +72,40 @@ Eigen::AlignedBox2i box_of_tool(const Scene& scene, const HapticTrace& trace, co
   Eigen::AlignedBox2i box;
   for (int y = 0; y < 240; ++y)
     for (int x = 0; x < 320; ++x)
-      if (!std::equal(before.at(x, y), before.at(x, y) + 3, picture.image().at(x, y)))
+      if (is_bluish(picture.image().at(x, y)) &&
+          !std::equal(before.at(x, y), before.at(x, y) + 3, picture.image().at(x, y)))
         box.extend(Eigen::Vector2i(x, y));
   return box;
+}
+
+/// How bright the near side of the cube is beside its middle, with a tip at some distance before it.
+double brightness(double aside, double off, bool presses) {
+  Scene scene = small_scene_with_a_path();
+  scene.tools[0].radius = 0.006;
+  Picture picture(scene);
+  show(picture, cube);
+  picture.take(test::trace_at({0, -side / 2 - off, 0}, 0, 0));
+  ToolWrench wrench;
+  wrench.n_contacts = presses ? 5 : 0;
+  wrench.force = {0, presses ? -1.0 : 0.0, 0};
+  picture.take(wrench);
+  picture.draw(0);
+  const auto p = *camera_of(scene).project({-aside, -side / 2, -0.004});
+  const auto* rgb = picture.image().at(static_cast<int>(p.x()), static_cast<int>(p.y()));
+  return rgb[0] + rgb[1] + rgb[2];
+}
+
+/// The nearer a tool the darker the tissue, and a ring where it presses: so distance and dent are seen.
+TEST(PictureOfATool, ShadesTheTissueThatItNears) {
+  const double radius = 0.006, beside = 0.7 * radius;
+  const double far = brightness(beside, 0.03, false), near = brightness(beside, 0.004, false),
+               touching = brightness(beside, 0, false);
+  EXPECT_LT(near, far - 10);
+  EXPECT_LT(touching, near - 10);
+  const double on_ring = std::sqrt(1.25 * 1.25 * radius * radius - 0.004 * 0.004);
+  EXPECT_LT(brightness(on_ring, 0, true), brightness(on_ring, 0, false) - 20);
+  EXPECT_NEAR(brightness(2.5 * radius, 0, true), brightness(2.5 * radius, 0.03, false), 8)
+      << "beyond it nothing";
 }
 
 TEST(PictureOfATool, LaysAStickAtTheProxyAsTheHandIsTurned) {
