@@ -59,8 +59,10 @@ PointerInput ToolLeading::input_from(const HandEvents& events, const CursorNow& 
   }
   const bool taken = input.place || (input.toggle && !pointers_[led_].held());
   if (taken) touch_.keep(model_.bodies(), hidden.bodies);
-  if (cursor.in_picture && (taken || pointers_[led_].held()))
-    input.surface = touch_.under(camera, cursor.pixel, clearance(scene_.tools[pointers_[led_].tool()]));
+  if (cursor.in_picture)
+    input.surface = [&](const Eigen::Vector2d& pixel) {
+      return touch_.under(camera, pixel, clearance(scene_.tools[pointers_[led_].tool()]));
+    };
   return input;
 }
 

@@ -6,29 +6,55 @@
 
 namespace palpate::render {
 
-void ToolPointer::follow(const PointerInput& input, const Camera& camera, double seconds) {
-  if (input.toggle) held_ = !held_;
-  const bool placed = input.place && input.surface;
-  if (placed || (input.toggle && held_)) {
-    held_ = true;
-    deep_ = 0;
-    if (input.surface) p_ = *input.surface;
+/// At the cursor: on the surface there, or else where it lies.
+void ToolPointer::take(const PointerInput& input) {
+  const auto surface = input.surface ? input.surface(input.cursor) : std::nullopt;
+  if (input.place && !surface) return;
+  held_ = true;
+  moved_ = false;
+  deep_ = 0;
+  grip_.setZero();
+  if (surface) p_ = *surface;
+}
+
+/// The tip stays, whatever the camera shows under the cursor now. What is behind the eye nobody can lead.
+void ToolPointer::grip_anew(const PointerInput& input, const Camera& camera) {
+  moved_ = false;
+  const auto pixel = camera.project(p_);
+  if (!pixel) {
+    held_ = false;
+    return;
   }
-  if (input.let_go) held_ = false;
+  grip_ = *pixel - input.cursor;
+  if (const auto surface = input.surface ? input.surface(*pixel) : std::nullopt)
+    deep_ = camera.depth(p_) - camera.depth(*surface);
+}
+
+void ToolPointer::move(const PointerInput& input, const Camera& camera) {
+  const double step = input.wheel * depth_per_notch * camera.distance() * (input.fine ? 0.1 : 1.0);
+  const double before = camera.depth(p_), least = nearest * camera.distance();
+  deep_ += step;
+  if (!input.follows) {
+    p_ -= (std::max(before + step, least) - before) * camera.axes().row(2).transpose();
+    return;
+  }
+  const Eigen::Vector2d pixel = input.cursor + grip_;
+  const auto surface = input.surface ? input.surface(pixel) : std::nullopt;
+  p_ = camera.at(pixel, std::max(surface ? camera.depth(*surface) + deep_ : before + step, least));
+}
+
+void ToolPointer::follow(const PointerInput& input, const Camera& camera, double seconds) {
+  const Eigen::Matrix4d clip = camera.projection() * camera.view();
+  moved_ = moved_ || clip != clip_;
+  clip_ = clip;
+  if (input.let_go || (input.toggle && held_))
+    held_ = false;
+  else if (input.toggle || input.place)
+    take(input);
+  if (held_ && moved_ && input.follows) grip_anew(input, camera);
   buttons_ = held_ ? input.buttons : 0;
   if (!held_) return;
-
-  const double step = depth_per_notch * camera.distance() * (input.fine ? 0.1 : 1.0);
-  const double before = camera.depth(p_);
-  deep_ += input.wheel * step;
-  const double wish =
-      input.follows && input.surface ? camera.depth(*input.surface) + deep_ : before + input.wheel * step;
-  const double depth = std::max(wish, nearest * camera.distance());
-  if (input.follows)
-    p_ = camera.at(input.cursor, depth);
-  else
-    p_ -= (depth - before) * camera.axes().row(2).transpose();
-
+  move(input, camera);
   if (const double by = input.turn.norm(); by > 0) {
     const Vec3 axis = camera.axes().transpose() * input.turn / by;
     q_ = (Eigen::AngleAxisd(std::min(by, 1.0) * turn_speed * seconds, axis) * q_).normalized();

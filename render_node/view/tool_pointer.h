@@ -1,16 +1,19 @@
 #pragma once
 // A tool led by mouse and keys. Taken, it starts on the surface under the cursor, where there is one. Then the tip follows the
 // cursor over that surface, as deep in it as the wheel says; where there is none, in the plane through the tip that faces the
-// camera. Keys turn the tool about the axes of the camera.
+// camera. When the camera moves the tool stays, and from there on the tip keeps its way from the cursor. Keys turn the tool about
+// the axes of the camera.
 //
-//   p = eye + (s(cursor) + d) r(cursor),    d := d + step (wheel towards the scene)
+//   p = eye + (s(c) + d) r(c),    c = cursor + g,    d := d + step (wheel towards the scene)
 //
-//   r(c) the ray of pixel c, 1 deep;  s(c) depth of the surface there;  d = 0 where it is taken
+//   r(c) the ray of pixel c, 1 deep;  s(c) depth of the surface there;  g = 0 and d = 0 where it is taken, and such that p
+//   stays where the camera has moved
 //
 // No window and no keys in here: ui/ says what the person did.
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <functional>
 #include <optional>
 
 #include "common/message/messages.h"
@@ -28,8 +31,9 @@ struct PointerInput {
   bool toggle = false;              // take it, or let it go
   bool place = false;  // on the surface under the cursor, taken; nothing happens where there is none
   bool let_go = false;
-  std::optional<Vec3> surface;  // under the cursor [m]; nothing: there is none, or the tool keeps to a plane
-  std::uint32_t buttons = 0;    // bit i: button i of the tool
+  // The surface under a pixel [m], or nothing; none at all: the tool keeps to a plane.
+  std::function<std::optional<Vec3>(const Eigen::Vector2d&)> surface;
+  std::uint32_t buttons = 0;  // bit i: button i of the tool
 };
 
 class ToolPointer {
@@ -54,9 +58,16 @@ class ToolPointer {
   Pointer message(std::int64_t now_ns);
 
  private:
+  void take(const PointerInput& input);
+  void grip_anew(const PointerInput& input, const Camera& camera);
+  void move(const PointerInput& input, const Camera& camera);
+
   std::uint32_t tool_;
   Vec3 p_;                                                 // [m]
   double deep_ = 0;                                        // in the surface [m]
+  Eigen::Vector2d grip_ = Eigen::Vector2d::Zero();         // from the cursor to the tip [px]
+  Eigen::Matrix4d clip_ = Eigen::Matrix4d::Zero();         // of the camera, in the last picture
+  bool moved_ = false;                                     // it has moved, and p_ has not followed since
   Eigen::Quaterniond q_ = Eigen::Quaterniond::Identity();  // tool to world
   std::uint32_t buttons_ = 0;
   bool held_ = false;

@@ -145,10 +145,13 @@ TEST(ToolPointer, IsPlacedWhereOneClicksAndPressesFromThereOn) {
   pointer.follow(input, camera, 0.03);
   EXPECT_FALSE(pointer.held()) << "there is no tissue under the cursor";
   const double surface = camera.distance();  // deep
-  input.surface = camera.at(input.cursor, surface);
+  const auto at_depth = [&](double depth) {
+    return [&camera, depth](const Eigen::Vector2d& pixel) { return std::optional(camera.at(pixel, depth)); };
+  };
+  input.surface = at_depth(surface);
   pointer.follow(input, camera, 0.03);
   ASSERT_TRUE(pointer.held());
-  EXPECT_LT((pointer.position() - *input.surface).norm(), 1e-12);
+  EXPECT_LT((pointer.position() - camera.at(input.cursor, surface)).norm(), 1e-12);
   // 1. three notches press by three steps
   const double step = ToolPointer::depth_per_notch * camera.distance();
   input.place = false;
@@ -159,19 +162,19 @@ TEST(ToolPointer, IsPlacedWhereOneClicksAndPressesFromThereOn) {
   input.wheel = 0;
   for (int i = 1; i < 20; ++i) {
     input.cursor.x() += 5;
-    input.surface = camera.at(input.cursor, surface + 0.002 * i);
+    input.surface = at_depth(surface + 0.002 * i);
     pointer.follow(input, camera, 0.03);
     EXPECT_NEAR(camera.depth(pointer.position()), surface + 0.002 * i + 3 * step, 1e-12);
     EXPECT_LT((*camera.project(pointer.position()) - input.cursor).norm(), 1e-8);
   }
   // 3. beside the tissue it keeps to a plane
   const double last = camera.depth(pointer.position());
-  input.surface.reset();
+  input.surface = nullptr;
   input.cursor.x() += 50;
   pointer.follow(input, camera, 0.03);
   EXPECT_NEAR(camera.depth(pointer.position()), last, 1e-12);
   // 4. another click places it on the surface again
-  input.surface = camera.at(input.cursor, surface);
+  input.surface = at_depth(surface);
   input.place = true;
   pointer.follow(input, camera, 0.03);
   EXPECT_NEAR(camera.depth(pointer.position()), surface, 1e-12);
@@ -179,6 +182,44 @@ TEST(ToolPointer, IsPlacedWhereOneClicksAndPressesFromThereOn) {
   input.let_go = true;
   pointer.follow(input, camera, 0.03);
   EXPECT_FALSE(pointer.held());
+}
+
+/// A view from another side shows other tissue under the cursor: to follow that would lead the tool through the body.
+TEST(ToolPointer, StaysWhenTheViewJumpsAndGoesOnFromThere) {
+  Camera camera = camera_at(0, 0, 308);
+  const Vec3 middle = camera.target();
+  // A wall across y, met from -y only.
+  const auto wall = [&](const Eigen::Vector2d& pixel) -> std::optional<Vec3> {
+    const Vec3 ray = camera.at(pixel, 1) - camera.eye();
+    if (ray.y() <= 0) return std::nullopt;
+    return Vec3(camera.eye() + (middle.y() - camera.eye().y()) / ray.y() * ray);
+  };
+  ToolPointer pointer(0, middle);
+  auto input = cursor_at(700, 300);
+  input.place = true;
+  input.surface = wall;
+  pointer.follow(input, camera, 0.03);
+  input.place = false;
+  input.wheel = 2;
+  pointer.follow(input, camera, 0.03);
+  input.wheel = 0;
+  const Vec3 pressed = pointer.position();
+  ASSERT_GT(pressed.y(), middle.y() + 0.004);
+  for (const double yaw : {0.3, 1.2, 3.0, 0.1}) {
+    camera.look_from(yaw, 0.2);
+    pointer.follow(input, camera, 0.03);
+    EXPECT_LT((pointer.position() - pressed).norm(), 1e-9) << yaw;
+    pointer.follow(input, camera, 0.03);
+    EXPECT_LT((pointer.position() - pressed).norm(), 1e-9) << "and in the next picture";
+  }
+  input.cursor.x() += 10;
+  pointer.follow(input, camera, 0.03);
+  EXPECT_GT(pointer.position().x(), pressed.x() + 1e-3) << "led on from there";
+  EXPECT_LT((pointer.position() - pressed).norm(), 0.02);
+  EXPECT_TRUE(pointer.held());
+  camera.look_at(middle - 100 * camera.axes().row(2).transpose(), 0.1);
+  pointer.follow(input, camera, 0.03);
+  EXPECT_FALSE(pointer.held()) << "nobody leads what is behind the eye";
 }
 
 TEST(ToolPointer, LetsGoWhereItIs) {
