@@ -9,7 +9,7 @@ namespace {
 
 using A = Action;
 
-constexpr Binding all[] = {
+constexpr Binding table[] = {
     {Part::window,
      "F1, ?",
      "this help, or away with it",
@@ -61,21 +61,21 @@ constexpr Binding all[] = {
 /// Calls `each(code)` for every key of an action.
 template <class Each>
 void for_codes(Action action, Each each) {
-  for (const Binding& binding : all)
+  for (const Binding& binding : table)
     for (const Key& key : binding.codes)
       if (key.code != 0 && key.action == action) each(key.code);
 }
 
 }  // namespace
 
-std::span<const Binding> bindings() { return all; }
+std::span<const Binding> bindings() { return table; }
 
 const char* heading_of(Part part) {
   return part == Part::window ? "Window" : part == Part::view ? "View" : "Tool led by the mouse";
 }
 
 const Binding* binding_of(Action action) {
-  for (const Binding& binding : all)
+  for (const Binding& binding : table)
     for (const Key& key : binding.codes)
       if (key.code != 0 && key.action == action) return &binding;
   return nullptr;

@@ -9,7 +9,7 @@
 namespace palpate::render {
 namespace {
 
-void rows_of(Part part, float key_width) {
+void part_rows(Part part, float key_width) {
   ImGui::Spacing();
   ImGui::TextUnformatted(heading_of(part));
   ImGui::Separator();
@@ -49,9 +49,9 @@ bool lay_out_help(bool pointed, float scale) {
   ImGui::Begin("help", nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav);
-  if (pointed) rows_of(Part::tool, widths.key);
-  rows_of(Part::view, widths.key);
-  rows_of(Part::window, widths.key);
+  if (pointed) part_rows(Part::tool, widths.key);
+  part_rows(Part::view, widths.key);
+  part_rows(Part::window, widths.key);
   ImGui::Spacing();
   const bool closed = ImGui::Button("Close");
   ImGui::End();

@@ -39,7 +39,7 @@ bool eye_row(const std::string& name, bool seen) {
 }
 
 template <class Specs>
-void rows_of(const Specs& specs, std::vector<bool>& hidden) {
+void eye_rows(const Specs& specs, std::vector<bool>& hidden) {
   hidden.resize(specs.size(), false);
   for (std::size_t i = 0; i < specs.size(); ++i)
     if (eye_row(specs[i].name, !hidden[i])) hidden[i] = !hidden[i];
@@ -52,10 +52,10 @@ void lay_out_scene_tree(const Scene& scene, Hidden& hidden) {
   const float height = static_cast<float>(rows) * ImGui::GetTextLineHeightWithSpacing();
   ImGui::BeginChild("bodies and tools", {0, height}, false, ImGuiWindowFlags_NoNav);
   ImGui::PushID("bodies");
-  rows_of(scene.bodies, hidden.bodies);
+  eye_rows(scene.bodies, hidden.bodies);
   ImGui::PopID();
   ImGui::PushID("tools");
-  rows_of(scene.tools, hidden.tools);
+  eye_rows(scene.tools, hidden.tools);
   ImGui::PopID();
   ImGui::EndChild();
 }

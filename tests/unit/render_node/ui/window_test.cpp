@@ -198,7 +198,8 @@ TEST(Window, SaysInTheMiddleWhyThereIsNoForce) {
 
 /// Everything is laid out within the window, or can be scrolled to: the last row is seen at the end of the wheel's way.
 TEST(Window, PanelFitsAnyWindowOrScrolls) {
-  for (const auto& [width, height] : {std::pair{640, 480}, std::pair{1280, 720}, std::pair{480, 240}}) {
+  for (const auto& [width, height] :
+       {std::pair{640, 480}, std::pair{1280, 720}, std::pair{480, 240}, std::pair{1024, 768}}) {
     Shown shown("Fits " + std::to_string(height), width, height, true);
     ASSERT_TRUE(shown.hand->found());
     for (std::uint64_t n = 1; n < 400; ++n) {
