@@ -15,13 +15,16 @@
 #include "common/process/checked_option.h"
 #include "common/process/command_line.h"
 #include "common/process/stop_flag.h"
+#include "common/report/json_file.h"
 #include "common/scene/device_spec.h"
 #include "common/scene/load_scene.h"
 #include "common/scene/near_miss.h"
+#include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/scene_source.h"
 #include "common/scene/tool_spec.h"
 #include "deploy/palpate/disk_reserve.h"
+#include "deploy/palpate/film.h"
 #include "deploy/palpate/install_paths.h"
 #include "deploy/palpate/nodes.h"
 #include "deploy/palpate/out_folder.h"
@@ -46,6 +49,7 @@ struct RunOptions {
   std::vector<std::string> settings;
   std::string out;
   std::string device;
+  std::string video;  // empty: none
   std::string deployment = "all";
   int side = 0;                      // of p2 and p3; 0: not given
   std::optional<std::string> nodes;  // nothing: as the deployment has it
@@ -157,6 +161,11 @@ int run(const RunOptions& options) {
       .simulated_too = options.seconds == 0,
       .until_closed = windowed && options.seconds == 0,
       .ending = [&room] { room.reset(); }};
+  if (!options.video.empty()) {
+    if (windowed || std::find(share.here.begin(), share.here.end(), NodeKind::render) == share.here.end())
+      throw InputError("--video: makes a film of the pictures of a run without a window; add --headless");
+    require_film(options.video);
+  }
   require_programs(plan);
   require_drivers(scene, options, plan);
   resolve(reach);  // says what is wrong with it
@@ -185,8 +194,10 @@ int run(const RunOptions& options) {
   const bool plotted = !result.interrupted && draw_plots(out);
   say_where(out, summary, plotted);
   if (!result.interrupted) export_for_viewers(out, scene);
+  const bool filmed = options.video.empty() ||
+                      make_film(out, read_json(summary.string()), scene.render->rate_Hz, options.video);
   if (result.interrupted) std::printf("plot     palpate plot %s draws it\n", out.c_str());
-  return result.exit_code;
+  return filmed ? result.exit_code : exit_failed;
 }
 
 }  // namespace
@@ -205,6 +216,8 @@ void add_run(CLI::App& app, int& exit_code) {
   command->add_option("--set", options->settings, "table.key=value over the scene; may be repeated")
       ->allow_extra_args(false);
   command->add_option("--device", options->device, "driver instead of the scene's");
+  command->add_option("--video", options->video,
+                      "film of the pictures, e.g. run.mp4; needs ffmpeg and --headless");
   command->add_option("--deployment", options->deployment, "all: this PC; p2, p3: see docs/two_pcs.md")
       ->check(one_of({"all", "p2", "p3"}));
   command->add_option("--side", options->side, "which PC of p2 or p3 this is")->check(CLI::Range(1, 2));

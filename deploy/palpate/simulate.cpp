@@ -12,7 +12,9 @@
 #include "common/report/json_file.h"
 #include "common/report/warnings.h"
 #include "common/scene/load_scene.h"
+#include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
+#include "deploy/palpate/film.h"
 #include "deploy/palpate/out_folder.h"
 #include "deploy/palpate/plotter.h"
 #include "deploy/palpate/progress.h"
@@ -28,6 +30,7 @@ struct SimulateOptions {
   std::vector<std::string> settings;
   std::string out;
   std::string device;
+  std::string video;  // empty: none
   double seconds = 0;
   int threads = -1;
   bool no_pictures = false;
@@ -40,6 +43,7 @@ int simulate(SimulateOptions options) {
   const std::filesystem::path out =
       options.out.empty() ? default_out(options.scene) : std::filesystem::path(options.out);
   const double seconds = options.seconds > 0 ? options.seconds : scene.natural_seconds();
+  if (!options.video.empty()) require_film(options.video);
   VirtualSession session(scene, {options.device, !options.no_pictures});
   const HeldFolder held = prepare_out(out);
   install_stop_handlers();
@@ -59,11 +63,12 @@ int simulate(SimulateOptions options) {
   if (std::filesystem::exists(out / "force.png")) fmt::print("plot     {}\n", (out / "force.png").string());
   export_for_viewers(out, scene);
   if (!options.no_pictures) fmt::print("pictures {}\n", (out / "frames").string());
+  const bool filmed = options.video.empty() || make_film(out, summary, scene.render->rate_Hz, options.video);
   for (const std::string& text : warnings_of(summary))
     if (std::find(known.begin(), known.end(), text) == known.end()) fmt::print(stderr, "palpate: {}\n", text);
   const bool lost =
       summary.contains("render") && summary["render"].contains("frames_lost");  // said as it happened
-  if (!summary["guard"].contains("stopped")) return lost ? exit_failed : exit_ok;
+  if (!summary["guard"].contains("stopped")) return lost || !filmed ? exit_failed : exit_ok;
   fmt::print(stderr, "palpate: {}\n", summary["guard"]["stopped"].get<std::string>());
   return exit_failed;
 }
@@ -83,7 +88,9 @@ void add_simulate(CLI::App& app, int& exit_code) {
   command->add_option("--threads", options->threads, "threads of physics, 0: as many as pay")
       ->check(CLI::Range(0, 256));
   command->add_option("--device", options->device, "driver instead of the scene's");
-  command->add_flag("--no-frames", options->no_pictures, "draw no pictures");
+  auto* no_frames = command->add_flag("--no-frames", options->no_pictures, "draw no pictures");
+  command->add_option("--video", options->video, "film of the pictures, e.g. run.mp4; needs ffmpeg")
+      ->excludes(no_frames);
   command->callback([options, &exit_code] { exit_code = simulate(*options); });
 }
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -65,6 +66,21 @@ TEST(Command, RefusesTimesThatNeverEnd) {
     for (const char* option : {"run a.toml --seconds=", "simulate a.toml --seconds=", "replay a.h5 --until="})
       expect_mistake(option + std::string(seconds),
                      "is out of range; write a number above 0 and at most 1000000");
+}
+
+TEST(Command, MakesNoFilmWithoutFfmpegNorOfAWindow) {
+  const fs::path out = fs::path(testing::TempDir()) / ("palpate_film_" + std::to_string(getpid()));
+  const std::string rest = test::quoted(fs::path(SCENES) / "box_press.toml") + " --out " + test::quoted(out) +
+                           " --video " + test::quoted(out.string() + ".mp4");
+  for (const char* words : {" simulate ", " run --headless "}) {
+    const Answer answer = answer_of("PATH=/nowhere " + test::quoted(PALPATE) + words + rest);
+    EXPECT_EQ(answer.exit_code, 2) << words;
+    EXPECT_THAT(answer.text, HasSubstr("no ffmpeg is installed")) << words;
+  }
+  const Answer windowed = answer_of("DISPLAY=:98765 " + test::quoted(PALPATE) + " run " + rest);
+  EXPECT_EQ(windowed.exit_code, 2);
+  EXPECT_THAT(windowed.text, HasSubstr("without a window; add --headless"));
+  EXPECT_FALSE(fs::exists(out)) << "nothing was begun";
 }
 
 TEST(Command, HelpsWithExitCodeZero) {
