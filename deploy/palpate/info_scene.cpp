@@ -17,6 +17,7 @@
 #include "physics_node/forecast/memory_need.h"
 #include "physics_node/forecast/speed_forecast.h"
 #include "physics_node/mesh/mesh_quality.h"
+#include "physics_node/remarks/first_touch.h"
 #include "physics_node/remarks/remarks.h"
 #include "physics_node/world.h"
 
@@ -147,6 +148,22 @@ std::string forecast_text(const Scene& scene, const physics::World& world) {
   return text;
 }
 
+/// When and where each path first meets a body at rest.
+std::string touch_text(const Scene& scene, const physics::World& world) {
+  physics::Bodies bodies;
+  for (std::size_t b = 0; b < world.n_bodies(); ++b) bodies.push_back(&world.body(b));
+  std::string text;
+  for (const ToolSpec& tool : scene.tools) {
+    if (!physics::may_know_first_touch(scene, bodies, tool)) continue;
+    const auto touch = physics::first_touch(scene, bodies, tool);
+    text += touch ? fmt::format("touch        {} meets {} after {:.4g} s at ({:.4g}, {:.4g}, {:.4g}) mm\n",
+                                tool.name, scene.bodies[touch->body].name, touch->t, mm_from_m(touch->at.x()),
+                                mm_from_m(touch->at.y()), mm_from_m(touch->at.z()))
+                  : fmt::format("touch        {}: its path never meets a body at rest\n", tool.name);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string info_scene(const std::string& path) {
@@ -159,6 +176,7 @@ std::string info_scene(const std::string& path) {
   for (std::size_t b = 0; b < world.n_bodies(); ++b) text += body_text(scene.bodies[b], world.body(b).body());
   for (const auto& material : scene.materials) text += material_text(material);
   for (const auto& tool : scene.tools) text += tool_text(tool, scene);
+  text += touch_text(scene, world);
   for (const auto& line : world.remarks()) text += fmt::format("remark       {}\n", line);
   for (const auto& line : physics::remarks_about(world)) text += fmt::format("remark       {}\n", line);
   return text;

@@ -11,9 +11,9 @@
 #include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
-#include "physics_node/contact/held_shape.h"
 #include "physics_node/remarks/enclosure.h"
 #include "physics_node/remarks/remarks.h"
+#include "physics_node/remarks/tool_points.h"
 
 namespace palpate::physics {
 namespace {
@@ -38,44 +38,9 @@ std::vector<Vec3> samples_of(const DeviceSpec& device, double apart) {
   return samples;
 }
 
-/// Of a tool, about its tip: the tip, points along a stick or an edge, corners of what has flat ends, or the surface of its body.
-std::vector<Vec3> shape_of(const ToolSpec& tool, const Scene& scene, const Bodies& bodies, double apart) {
-  if (tool.shape == ToolShape::point || tool.shape == ToolShape::forceps) return {Vec3::Zero()};
-  std::vector<Vec3> points;
-  if (tool.shape == ToolShape::stick || tool.shape == ToolShape::scalpel) {
-    const Vec3 axis =
-        tool.attitude * (tool.shape == ToolShape::stick ? Vec3(-Vec3::UnitZ())
-                                                        : Vec3(-std::sin(tool.edge), 0, std::cos(tool.edge)));
-    for (double s = 0; s < tool.length; s += apart) points.push_back(s * axis);
-    points.push_back(tool.length * axis);
-    return points;
-  }
-  if (is_solid_tip(tool.shape)) {
-    const HeldShape held = held_shape(tool);
-    const Eigen::AlignedBox3d box = held.shape.bounds();
-    for (int c = 0; c < 8; ++c)
-      points.push_back(held.attitude * box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(c)));
-    return points;
-  }
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    if (scene.bodies[b].name != tool.body) continue;
-    const Enclosure own(*bodies[b]);
-    for (const Vec3& vertex : own.vertices()) points.push_back(vertex - bodies[b]->body().tip);
-  }
-  return points;
-}
-
 double reach_of(const ToolSpec& tool, double spacing) {
   return touch * spacing +
          (tool.shape == ToolShape::stick || tool.shape == ToolShape::forceps ? tool.radius : 0.0);
-}
-
-/// Could a body come to the tool, wherever that is?
-bool any_flies(const Scene& scene, const Bodies& bodies) {
-  return std::any_of(bodies.begin(), bodies.end(), [&](const auto& body) {
-    return !is_tool(scene, body->body()) && body->body().n_held == 0 &&
-           (!scene.gravity.isZero() || !body->body().velocity.isZero());
-  });
 }
 
 class ToolLook {
@@ -92,7 +57,7 @@ class ToolLook {
 
   Remarks remarks() {
     if (others_.empty() || device_.waypoints.empty() || device_.driver != "simulated") return {};
-    shape_ = shape_of(tool_, scene_, bodies_, 0.5 * finest_);
+    shape_ = tool_points(tool_, scene_, bodies_, 0.5 * finest_);
     Remarks found;
     const Vec3 start = device_.waypoints.front().p;
     const bool inside = tool_.shape != ToolShape::body && begins_inside(start);
