@@ -19,7 +19,7 @@ namespace palpate::deploy {
 namespace {
 
 using namespace std::chrono_literals;
-constexpr auto patience = 3s;
+constexpr auto longest_wait = 3s;
 
 struct ResetOptions {
   std::string tool;
@@ -35,7 +35,7 @@ int reset(const ResetOptions& options) {
   Participant participant(options.domain);
   Reader<NodeStatus> statuses(participant);
   Writer<Command> commands(participant);
-  const auto end = std::chrono::steady_clock::now() + patience;
+  const auto end = std::chrono::steady_clock::now() + longest_wait;
   bool heard = false;
   while (!heard && std::chrono::steady_clock::now() < end) {
     statuses.wait(50ms);

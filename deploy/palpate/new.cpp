@@ -1,0 +1,168 @@
+// palpate new VOLUME --out SCENE: a scene that presses an image, to start from.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "common/error/error.h"
+#include "common/file/privacy.h"
+#include "common/math/units.h"
+#include "common/process/checked_option.h"
+#include "common/record/part_file.h"
+#include "common/record/volume_facts.h"
+#include "common/scene/load_scene.h"
+#include "common/scene/tool_spec.h"
+#include "deploy/palpate/info.h"
+#include "deploy/palpate/scene_draft.h"
+#include "deploy/palpate/subcommands.h"
+#include "physics_node/forecast/memory_need.h"
+#include "physics_node/remarks/first_touch.h"
+
+namespace palpate::deploy {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double bytes_of_work =
+    16;  // Why: a cell is read, copied to be resampled, resampled, and kept or not
+
+struct NewOptions {
+  std::string volume, out;
+  std::vector<double> at_mm, keep;
+};
+
+/// What would go wrong at the end goes wrong first.
+void check_names(const NewOptions& options) {
+  std::error_code none;
+  if (fs::path(options.out).extension() != ".toml")
+    throw InputError(fmt::format("--out {}: the name of a scene ends in .toml", options.out));
+  if (fs::exists(fs::symlink_status(options.out, none)))
+    throw InputError(
+        fmt::format("--out {}: is there already; give another name, or take it away", options.out));
+  if (!fs::is_regular_file(options.volume, none))
+    throw InputError(
+        fmt::format("{}: no such file; give a volume that palpate import has written", options.volume));
+  if (!is_volume(options.volume))
+    throw InputError(
+        fmt::format("{}: is no volume; give one that palpate import has written", options.volume));
+  check_can_write(options.out);
+}
+
+Volume volume_of(const std::string& path) {
+  const VolumeFacts facts = volume_facts(path);
+  const double bytes = bytes_of_work * facts.size[0] * facts.size[1] * facts.size[2];
+  if (bytes > physics::usable_memory())
+    throw InputError(fmt::format(
+        "{}: would take {:.2g} GB of memory, {:.2g} GB may be taken here; import the image with a coarser "
+        "--partition",
+        path, 1e-9 * bytes, 1e-9 * physics::usable_memory()));
+  return read_volume(path);
+}
+
+std::optional<KeepWindow> keep_of(const NewOptions& options) {
+  if (options.keep.empty()) return std::nullopt;
+  if (options.keep[0] > options.keep[1]) throw InputError("--keep: give the lowest intensity first");
+  return KeepWindow{options.keep[0], options.keep[1]};
+}
+
+TouchPlace place_of(const NewOptions& options, const ImageTissue& tissue) {
+  if (options.at_mm.empty()) {
+    if (const auto place = best_place(tissue.cells, tissue.tip_radius)) return *place;
+    throw InputError(
+        fmt::format("{}: a tip of {:.3g} mm finds no even place on tissue of two cells and more that it can "
+                    "come to from outside; give one "
+                    "by --at x,y,z",
+                    options.volume, mm_from_m(tissue.tip_radius)));
+  }
+  const Vec3 at(m_from_mm(options.at_mm[0]), m_from_mm(options.at_mm[1]), m_from_mm(options.at_mm[2]));
+  const Vec3 end = -tissue.cells.corner;
+  if ((at.cwiseAbs() - end).maxCoeff() > 1e-9)
+    throw InputError(
+        fmt::format("--at {:g},{:g},{:g}: lies outside of the image, which goes {:.4g}, {:.4g} and {:.4g} mm "
+                    "to both sides of its "
+                    "middle",
+                    options.at_mm[0], options.at_mm[1], options.at_mm[2], mm_from_m(end.x()),
+                    mm_from_m(end.y()), mm_from_m(end.z())));
+  if (const auto place = place_near(tissue.cells, at, tissue.tip_radius)) return *place;
+  throw InputError(fmt::format(
+      "--at {:g},{:g},{:g}: a tip of {:.3g} mm comes to no tissue of two cells and more around it",
+      options.at_mm[0], options.at_mm[1], options.at_mm[2], mm_from_m(tissue.tip_radius)));
+}
+
+/// A scene that is written has nothing to be remarked on, and its finger touches.
+physics::FirstTouch tried(const std::string& text, const std::string& path) {
+  const Scene scene = parse_scene(text, path);
+  const physics::World world(scene);
+  std::vector<std::string> remarks = world.remarks();
+  for (auto& line : physics::remarks_about(world)) remarks.push_back(std::move(line));
+  if (!remarks.empty()) throw InputError(remarks);
+  if (const auto touch = physics::first_touch(world.scene(), {&world.body(0)}, world.scene().tools[0]))
+    return *touch;
+  throw std::runtime_error(path + ": its path would miss the tissue; give another place by --at x,y,z");
+}
+
+void write_text(const std::string& text, const std::string& path) {
+  PartFile beside(path);
+  std::FILE* file = std::fopen(beside.part().c_str(), "w");
+  const bool written = file != nullptr && std::fputs(text.c_str(), file) >= 0;
+  if (file == nullptr || std::fclose(file) != 0 || !written)
+    throw InputError(path + ": cannot be written; make room or name another place");
+  beside.commit();
+}
+
+void write_new(const NewOptions& options) {
+  keep_as_private_as({options.volume});
+  const auto keep = keep_of(options);
+  check_names(options);
+  const ImageTissue tissue = find_tissue(volume_of(options.volume), keep, options.volume);
+  const TouchPlace place = place_of(options, tissue);
+  const PressPlan plan = plan_press(tissue, place, options.volume);
+  const std::string words =
+      keep ? "as given by --keep"
+           : fmt::format("halfway between air and tissue by the histogram, and what is brighter");
+  const std::string text = scene_draft(named_from(options.volume, options.out), words, tissue, place, plan);
+  const physics::FirstTouch touch = tried(text, options.out);
+  write_text(text, options.out);
+  fmt::print(
+      "tissue       intensity {:g} to {:g}, in cells of {:.3g} x {:.3g} x {:.3g} mm, {} of which move\n",
+      tissue.keep.lo, tissue.keep.hi, mm_from_m(tissue.cells.spacing.x()),
+      mm_from_m(tissue.cells.spacing.y()), mm_from_m(tissue.cells.spacing.z()), plan.n_moving);
+  fmt::print(
+      "touch        after {:.4g} s at ({:.4g}, {:.4g}, {:.4g}) mm, then {:.3g} mm in, with a tip of {:.3g} "
+      "mm\n",
+      touch.t, mm_from_m(touch.at.x()), mm_from_m(touch.at.y()), mm_from_m(touch.at.z()),
+      mm_from_m(plan.depth), mm_from_m(tissue.tip_radius));
+  fmt::print("speed        about {:.2g} x real time on one thread, without contact\n", plan.real_time_factor);
+  fmt::print("scene        {}; palpate simulate {} computes it\n", options.out, options.out);
+}
+
+}  // namespace
+
+void add_new(CLI::App& app, int& exit_code) {
+  auto* command = app.add_subcommand("new", "write a scene that presses a volume, to start from");
+  auto options = std::make_shared<NewOptions>();
+  command->add_option("volume", options->volume, "volume (.h5) of palpate import")->required();
+  command->add_option("--out", options->out, "the scene to write (.toml), a new file")->required();
+  command
+      ->add_option(
+          "--at", options->at_mm,
+          "where to press: x,y,z [mm] along the axes of the image from its middle, or the nearest tissue "
+          "(default: a place that suits)")
+      ->delimiter(',')
+      ->expected(3)
+      ->check(number_in({.lo = -1e6, .hi = 1e6}));
+  command
+      ->add_option("--keep", options->keep,
+                   "lowest,highest intensity that is tissue (default: by the histogram)")
+      ->delimiter(',')
+      ->expected(2)
+      ->check(number_in({.lo = -1e12, .hi = 1e12}));
+  command->callback([options, &exit_code] {
+    write_new(*options);
+    exit_code = exit_ok;
+  });
+}
+
+}  // namespace palpate::deploy

@@ -1,0 +1,126 @@
+#include "deploy/palpate/press_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "common/error/error.h"
+#include "common/scene/body_spec.h"
+#include "common/scene/physics_spec.h"
+#include "common/scene/scene.h"
+#include "deploy/palpate/scene_draft.h"
+#include "physics_node/body/body.h"
+#include "physics_node/forecast/speed_forecast.h"
+#include "physics_node/step/lattice/stable_step.h"
+
+namespace palpate::deploy {
+namespace {
+
+using physics::Cells;
+
+constexpr double press_to_tip =
+    0.6;  // Why: 3 mm with a tip of 5 mm, felt well and in half of what soft tissue bears
+constexpr double press_to_thickness = 0.25;  // Why: thinner tissue would be squeezed flat over what is rigid
+constexpr double soft_modulus = 5e3, soft_density = 1000;  // [Pa, kg/m^3]
+constexpr double viscosity_over_cell =
+    150;  // [Pa s/m]. Why: swinging dies within some periods, and the step stays that of the modulus
+constexpr int largest_region = 8,
+              smallest_region = 3;  // [cells] from its middle. Why: four tips; a tip and a half
+constexpr double wanted_factor =
+    2;  // of real time. Why: contact, the hand and the eye want the other half of two cores
+constexpr double come_s = 1, press_s = 1, hold_s = 1, leave_s = 2;
+
+/// Cells of tissue that move with so large a region, and their nodes.
+struct Region {
+  int cells = 0;
+  double nodes = 0;
+};
+Region region_of(const Cells& cells, const Vec3i& middle, int radius) {
+  Region region;
+  std::set<std::array<int, 3>> nodes;
+  for (int k = middle.z() - radius; k <= middle.z() + radius; ++k)
+    for (int j = middle.y() - radius; j <= middle.y() + radius; ++j)
+      for (int i = middle.x() - radius; i <= middle.x() + radius; ++i) {
+        if (!cells.is_filled(i, j, k)) continue;
+        ++region.cells;
+        for (int c = 0; c < 8; ++c) nodes.insert({i + (c & 1), j + (c >> 1 & 1), k + (c >> 2)});
+      }
+  region.nodes = static_cast<double>(nodes.size());
+  return region;
+}
+
+MaterialSpec soft_tissue(const Cells& cells) {
+  MaterialSpec soft;
+  soft.name = "soft";
+  soft.modulus = soft_modulus;
+  soft.density = soft_density;
+  soft.viscosity_bulk = viscosity_over_cell * cells.spacing.minCoeff();
+  return soft;
+}
+
+/// What the step and the speed go by: a block of a few of the cells, as narrow as they are at the narrowest.
+class Pace {
+ public:
+  Pace(const MaterialSpec& soft, double edge) {
+    BodySpec block;
+    block.name = "tissue";
+    block.lattice = LatticeKind::voxel;
+    block.model = ElementModel::fem;
+    block.shape = BoxShape{Vec3::Constant(4 * edge)};
+    block.spacing = edge;
+    block.material = soft.name;
+    scene_.materials = {soft};
+    scene_.bodies = {block};
+    scene_.physics->safety = step_safety;
+    step_ = physics::stable_step(physics::stiffest_mode(physics::build_body(block, soft)),
+                                 scene_.physics->integrator);
+  }
+  double factor(double nodes) const {
+    return physics::forecast_speed(scene_, std::array{nodes}, step_).real_time_factor;
+  }
+
+ private:
+  Scene scene_;
+  double step_ = 0;
+};
+
+std::vector<Waypoint> path_of(const TouchPlace& place, double tip_radius, double depth) {
+  const Vec3 outside = place.at + approach_length(tip_radius) * place.outward;
+  const Vec3 inside = place.at - depth * place.outward;
+  std::vector<Waypoint> path = {{0, outside}};
+  for (const auto& [lasts, at] : {std::pair(come_s, place.at), std::pair(press_s, inside),
+                                  std::pair(hold_s, inside), std::pair(leave_s, outside)})
+    path.push_back({path.back().t + lasts, at});
+  return path;
+}
+
+}  // namespace
+
+PressPlan plan_press(const ImageTissue& tissue, const TouchPlace& place, const std::string& path) {
+  const Cells& cells = tissue.cells;
+  PressPlan plan;
+  plan.material = soft_tissue(cells);
+  plan.depth = std::min(press_to_tip * tissue.tip_radius, press_to_thickness * place.thickness);
+  plan.path = path_of(place, tissue.tip_radius, plan.depth);
+  plan.center_voxel = {tissue.mirrored ? cells.size.x() - 1 - place.cell.x() : place.cell.x(), place.cell.y(),
+                       place.cell.z()};
+  const Pace pace(plan.material, cells.spacing.minCoeff());
+  const auto all = static_cast<int>(cells.n_filled());
+  for (int radius = largest_region; radius >= smallest_region; --radius) {
+    const Region region = region_of(cells, place.cell, radius);
+    if (region.cells >= all) continue;  // Why: nothing would hold it
+    plan.radius_voxels = radius;
+    plan.n_moving = region.cells;
+    plan.real_time_factor = pace.factor(region.nodes);
+    if (plan.real_time_factor >= wanted_factor) return plan;
+  }
+  if (plan.radius_voxels > 0) return plan;
+  throw InputError(
+      fmt::format("{}: its tissue, of {:.3g} x {:.3g} x {:.3g} mm cells, is hardly larger than the tip, and "
+                  "nothing would "
+                  "hold it; give another --keep lowest,highest, or import the image with a finer --partition",
+                  path, 1e3 * cells.spacing.x(), 1e3 * cells.spacing.y(), 1e3 * cells.spacing.z()));
+}
+
+}  // namespace palpate::deploy

@@ -1,0 +1,21 @@
+#pragma once
+// A scene file with comments, for a person to read and change.
+
+#include <string>
+
+#include "deploy/palpate/press_plan.h"
+
+namespace palpate::deploy {
+
+inline constexpr double step_safety = 0.9;  // [physics] safety of these scenes
+
+/// The text of a scene that presses an image as planned.
+/// @param file   of the volume, as the scene will name it
+/// @param words  on where `keep` is from
+std::string scene_draft(const std::string& file, const std::string& words, const ImageTissue& tissue,
+                        const TouchPlace& place, const PressPlan& plan);
+
+/// `volume` as a scene file at `scene` has to name it: from the folder of that where links allow, else in full.
+std::string named_from(const std::string& volume, const std::string& scene);
+
+}  // namespace palpate::deploy
