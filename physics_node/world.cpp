@@ -27,7 +27,7 @@ bool World::is_implicit() const noexcept { return scene_.physics->integrator == 
 
 void World::restart_ledger() {
   for (auto& body : bodies_) body->restart_momentum();
-  account_.restart(bodies_, scene_.gravity, report_);
+  account_.restart(energies(), losses_and_due(), report_);
   watched_ = Booked(report_);
   cut_since_ = {};
   is_watched_ = false;
@@ -36,8 +36,18 @@ void World::restart_ledger() {
   save_all(true);
 }
 
-EnergyLedger World::ledger() const {
-  return account_.book(sum_energies(bodies_, scene_.gravity), sum_losses_and_due(bodies_), Booked(report_));
+EnergyLedger World::ledger() const { return account_.book(energies(), losses_and_due(), Booked(report_)); }
+
+Energies World::energies() const {
+  Energies sum = sum_energies(bodies_, scene_.gravity);
+  for (const auto& connection : connections_) sum.elastic += connection->energy();
+  return sum;
+}
+
+Losses World::losses_and_due() const {
+  Losses sum = sum_losses_and_due(bodies_);
+  for (const auto& connection : connections_) sum.broken += connection->broken();
+  return sum;
 }
 
 EnergyLedger World::watched_ledger() const noexcept {
@@ -48,7 +58,12 @@ EnergyLedger World::watched_ledger() const noexcept {
     now.elastic += watch.elastic;
     now.gravitational -= watch.fallen_before;
   }
-  return account_.book(now, sum_losses(bodies_) - cut_since_, watched_);
+  Losses lost = sum_losses(bodies_) - cut_since_;
+  for (const auto& connection : connections_) {
+    now.elastic += connection->watched();
+    lost.broken += connection->broken();
+  }
+  return account_.book(now, lost, watched_);
 }
 
 void World::book_work(double work) noexcept {
@@ -141,8 +156,10 @@ void World::step(double dt, double done, bool watch) noexcept {
     for (LedTool* tool : toolbox_.led) tool->begin_step();
   for (PressingTool* tool : toolbox_.pressing) tool->begin_step();
   double work = book_tools(dt, false);
+  for (auto& connection : connections_) connection->find_forces(dt);
   move_bodies(dt, watch);
   if (watch) watched_ = Booked(report_), cut_since_ = {};
+  for (auto& connection : connections_) connection->act(dt);
   work += press(dt);
   follow_breaks();
   touch(dt, done);
@@ -153,6 +170,7 @@ void World::step(double dt, double done, bool watch) noexcept {
 
 void World::save_all(bool good) noexcept {
   for (auto& body : bodies_) body->save(good);
+  for (auto& connection : connections_) connection->save(good);
   account_.save(good, report_);
   guard_.saved();
 }
@@ -180,6 +198,7 @@ void World::recover() noexcept {
     if (fragments_[b]) fragments_[b]->update(*bodies_[b]);
     touchable_[b].surface->follow();
   }
+  for (auto& connection : connections_) connection->restore();
   if (collisions_) collisions_->restart();
   guard_.begin();
   ++report_.restored;
@@ -279,6 +298,7 @@ void World::reset() noexcept {
     if (fragments_[b]) fragments_[b]->update(*bodies_[b]);
     touchable_[b].surface->follow();
   }
+  for (auto& connection : connections_) connection->reset();
   for (auto& tool : toolbox_.tools) tool->reset(), tool->book() = {};
   if (collisions_) collisions_->restart();
   if (inside_) inside_->restart();
@@ -300,6 +320,7 @@ std::uint64_t World::facets_left_out() const noexcept {
 std::uint64_t World::state_hash() const noexcept {
   std::uint64_t seed = hash_seed;
   for (const auto& body : bodies_) seed = body->hash(seed);
+  for (const auto& connection : connections_) seed = connection->hash(seed);
   return seed;
 }
 

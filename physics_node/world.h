@@ -12,6 +12,7 @@
 #include "common/scene/scene.h"
 #include "physics_node/collision/collisions.h"
 #include "physics_node/collision/inside_others.h"
+#include "physics_node/connection/connection.h"
 #include "physics_node/contact/make_tools.h"
 #include "physics_node/fragments/fragments.h"
 #include "physics_node/guard.h"
@@ -53,6 +54,8 @@ class World {
   const Collisions* collisions() const { return collisions_.get(); }
   /// Which bodies have gone into each other, as far as the frames have looked; null where a single body cannot break.
   const InsideOthers* inside_others() const { return inside_.get(); }
+  std::size_t n_connections() const noexcept { return connections_.size(); }
+  const Connection& connection(std::size_t n) const { return *connections_[n]; }
   /// Facets that opened and that tools do not feel, because there was no room for them.
   std::uint64_t facets_left_out() const noexcept;
   StepReport& report() { return report_; }
@@ -77,6 +80,10 @@ class World {
   }
 
  private:
+  /// Strands between bodies, which shorten the stable step. @throws InputError: one joins nothing
+  void join_bodies();
+  Energies energies() const;
+  Losses losses_and_due() const;
   /// Which integrator it is, where the scene leaves that open, and its stable step; bodies hear of stiff cells that step alone.
   Integrator settle_steps(std::vector<Body>& built);
   void step(double dt, double done, bool watch) noexcept;
@@ -107,6 +114,7 @@ class World {
   BodyModels bodies_;
   std::vector<std::unique_ptr<Fragments>> fragments_;  // of each body that may break, null elsewhere
   std::vector<TouchableBody> touchable_;
+  std::vector<std::unique_ptr<Connection>> connections_;
   Toolbox toolbox_;
   bool stick_near_ = false;  // one of those that lead may touch in this frame
   std::unique_ptr<Collisions> collisions_;

@@ -7,7 +7,9 @@
 #include <limits>
 #include <thread>
 
+#include "common/error/error.h"
 #include "common/scene/body_spec.h"
+#include "common/scene/connection_spec.h"
 #include "common/scene/material_spec.h"
 #include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
@@ -89,6 +91,7 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
                                                             : nullptr);
     touchable_.push_back({bodies_.back().get(), std::make_unique<Boundary>(*bodies_.back(), bucket, feels)});
   }
+  join_bodies();
   toolbox_ = make_tools(scene_, bodies_, touchable_);
   if (scene.contact->enabled && (bodies_.size() > 1 || any_breaks_))
     collisions_ = std::make_unique<Collisions>(bodies_, fragments_, *scene.contact);
@@ -114,6 +117,29 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
         1e3 * dt_, 1e3 * stable_dt_));
   }
   restart_ledger();
+}
+
+void World::join_bodies() {
+  const auto number = [this](const std::string& name) {
+    return static_cast<std::size_t>(std::ranges::find(scene_.bodies, name, &BodySpec::name) -
+                                    scene_.bodies.begin());
+  };
+  double added = 0;  // to the largest squared frequency [1/s^2]
+  for (const ConnectionSpec& spec : scene_.connections) {
+    const std::size_t from = number(spec.from), to = number(spec.to);
+    auto strands = make_strands(spec, touchable_[from].surface->surface(), touchable_[to].surface->surface());
+    if (strands.empty())
+      throw InputError(
+          fmt::format("{}: connection \"{}\" joins nothing: no moving place of \"{}\" lies within {:.4g} mm "
+                      "of \"{}\"; write a "
+                      "larger within_mm, or bring them nearer",
+                      spec.place.text(), spec.name, spec.from, 1e3 * spec.within, spec.to));
+    added += std::max(added_omega2(strands, 0, bodies_[from]->body().inverse_mass),
+                      added_omega2(strands, 1, bodies_[to]->body().inverse_mass));
+    connections_.push_back(std::make_unique<Connection>(std::move(strands), *bodies_[from], *bodies_[to]));
+  }
+  // 1 / dt^2 = w^2 / 4, of a sum at most the sum.
+  if (added > 0) stable_dt_ = 1 / std::sqrt(1 / (stable_dt_ * stable_dt_) + added / 4);
 }
 
 Integrator World::settle_steps(std::vector<Body>& built) {

@@ -37,6 +37,7 @@ void read_root(toml::table& table, ReadContext& context) {
   read_materials(root, context);
   read_devices(root, context);
   read_bodies(root, context);
+  read_connections(root, context);
   read_tools(root, context);
   read_floor(root, context);
   read_walls(root, context);

@@ -18,17 +18,18 @@ struct ReadContext {
   std::vector<std::string> with_poisson_ratio = {};  // materials that state it
 };
 
-void read_run(TableReader& root, ReadContext& context);        // [scene]
-void read_physics(TableReader& root, ReadContext& context);    // [physics]
-void read_floor(TableReader& root, ReadContext& context);      // [floor]
-void read_walls(TableReader& root, ReadContext& context);      // [[wall]]
-void read_contact(TableReader& root, ReadContext& context);    // [contact]
-void read_materials(TableReader& root, ReadContext& context);  // [material.NAME]
-void read_devices(TableReader& root, ReadContext& context);    // [device.NAME]
-void read_bodies(TableReader& root, ReadContext& context);     // [[body]]
-void read_tools(TableReader& root, ReadContext& context);      // [[tool]]
-void read_render(TableReader& root, ReadContext& context);     // [render]
-void read_record(TableReader& root, ReadContext& context);     // [record]
+void read_run(TableReader& root, ReadContext& context);          // [scene]
+void read_physics(TableReader& root, ReadContext& context);      // [physics]
+void read_floor(TableReader& root, ReadContext& context);        // [floor]
+void read_walls(TableReader& root, ReadContext& context);        // [[wall]]
+void read_contact(TableReader& root, ReadContext& context);      // [contact]
+void read_materials(TableReader& root, ReadContext& context);    // [material.NAME]
+void read_devices(TableReader& root, ReadContext& context);      // [device.NAME]
+void read_bodies(TableReader& root, ReadContext& context);       // [[body]]
+void read_tools(TableReader& root, ReadContext& context);        // [[tool]]
+void read_connections(TableReader& root, ReadContext& context);  // [[connection]], whose bodies are known
+void read_render(TableReader& root, ReadContext& context);       // [render]
+void read_record(TableReader& root, ReadContext& context);       // [record]
 
 /// A body from its table, which may hold other keys, too.
 BodySpec read_body(TableReader& reader, ReadContext& context);

@@ -6,6 +6,7 @@
 
 #include "common/error/error.h"
 #include "common/scene/body_spec.h"
+#include "common/scene/connection_spec.h"
 #include "common/scene/device_spec.h"
 #include "common/scene/material_spec.h"
 #include "common/scene/physics_spec.h"

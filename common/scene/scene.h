@@ -34,6 +34,7 @@ struct Scene {
   Vec3 gravity{0, 0, -9.81};  // [m/s^2]
   Indirect<PhysicsSpec> physics;
   std::vector<BodySpec> bodies;
+  std::vector<ConnectionSpec> connections;
   std::vector<MaterialSpec> materials;
   std::optional<FloorSpec> floor;
   std::vector<WallSpec> walls;

@@ -5,6 +5,7 @@ namespace palpate {
 
 struct Scene;
 struct BodySpec;
+struct ConnectionSpec;
 struct ContactSpec;
 struct DeviceSpec;
 struct MaterialSpec;

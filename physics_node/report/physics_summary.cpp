@@ -7,6 +7,7 @@
 #include "common/math/hash.h"
 #include "common/report/commit.h"
 #include "common/report/warnings.h"
+#include "common/scene/connection_spec.h"
 #include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/surroundings_spec.h"
@@ -193,6 +194,10 @@ nlohmann::json physics_summary(const World& world, const Recorder* recorder, dou
                        {"rebuilds", tally.rebuilds}};
     if (scene.contact->count_passages) part["contact"]["passages"] = tally.passages;
   }
+  for (std::size_t n = 0; n < world.n_connections(); ++n)
+    part["connections"][scene.connections[n].name] = {{"strands", world.connection(n).n_strands()},
+                                                      {"torn", world.connection(n).n_torn()},
+                                                      {"pull", world.connection(n).pull()}};
   for (std::size_t n = 0; n < world.n_tools(); ++n)
     part["tools"][scene.tools[n].name] = touch_part(world.tool(n));
   for (std::size_t n = 0; recorder != nullptr && n < scene.tools.size(); ++n)

@@ -29,9 +29,9 @@ Losses sum_losses_and_due(const BodyModels& bodies) {
   return sum;
 }
 
-void EnergyAccount::restart(const BodyModels& bodies, const Vec3& gravity, const StepReport& report) {
-  start_ = sum_energies(bodies, gravity);
-  lost_ = sum_losses_and_due(bodies);
+void EnergyAccount::restart(const Energies& now, const Losses& lost, const StepReport& report) {
+  start_ = now;
+  lost_ = lost;
   booked_ = Booked(report);
   most_fallen_ = guard_ = 0;
 }

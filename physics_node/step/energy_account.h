@@ -31,7 +31,8 @@ struct Booked {
 class EnergyAccount {
  public:
   /// What is there now is what the ledger starts from.
-  void restart(const BodyModels& bodies, const Vec3& gravity, const StepReport& report);
+  /// @param lost  by then, with what is due
+  void restart(const Energies& now, const Losses& lost, const StepReport& report);
 
   /// The ledger of a moment, from energies and losses then and what tools and contact had done by then.
   EnergyLedger book(const Energies& now, const Losses& lost, const Booked& booked) const noexcept;

@@ -99,7 +99,7 @@ class Cuts : public testing::TestWithParam<Case> {
     if (GetParam().exact) body().prepare_for(Disturbance::impulses);
     dt_ = step_of(body().body(), Integrator::symplectic_euler);
     stretch(body());
-    account_.restart(bodies_, Vec3::Zero(), report_);
+    account_.restart(sum_energies(bodies_, Vec3::Zero()), sum_losses_and_due(bodies_), report_);
     advance(15);
   }
   BodyModel& body() { return *bodies_[0]; }

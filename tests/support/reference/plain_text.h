@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "common/scene/body_spec.h"
+#include "common/scene/connection_spec.h"
 #include "common/scene/device_spec.h"
 #include "common/scene/material_spec.h"
 #include "common/scene/physics_spec.h"
@@ -85,7 +86,7 @@ constexpr std::size_t n_members() {
 /// A scene has constructors, so that nobody can count its members; a number that is wrong does not compile.
 template <>
 constexpr std::size_t n_members<Scene>() {
-  return 16;
+  return 17;
 }
 
 /// use(member...) for each of up to 20 members.

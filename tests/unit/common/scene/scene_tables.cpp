@@ -103,6 +103,11 @@ std::vector<SceneTable> all_tables() {
       {"regions", "", mesh().text() + "[[body.regions]]\n", "material = \"n\"\ngroup = 1\n", ""},
       in_body("[[body.cavity]]", "[[body.cavity]]", "", box),
       in_body("[[body.cavity]]", "[[body.cavity]]", "", round),
+      {"[[connection]]", "",
+       least + "[[body]]\nname = \"another\"\nshape = \"sphere\"\nradius_mm = 5\nspacing_mm = 1\nmaterial = "
+               "\"m\"\n[[body]]\nname = "
+               "\"n\"\nshape = \"sphere\"\nradius_mm = 5\nspacing_mm = 1\nmaterial = \"m\"\n[[connection]]\n",
+       "name = \"c\"\nfrom = \"b\"\nto = \"n\"\nwithin_mm = 3\nmodulus_kPa = 5\n", ""},
       tool("point", "name = \"t\"\n"),
       tool("stick", "name = \"t\"\nshape = \"stick\"\nlength_mm = 99\n"),
       tool("cylinder", "name = \"t\"\nshape = \"cylinder\"\nlength_mm = 9\n"),

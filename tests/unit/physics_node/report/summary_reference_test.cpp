@@ -23,7 +23,7 @@ void add_keys(Keys& keys, const json& part, const std::string& at) {
     keys.insert(at);
     return;
   }
-  const bool names = at == "stages" || at == "bodies" || at == "tools";
+  const bool names = at == "stages" || at == "bodies" || at == "connections" || at == "tools";
   for (const auto& [key, value] : part.items())
     add_keys(keys, value, at + (at.empty() ? "" : ".") + (names ? "NAME" : key));
 }
@@ -89,6 +89,18 @@ void add_of_finite_elements(Keys& keys) {
   add_keys(keys, world, nullptr);
 }
 
+/// Two bodies and what joins them.
+void add_joined(Keys& keys) {
+  Recipe recipe;
+  recipe.world =
+      "[[body]]\nname = \"other\"\nlattice = \"fcc\"\nshape = \"box\"\nsize_mm = [40, 40, 40]\nspacing_mm = "
+      "10\nmaterial = \"m\"\nat_mm = [0, 0, 45]\n[[connection]]\nname = \"bed\"\nfrom = \"body\"\nto = "
+      "\"other\"\nwithin_mm = 20\nmodulus_kPa = 1\n";
+  World world(scene_of(recipe));
+  world.frame({});
+  add_keys(keys, world, nullptr);
+}
+
 /// A tool that has cut.
 void add_cut(Keys& keys) {
   World world(pressed_slab());
@@ -107,6 +119,7 @@ TEST(SummaryReference, HasTheKeysThatPhysicsWritesAndNoOthers) {
   add_given_up(written);
   add_of_finite_elements(written);
   add_cut(written);
+  add_joined(written);
   for (const auto& row : rows()) {
     listed.insert(row.at("key"));
     EXPECT_NE(row.at("meaning"), "") << row.at("key");

@@ -66,7 +66,7 @@ TEST(EnergyAccount, BooksFromItsRestartOn) {
   report.contact_lost = 2;
   report.cut = 0.5;
   EnergyAccount account;
-  account.restart({}, Vec3::Zero(), report);
+  account.restart({}, {}, report);
   report.tool_work += 3;
   report.tool_exchange += 4;
   report.contact_lost += 1;
@@ -89,7 +89,7 @@ TEST(EnergyAccount, BooksFromItsRestartOn) {
 /// Tissue that falls 2 J and swings back up has exchanged 2 J, though nothing of it shows now.
 TEST(EnergyAccount, RemembersTheMostThatGravityDid) {
   EnergyAccount account;
-  account.restart({}, Vec3(0, 0, -9.81), StepReport());
+  account.restart({}, {}, StepReport());
   account.note(2);
   account.note(0.5);
   EXPECT_DOUBLE_EQ(account.book({}, {}, {}).exchanged, 2);
@@ -97,7 +97,7 @@ TEST(EnergyAccount, RemembersTheMostThatGravityDid) {
 
 TEST(EnergyAccount, WritesOffWhatAGuardTook) {
   EnergyAccount account;
-  account.restart({}, Vec3::Zero(), StepReport());
+  account.restart({}, {}, StepReport());
   StepReport report;
   report.tool_work = 3;
   const EnergyLedger before = account.book({}, {}, Booked(report));

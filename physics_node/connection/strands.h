@@ -1,0 +1,34 @@
+#pragma once
+// What strands between two bodies are made of, and where they begin and end.
+//
+//   F = k (l - L) u where l > L, else 0;  k = E A / L        A the area of the first surface that a strand stands for
+// A strand tears for good where it holds as much as its area is tough for: k (l - L)^2 / 2 = G_c A.
+
+#include <array>
+#include <vector>
+
+#include "common/scene/connection_spec.h"
+#include "physics_node/boundary/surface.h"
+
+namespace palpate::physics {
+
+struct Strand {
+  Index node = 0;                 // of the first body
+  std::array<Index, 3> foot{};    // nodes of the second
+  std::array<double, 3> share{};  // of the foot's place: at least 0, 1 in all
+  double area = 0;                // [m^2]
+  double length = 0;              // at rest [m]
+  double k = 0;                   // [N/m]
+  double most_longer = 0;         // at which it tears; infinite: never [m]
+};
+
+/// From every moving vertex of `from` to the nearest place on moving facets of `to`, where that is within reach. A strand is no shorter
+/// at rest than a tenth of the reach: surfaces that touch are not joined by what is infinitely stiff.
+/// Cost: vertices times facets near them.
+std::vector<Strand> make_strands(const ConnectionSpec& spec, const Surface& from, const Surface& to);
+
+/// By how much the strands raise the largest squared frequency of a body, at most; see connection.cpp.
+/// @param end  0: of the first body, 1: of the second  @param inverse_mass  by node
+double added_omega2(const std::vector<Strand>& strands, int end, const std::vector<double>& inverse_mass);
+
+}  // namespace palpate::physics

@@ -1,0 +1,154 @@
+// Strands between two bodies of a scene: their force, momentum, books, and how they tear.
+#include "physics_node/connection/connection.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "common/error/error.h"
+#include "common/scene/scene.h"
+#include "physics_node/world.h"
+#include "tests/support/physics/small_worlds.h"
+
+namespace palpate::physics::test {
+namespace {
+
+/// Two blocks of 20 x 20 x 20 mm, one above the other with a gap of 2 mm.
+Recipe two_blocks(const std::string& connection = "toughness_J_per_m2 = 2\n", const std::string& upper = "",
+                  const std::string& lower = "fixed = [\"-z\"]\n") {
+  Recipe recipe;
+  recipe.lattice = "voxel";
+  recipe.shape = Recipe::box(20, 20, 20);
+  recipe.spacing_mm = 5;
+  recipe.material = "density_kg_per_m3 = 1000\nmodulus_kPa = 100\nviscosity_Pa_s = 50";
+  recipe.body = "model = \"fem\"\n" + lower;
+  recipe.world =
+      "[[body]]\nname = \"upper\"\nlattice = \"voxel\"\nmodel = \"fem\"\nspacing_mm = 5\nmaterial = "
+      "\"m\"\nshape = "
+      "\"box\"\nsize_mm = [20, 20, 20]\nat_mm = [0, 0, 22]\n" +
+      upper +
+      "[[connection]]\nname = \"bed\"\nfrom = \"upper\"\nto = \"body\"\nwithin_mm = 3\nmodulus_kPa = 1\n" +
+      connection;
+  return recipe;
+}
+
+double height_of(const BodyModel& body) {
+  double sum = 0;
+  for (const Index node : body.body().nodes()) sum += body.position(node).z() / body.body().n_nodes();
+  return sum;
+}
+
+TEST(Connection, OfTwoFacesAtRestHasNoForce) {
+  World world(scene_of(two_blocks()));
+  ASSERT_EQ(world.n_connections(), 1u);
+  EXPECT_EQ(world.connection(0).n_strands(), 25);
+  for (int n = 0; n < 50; ++n) world.frame({});
+  EXPECT_EQ(world.connection(0).pull(), 0);
+  EXPECT_EQ(world.connection(0).energy(), 0);
+}
+
+/// E A / L = 1 kPa x 400 mm^2 / 2 mm = 200 N/m, from which 8 g hang.
+TEST(Connection, CarriesAWeightAsItsStiffnessSays) {
+  Recipe recipe = (two_blocks("", "fixed = [\"+z\"]\n", ""));
+  recipe.gravity = "[0, 0, -9.81]";
+  World world(scene_of(recipe));
+  const double before = height_of(world.body(0));
+  for (int n = 0; n < 3000; ++n) world.frame({});
+  const double weight = 8e-3 * 9.81, stiffness = 1e3 * 400e-6 / 2e-3;
+  double lower = HUGE_VAL, upper = HUGE_VAL;
+  for (const Index node : world.body(0).body().nodes())
+    lower = std::min(lower, -world.body(0).position(node).z());
+  for (const Index node : world.body(1).body().nodes())
+    upper = std::min(upper, world.body(1).position(node).z());
+  EXPECT_NEAR(world.connection(0).pull(), weight, 0.01 * weight);
+  EXPECT_NEAR(upper + lower - 2e-3, weight / stiffness, 0.1 * weight / stiffness) << "faces bend a little";
+  EXPECT_LT(height_of(world.body(0)), before);
+}
+
+TEST(Connection, KeepsMomentaAndBooksWhileItSwingsAndTears) {
+  Recipe recipe = (two_blocks("toughness_J_per_m2 = 0.5\n", "velocity_m_per_s = [0.02, 0, 0.15]\n", ""));
+  World world(scene_of(recipe));
+  const auto momenta = [&] {
+    Momenta sum = world.body(0).momenta();
+    sum.linear += world.body(1).momenta().linear, sum.angular += world.body(1).momenta().angular;
+    return sum;
+  };
+  const Momenta before = momenta();
+  double worst = 0, worst_watched = 0;
+  for (int n = 0; n < 200; ++n) {
+    world.frame({});
+    worst = std::max(worst, world.ledger().balance_error());
+    worst_watched = std::max(worst_watched, world.watched_ledger().balance_error());
+  }
+  const Momenta after = momenta();
+  EXPECT_LT((after.linear - before.linear).norm(), 1e-12 * before.linear.norm());
+  EXPECT_LT((after.angular - before.angular).norm(), 1e-12 * before.angular.norm());
+  EXPECT_LT(worst, 5e-3);
+  EXPECT_LT(worst_watched, 5e-3);
+  EXPECT_GT(world.connection(0).n_torn(), 0);
+  EXPECT_GT(world.ledger().broken, 0);
+}
+
+/// All of it torn takes toughness times area, and a little more, since a step sees a strand beyond the most it holds.
+TEST(Connection, TakesItsToughnessTimesItsAreaToTear) {
+  World world(scene_of((two_blocks("toughness_J_per_m2 = 0.5\n", "velocity_m_per_s = [0, 0, 0.6]\n", ""))));
+  for (int n = 0; n < 300; ++n) world.frame({});
+  EXPECT_EQ(world.connection(0).n_torn(), 25);
+  EXPECT_NEAR(world.ledger().broken, 0.5 * 400e-6, 0.03 * 0.5 * 400e-6);
+  EXPECT_EQ(world.connection(0).pull(), 0);
+}
+
+TEST(Connection, IsAfterAResetAsItWasLoaded) {
+  const Recipe recipe = (two_blocks("toughness_J_per_m2 = 0.5\n", "velocity_m_per_s = [0, 0, 0.6]\n", ""));
+  World world(scene_of(recipe));
+  const std::uint64_t loaded = world.state_hash();
+  for (int n = 0; n < 300; ++n) world.frame({});
+  const std::uint64_t torn = world.state_hash();
+  EXPECT_NE(torn, loaded);
+  world.reset();
+  EXPECT_EQ(world.state_hash(), loaded);
+  EXPECT_EQ(world.connection(0).n_torn(), 0);
+  for (int n = 0; n < 300; ++n) world.frame({});
+  EXPECT_EQ(world.state_hash(), torn);
+}
+
+TEST(Connection, GivesTheSameBitsOnAnyNumberOfThreads) {
+  std::uint64_t first = 0;
+  for (const char* threads : {"threads = 1", "threads = 2", "threads = 3"}) {
+    Recipe recipe = (two_blocks("toughness_J_per_m2 = 0.5\n", "velocity_m_per_s = [0.1, 0, 0.3]\n"));
+    recipe.physics = threads;
+    World world(scene_of(recipe));
+    for (int n = 0; n < 100; ++n) world.frame({});
+    if (first == 0) first = world.state_hash();
+    EXPECT_EQ(world.state_hash(), first) << threads;
+  }
+}
+
+/// So stiff that only its own bound keeps the step short enough.
+TEST(Connection, ShortensTheStepByItsStiffness) {
+  Recipe soft = two_blocks("", "velocity_m_per_s = [0, 0, 0.05]\n"), stiff = soft;
+  const std::string modulus = "modulus_kPa = 1\n";
+  stiff.world.replace(stiff.world.find(modulus), modulus.size(), "modulus_kPa = 1000\n");
+  World slow(scene_of(stiff));
+  EXPECT_LT(slow.stable_step_seconds(), 0.7 * World(scene_of(soft)).stable_step_seconds());
+  for (int n = 0; n < 500; ++n) slow.frame({});
+  EXPECT_EQ(slow.report().restored, 0);
+}
+
+TEST(Connection, ThatJoinsNothingIsRefused) {
+  Recipe recipe = (two_blocks());
+  const std::string near = "within_mm = 3";
+  recipe.world.replace(recipe.world.find(near), near.size(), "within_mm = 1");
+  try {
+    World world(scene_of(recipe));
+    FAIL() << "no complaint";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("connection \"bed\" joins nothing"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("within 1 mm"));
+  }
+}
+
+}  // namespace
+}  // namespace palpate::physics::test
