@@ -13,6 +13,9 @@ namespace {
 /// How far before a surface a tool starts, besides what the surface's own steps ask for [m]. A point has no extent to the hand.
 double clearance(const ToolSpec& tool) { return tool.shape == ToolShape::stick ? tool.radius : 0.0; }
 
+/// From how far before the surface it comes down: a ball that has lain in tissue has to be outside of it with all its girth.
+double lift_of(const ToolSpec& tool) { return 2 * tool.radius; }
+
 }  // namespace
 
 void ToolLeading::lay_out(const Camera& camera) {
@@ -51,6 +54,7 @@ PointerInput ToolLeading::input_from(const HandEvents& events, const CursorNow& 
   input.toggle = !cursor.typing && presses(events, Action::toggle_tool) % 2 == 1;
   input.buttons = !cursor.typing && down(events, Action::button) ? 1u : 0u;
   input.place = cursor.in_picture && events.click(0).has_value();
+  input.lift = lift_of(scene_.tools[pointers_[led_].tool()]);
   input.let_go = cursor.in_picture && events.click(1).has_value();
   if (!keeps_to_surface()) {
     input.toggle =

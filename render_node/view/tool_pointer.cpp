@@ -12,9 +12,21 @@ void ToolPointer::take(const PointerInput& input) {
   if (input.place && !surface) return;
   held_ = true;
   moved_ = false;
-  deep_ = 0;
+  lift_ = lifted_ = surface ? input.lift : 0.0;
+  waits_ = wait_s;
+  deep_ = -lift_;
   grip_.setZero();
   if (surface) p_ = *surface;
+}
+
+/// Comes down on the surface at an even speed.
+void ToolPointer::land(double seconds) {
+  const double late = std::min(seconds, 0.1);  // Why: a picture that came late must not let it fall
+  waits_ -= late;
+  if (waits_ > 0) return;
+  const double by = std::min(lifted_, lift_ / landing_s * late);
+  lifted_ -= by;
+  deep_ += by;
 }
 
 /// The tip stays, whatever the camera shows under the cursor now. What is behind the eye nobody can lead.
@@ -54,6 +66,7 @@ void ToolPointer::follow(const PointerInput& input, const Camera& camera, double
   if (held_ && moved_ && input.follows) grip_anew(input, camera);
   buttons_ = held_ ? input.buttons : 0;
   if (!held_) return;
+  land(seconds);
   move(input, camera);
   if (const double by = input.turn.norm(); by > 0) {
     const Vec3 axis = camera.axes().transpose() * input.turn / by;

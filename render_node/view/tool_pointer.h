@@ -6,8 +6,9 @@
 //
 //   p = eye + (s(c) + d) r(c),    c = cursor + g,    d := d + step (wheel towards the scene)
 //
-//   r(c) the ray of pixel c, 1 deep;  s(c) depth of the surface there;  g = 0 and d = 0 where it is taken, and such that p
-//   stays where the camera has moved
+//   r(c) the ray of pixel c, 1 deep;  s(c) depth of the surface there;  g = 0 where it is taken, and such that p stays where the
+//   camera has moved;  d = -lift where it is taken on a surface, from where it comes down to 0 by itself: tissue feels a tool
+//   that comes from outside, and that may have lain in it before
 //
 // No window and no keys in here: ui/ says what the person did.
 
@@ -33,6 +34,7 @@ struct PointerInput {
   bool let_go = false;
   // The surface under a pixel [m], or nothing; none at all: the tool keeps to a plane.
   std::function<std::optional<Vec3>(const Eigen::Vector2d&)> surface;
+  double lift = 0;            // how far before the surface it is taken [m]
   std::uint32_t buttons = 0;  // bit i: button i of the tool
 };
 
@@ -40,6 +42,8 @@ class ToolPointer {
  public:
   static constexpr double depth_per_notch = 0.005;  // of the distance between eye and target
   static constexpr double turn_speed = 1.0;         // [rad/s]
+  static constexpr double wait_s = 0.5;             // Why: forces come in over that time after arming
+  static constexpr double landing_s = 0.5;          // from where it is lifted down to the surface
   static constexpr double nearest = 0.02;           // before the eye, of the distance between eye and target
 
   /// @param tool  as in the scene  @param p  where it lies before it is taken [m]
@@ -60,11 +64,14 @@ class ToolPointer {
  private:
   void take(const PointerInput& input);
   void grip_anew(const PointerInput& input, const Camera& camera);
+  void land(double seconds);
   void move(const PointerInput& input, const Camera& camera);
 
   std::uint32_t tool_;
   Vec3 p_;                                                 // [m]
   double deep_ = 0;                                        // in the surface [m]
+  double lift_ = 0, lifted_ = 0;                           // where it was taken, and what is left of that [m]
+  double waits_ = 0;                                       // before it comes down [s]
   Eigen::Vector2d grip_ = Eigen::Vector2d::Zero();         // from the cursor to the tip [px]
   Eigen::Matrix4d clip_ = Eigen::Matrix4d::Zero();         // of the camera, in the last picture
   bool moved_ = false;                                     // it has moved, and p_ has not followed since

@@ -8,6 +8,7 @@
 
 #include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "render_node/ui/window.h"
 #include "tests/unit/render_node/render_support.h"
 // Last: Xlib's macros.
@@ -19,6 +20,7 @@ namespace palpate::render::test {
 struct Shown {
   Shown(const std::string& title, int width, int height, bool pointed) : scene(small_scene()) {
     scene.title = title;
+    scene.tools[0].radius = 1e-9;  // it is not lifted before it is put down
     scene.render->size_px = {width, height};
     scene.render->show_panels = true;
     model.emplace(scene);

@@ -13,6 +13,7 @@
 #include "common/error/error.h"
 #include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "tests/unit/render_node/render_support.h"
 // Last: Xlib's macros.
 #include "tests/unit/render_node/ui/shown_window.h"
@@ -52,6 +53,7 @@ TEST(Window, ShowsTheBodyAndThePanels) {
 TEST(Window, LeadsAToolWithMouseWheelAndKeys) {
   Scene scene = test::small_scene();
   scene.title = "Led by mouse";
+  scene.tools[0].radius = 1e-9;  // it is not lifted before it is put down
   scene.render->size_px = {960, 540};
   scene.render->show_panels = true;
   ViewModel model(scene);

@@ -184,6 +184,36 @@ TEST(ToolPointer, IsPlacedWhereOneClicksAndPressesFromThereOn) {
   EXPECT_FALSE(pointer.held());
 }
 
+/// However seldom a picture comes, it comes down in steps, and waits until forces are on.
+TEST(ToolPointer, ComesDownOnTheSurfaceFromWhereItIsLifted) {
+  const Camera camera = camera_at(0, 0);
+  for (const double seconds : {0.01, 0.1, 2.0}) {
+    ToolPointer pointer(0, {0, 0, 0});
+    auto input = cursor_at(640, 360);
+    input.place = true;
+    input.lift = 0.02;
+    input.surface = [&](const Eigen::Vector2d& pixel) { return std::optional(camera.at(pixel, 0.4)); };
+    pointer.follow(input, camera, seconds);
+    input.place = false;
+    double before = camera.depth(pointer.position()), passed = std::min(seconds, 0.1), most = 0;
+    EXPECT_NEAR(before, 0.38, 1e-12);
+    while (passed < 1.2) {
+      pointer.follow(input, camera, seconds);
+      passed += std::min(seconds, 0.1);
+      const double now = camera.depth(pointer.position());
+      EXPECT_GE(now, before - 1e-12);
+      EXPECT_TRUE(passed > ToolPointer::wait_s - 1e-9 || std::abs(now - 0.38) < 1e-12);
+      most = std::max(most, now - before);
+      before = now;
+    }
+    EXPECT_NEAR(before, 0.4, 1e-12);
+    EXPECT_LE(most, 0.02 / ToolPointer::landing_s * 0.1 + 1e-12);
+    input.place = true;
+    pointer.follow(input, camera, seconds);
+    EXPECT_NEAR(camera.depth(pointer.position()), 0.38, 1e-12) << "placed again it comes from outside again";
+  }
+}
+
 /// A view from another side shows other tissue under the cursor: to follow that would lead the tool through the body.
 TEST(ToolPointer, StaysWhenTheViewJumpsAndGoesOnFromThere) {
   Camera camera = camera_at(0, 0, 308);
