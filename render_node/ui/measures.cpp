@@ -11,8 +11,8 @@ namespace palpate::render {
 namespace {
 
 constexpr ImU32 ink = IM_COL32(26, 33, 43, 255);
-constexpr std::array<ImU32, 3> axis_colours = {IM_COL32(176, 42, 36, 255), IM_COL32(32, 120, 52, 255),
-                                               IM_COL32(38, 76, 168, 255)};
+constexpr std::array<ImU32, 3> world_axis_colours = {IM_COL32(176, 42, 36, 255), IM_COL32(32, 120, 52, 255),
+                                                     IM_COL32(38, 76, 168, 255)};
 
 void draw_scale_bar(const Camera& camera, float left, float scale) {
   const ImVec2 picture = ImGui::GetIO().DisplaySize;
@@ -40,7 +40,7 @@ void draw_axes(const Camera& camera, float left, float scale) {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   for (const int axis : order) {
     if (axes.col(axis).head<2>().norm() < 0.25F) continue;  // it points at the viewer, or away
-    const ImU32 colour = axis_colours[static_cast<std::size_t>(axis)];
+    const ImU32 colour = world_axis_colours[static_cast<std::size_t>(axis)];
     const ImVec2 along = {length * axes(0, axis), -length * axes(1, axis)};
     list.AddLine(root, {root.x + along.x, root.y + along.y}, colour, 2.5F * scale);
     static constexpr std::array<const char*, 3> names = {"x", "y", "z"};
