@@ -91,10 +91,10 @@ class FeelByMouse : public testing::Test {
   std::unique_ptr<render::test::WindowHand> hand_at_the_window() {
     const auto end = std::chrono::steady_clock::now() + test::patience;
     while (!fs::exists(folder / "out"))  // it wants the ports of its domain for itself until it has begun
-      if (std::chrono::steady_clock::now() > end) return nullptr;
+      if (status != running || std::chrono::steady_clock::now() > end) return nullptr;
     wire = std::make_unique<Wire>();
     for (bool shown = false, ready = false; !shown || !ready; std::this_thread::sleep_for(20ms)) {
-      if (std::chrono::steady_clock::now() > end) return nullptr;
+      if (status != running || std::chrono::steady_clock::now() > end) return nullptr;
       for (NodeStatus node; wire->statuses.take(node);) {
         shown =
             shown || (node.node == NodeKind::render && node.phase == NodePhase::running && node.ticks > 2);
