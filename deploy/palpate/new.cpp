@@ -134,7 +134,9 @@ void write_new(const NewOptions& options) {
       "mm\n",
       touch.t, mm_from_m(touch.at.x()), mm_from_m(touch.at.y()), mm_from_m(touch.at.z()),
       mm_from_m(plan.depth), mm_from_m(tissue.tip_radius));
-  fmt::print("speed        about {:.2g} x real time on one thread, without contact\n", plan.real_time_factor);
+  fmt::print("speed        about {:.2g} x real time on one thread while it presses{}\n",
+             plan.real_time_factor,
+             plan.real_time_factor < 1 ? ": in slow motion, since so small cells take short steps" : "");
   fmt::print("scene        {}; palpate simulate {} computes it\n", options.out, options.out);
 }
 

@@ -18,7 +18,7 @@ struct PressPlan {
   std::array<int, 3> center_voxel{};  // as the image counts
   int radius_voxels = 0;              // of the region that moves
   int n_moving = 0;                   // cells in it
-  double real_time_factor = 0;        // forecast, on one thread
+  double real_time_factor = 0;        // forecast, on one thread, pressed
 };
 
 /// @throws InputError  no region both moves and is held by tissue around it

@@ -75,8 +75,8 @@ keep       = [{:.6g}, {:.6g}]          # {}
 largest_component = true               # what is apart from the largest piece is left out
 at_mm      = [0, 0, 0]
 material   = "soft"
-# {} cells around the place move and the rest is rigid and holds them: {:.2g} times real time by forecast on one
-# thread, without contact. A larger radius is truer and slower: palpate info says what it takes.
+# {} cells around the place move and the rest is rigid and holds them: {:.2g} times real time by forecast, pressed, on
+# one thread. A larger radius is truer and slower; palpate info forecasts it without contact.
 deformable = {{ center_voxel = [{}, {}, {}], radius_voxels = {} }}
 )",
       in_quotes(file), tissue.partition[0], tissue.partition[1], tissue.partition[2],
