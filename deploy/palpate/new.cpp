@@ -91,16 +91,17 @@ TouchPlace place_of(const NewOptions& options, const ImageTissue& tissue) {
       options.at_mm[0], options.at_mm[1], options.at_mm[2], mm_from_m(tissue.tip_radius)));
 }
 
-/// A scene that is written has nothing to be remarked on, and its finger touches.
-physics::FirstTouch tried(const std::string& text, const std::string& path) {
+/// A scene that is written has nothing to be remarked on, and its finger touches where that is planned, give or take a cell.
+physics::FirstTouch tried(const std::string& text, const std::string& path, const TouchPlace& place,
+                          double cell) {
   const Scene scene = parse_scene(text, path);
   const physics::World world(scene);
   std::vector<std::string> remarks = world.remarks();
   for (auto& line : physics::remarks_about(world)) remarks.push_back(std::move(line));
   if (!remarks.empty()) throw InputError(remarks);
-  if (const auto touch = physics::first_touch(world.scene(), {&world.body(0)}, world.scene().tools[0]))
-    return *touch;
-  throw std::runtime_error(path + ": its path would miss the tissue; give another place by --at x,y,z");
+  const auto touch = physics::first_touch(world.scene(), {&world.body(0)}, world.scene().tools[0]);
+  if (touch && (touch->at - place.at).norm() <= cell) return *touch;
+  throw std::runtime_error(path + ": its path would miss the place; give another by --at x,y,z");
 }
 
 void write_text(const std::string& text, const std::string& path) {
@@ -123,7 +124,7 @@ void write_new(const NewOptions& options) {
       keep ? "as given by --keep"
            : fmt::format("halfway between air and tissue by the histogram, and what is brighter");
   const std::string text = scene_draft(named_from(options.volume, options.out), words, tissue, place, plan);
-  const physics::FirstTouch touch = tried(text, options.out);
+  const physics::FirstTouch touch = tried(text, options.out, place, tissue.cells.spacing.norm());
   write_text(text, options.out);
   fmt::print(
       "tissue       intensity {:g} to {:g}, in cells of {:.3g} x {:.3g} x {:.3g} mm, {} of which move\n",

@@ -93,6 +93,19 @@ TEST(Info, SaysWhatASceneHolds) {
   }
 }
 
+/// From z = 30 to 8 mm in 3 s: the face at 10 mm is met after 20 / 22 of that. A path that ends above it never meets it.
+TEST(Info, SaysWhenAPathTouchesOrThatItNeverDoes) {
+  const test::TemporaryFolder folder;
+  std::string held = cube_with("name = \"finger\"");
+  held.insert(held.find("material = \"gel\""), "fixed = [\"-z\"]\n");
+  folder.write("held.toml", held);
+  EXPECT_THAT(info_scene((folder / "held.toml").string()),
+              HasSubstr("touch        finger meets cube after 2.727 s at (0, 0, 10) mm\n"));
+  folder.write("above.toml", held.replace(held.find("[3, 0, 0, 8]"), 12, "[3, 0, 0, 11]"));
+  EXPECT_THAT(info_scene((folder / "above.toml").string()),
+              HasSubstr("touch        finger: its path never meets a body at rest\n"));
+}
+
 /// What physics would refuse is refused, and not a remark below figures of a scene that cannot run.
 TEST(Info, RefusesASceneThatPhysicsCouldNotLoad) {
   const test::TemporaryFolder folder;
