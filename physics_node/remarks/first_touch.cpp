@@ -161,7 +161,7 @@ std::optional<FirstTouch> first_touch(const Scene& scene, const Bodies& bodies, 
   std::vector<std::pair<std::size_t, SurfaceBins>> others;
   double finest = std::numeric_limits<double>::infinity(), length = 0;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    if (tool.shape == ToolShape::body && scene.bodies[b].name == tool.body) continue;
+    if (is_tool(scene, bodies[b]->body())) continue;  // a hand leads it elsewhere
     others.emplace_back(b, SurfaceBins(*bodies[b]));
     finest = std::min(finest, others.back().second.side());
   }

@@ -85,6 +85,27 @@ TEST(FirstTouch, OfARodIsThatOfItsSide) {
   EXPECT_NEAR(touch->t, 0.5, 0.02);
 }
 
+/// Where another hand has led it by then is not its place at rest.
+TEST(FirstTouch, IsNotThatOfAnotherTool) {
+  const auto touch = touch_of(block_and("radius_mm = 8", "[[0, 0, 0, 80], [1, 0, 0, 5]]", R"(
+[[tool]]
+name = "knife"
+shape = "knife"
+device = "other"
+material = "soft"
+spacing_mm = 4
+length_mm = 24
+height_mm = 16
+at_mm = [-12, 0, 40]
+[device.other]
+driver = "simulated"
+waypoints = [[0, -12, 0, 40], [1, -12, 0, 45]]
+)"));
+  ASSERT_TRUE(touch);
+  EXPECT_EQ(touch->body, 0U);
+  EXPECT_NEAR(touch->t, 65.0 / 75, 1e-6);
+}
+
 TEST(FirstTouch, IsNotKnownOfWhatFliesOrTurns) {
   const std::string down = "[[0, 0, 0, 25], [1, 0, 0, 12]]";
   for (const std::string& text :
