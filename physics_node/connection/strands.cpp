@@ -11,6 +11,14 @@ namespace palpate::physics {
 namespace {
 
 constexpr double least_length = 0.1;  // of the reach
+constexpr double least_way = 1e-6;    // of the reach, for a strand to have a direction
+constexpr double least_area = 1e-3;   // of that around a vertex: strands along the surface stand for none
+
+/// As much of an area as shows along a strand: at the rim of a body the sides do not count.
+double seen_along(const Vec3& area, const Vec3& way, double reach) {
+  const double length = way.norm();
+  return length > least_way * reach ? std::abs(area.dot(way)) / length : area.norm();
+}
 
 /// The place of a triangle nearest to p, as shares of its corners.
 /// Source: Ericson, Real-time collision detection, 5.1.5.
@@ -50,12 +58,11 @@ std::vector<Triangle> moving_triangles(const Surface& surface) {
   return triangles;
 }
 
-/// A third of the triangles around each moving vertex [m^2].
-std::vector<double> areas_of_vertices(const Surface& surface, const std::vector<Triangle>& triangles) {
-  std::vector<double> areas(surface.n_moving());
+/// A third of the triangles around each moving vertex, with their normals [m^2].
+std::vector<Vec3> areas_of_vertices(const Surface& surface, const std::vector<Triangle>& triangles) {
+  std::vector<Vec3> areas(surface.n_moving(), Vec3::Zero());
   for (const auto& [a, b, c] : triangles) {
-    const double area =
-        0.5 * (surface.rest[b] - surface.rest[a]).cross(surface.rest[c] - surface.rest[a]).norm();
+    const Vec3 area = 0.5 * (surface.rest[b] - surface.rest[a]).cross(surface.rest[c] - surface.rest[a]);
     for (const std::uint32_t v : {a, b, c}) areas[v] += area / 3;
   }
   return areas;
@@ -79,6 +86,7 @@ class TriangleGrid {
   struct Foot {
     std::size_t triangle = 0;
     std::array<double, 3> share{};
+    Vec3 at = Vec3::Zero();
     double distance = 0;
   };
   /// The nearest place within reach; of two as near that of the earlier triangle.
@@ -92,10 +100,11 @@ class TriangleGrid {
         const auto& [a, b, c] = triangles_[t];
         const Vec3 &xa = surface_.rest[a], &xb = surface_.rest[b], &xc = surface_.rest[c];
         const auto share = nearest_shares(p, xa, xb, xc);
-        const double distance = (share[0] * xa + share[1] * xb + share[2] * xc - p).norm();
+        const Vec3 at = share[0] * xa + share[1] * xb + share[2] * xc;
+        const double distance = (at - p).norm();
         if (distance > reach_) continue;
         if (!best || distance < best->distance || (distance == best->distance && t < best->triangle))
-          best = Foot{t, share, distance};
+          best = Foot{t, share, at, distance};
       }
     }
     return best;
@@ -124,12 +133,14 @@ std::vector<Strand> make_strands(const ConnectionSpec& spec, const Surface& from
   std::vector<Strand> strands;
   for (std::size_t v = 0; v < from.n_moving(); ++v) {
     const auto foot = grid.nearest(from.rest[v]);
-    if (!foot || areas[v] <= 0) continue;
+    if (!foot) continue;
+    const double area = seen_along(areas[v], foot->at - from.rest[v], spec.within);
+    if (area <= least_area * areas[v].norm()) continue;
     Strand strand;
     strand.node = from.cell[v];
     for (std::size_t c = 0; c < 3; ++c) strand.foot[c] = to.cell[others[foot->triangle][c]];
     strand.share = foot->share;
-    strand.area = areas[v];
+    strand.area = area;
     strand.length = std::max(foot->distance, least_length * spec.within);
     strand.k = spec.modulus * strand.area / strand.length;
     strand.most_longer = spec.toughness > 0 ? std::sqrt(2 * spec.toughness * strand.area / strand.k)

@@ -16,7 +16,7 @@ struct Strand {
   Index node = 0;                 // of the first body
   std::array<Index, 3> foot{};    // nodes of the second
   std::array<double, 3> share{};  // of the foot's place: at least 0, 1 in all
-  double area = 0;                // [m^2]
+  double area = 0;                // a third of the triangles around its node, as much as shows along it [m^2]
   double length = 0;              // at rest [m]
   double k = 0;                   // [N/m]
   double most_longer = 0;         // at which it tears; infinite: never [m]

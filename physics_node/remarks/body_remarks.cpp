@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/scene/body_spec.h"
+#include "common/scene/connection_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/surroundings_spec.h"
 #include "physics_node/material/lame.h"
@@ -18,6 +19,13 @@ namespace {
 
 std::string who(const Scene& scene, std::size_t b) {
   return fmt::format("{}: body \"{}\"", scene.bodies[b].place.text(), scene.bodies[b].name);
+}
+
+/// By a connection, whatever holds the other.
+bool is_joined(const Scene& scene, const std::string& body) {
+  return std::ranges::any_of(scene.connections, [&](const ConnectionSpec& connection) {
+    return connection.from == body || connection.to == body;
+  });
 }
 
 bool anything_moves(const Scene& scene) {
@@ -41,7 +49,7 @@ void add_holds(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
         remarks.push_back(who(scene, b) +
                           ": a box of \"fixed\" holds none of its masses; lengths are in millimetres");
     }
-    if (body.n_held > 0) continue;
+    if (body.n_held > 0 || is_joined(scene, spec.name)) continue;
     if (falls_for_ever(scene))
       remarks.push_back(
           who(scene, b) +

@@ -59,6 +59,8 @@ TEST(Surface, OfTheFloorKeepsItsBooks) {
     recipe.material += material;
     recipe.body = "velocity_m_per_s = [0, 0, -0.5]";
     recipe.gravity = "[0, 0, -9.81]";
+    recipe.physics =
+        "safety = 0.4";  // undamped 4 % at 0.9: the step is short by the bound, and the trapezoid errs by its square
     recipe.world = floor_at(-15);
     World world(scene_of(recipe));
     double up = -HUGE_VAL, down = 0;
@@ -79,26 +81,29 @@ TEST(Surface, OfTheFloorKeepsItsBooks) {
   }
 }
 
-/// The pressure of a bag that lies on the floor bears its weight at the least.
-TEST(Surface, HoldsACubeThatFallsOnIt) {
+/// Until it slides off, as nothing rubs.
+TEST(Surface, BearsACubeThatFallsOnIt) {
   Recipe recipe = bag({6, 6, 3}, "pressure_kPa = 1\ncontent_modulus_kPa = 20\n");
   recipe.material += "\nviscosity_Pa_s = 5\ndrag_N_s_per_m = 1e-3";
   recipe.body = "fixed = [\"-z\"]";
   recipe.gravity = "[0, 0, -9.81]";
   recipe.world =
-      "[material.soft]\ndensity_kg_per_m3 = 1000\nmodulus_kPa = 20\nviscosity_Pa_s = 20\n[[body]]\nname = "
-      "\"cube\"\nlattice = \"voxel\"\nmodel = \"fem\"\nspacing_mm = 5\nmaterial = \"soft\"\nshape = "
-      "\"box\"\nsize_mm = [15, 15, 15]\nat_mm = [0, 0, 20]\n";
+      "[contact]\ncount_passages = true\n[material.soft]\ndensity_kg_per_m3 = 1000\nmodulus_kPa = "
+      "20\nviscosity_Pa_s = 20\n[[body]]\nname = \"cube\"\nlattice = \"voxel\"\nmodel = \"fem\"\nspacing_mm "
+      "= "
+      "5\nmaterial = \"soft\"\nshape = \"box\"\nsize_mm = [15, 15, 15]\nat_mm = [0, 0, 20]\n";
   World world(scene_of(recipe));
-  for (int n = 0; n < 1500; ++n) world.frame({});
-  double lowest = HUGE_VAL, mean = 0;
   const BodyModel& cube = world.body(1);
-  for (const Index node : cube.body().nodes()) {
-    lowest = std::min(lowest, cube.position(node).z());
-    mean += cube.position(node).z() / cube.body().n_nodes();
+  double lowest = HUGE_VAL, speed = 0;
+  for (int n = 0; n < 250; ++n) {
+    world.frame({});
+    for (const Index node : cube.body().nodes()) lowest = std::min(lowest, cube.position(node).z());
+    if (n > 150) speed = std::max(speed, cube.momenta().linear.norm() / 3.375e-3);
   }
   EXPECT_GT(lowest, 0.003) << "of a bag that is 7.5 mm high";
-  EXPECT_LT(mean, 0.0180) << "it has fallen on it";
+  EXPECT_LT(lowest, 0.010) << "it has fallen on it";
+  EXPECT_LT(speed, 0.1) << "free fall would be 2 m/s by then";
+  EXPECT_EQ(world.collisions()->tally().passages, 0);
   EXPECT_GT(world.collisions()->tally().collisions, 0);
   EXPECT_EQ(world.report().restored, 0);
   EXPECT_LT(world.ledger().balance_error(), 0.02);

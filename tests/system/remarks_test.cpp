@@ -54,6 +54,10 @@ TEST_F(RemarksOfScenes, ThatComeAlongAreAsExpected) {
               " --keep 85,85 --tetrahedra-mm 4 --largest --out " + test::quoted(data + "/gall_bladder.h5")),
       0)
       << log;
+  ASSERT_EQ(palpate(std::string("import ") + test::quoted(LIVER) +
+                    " --keep 255,255 --tetrahedra-mm 17 --out " + test::quoted(data + "/liver_coarse.h5")),
+            0)
+      << log;
   int scenes = 0;
   for (const auto& entry : fs::directory_iterator(folder / "scenes")) {
     if (entry.path().extension() != ".toml") continue;

@@ -181,6 +181,28 @@ TEST_F(ShippedScenes, AGallBladderOfAnImageIsPressed) {
   EXPECT_TRUE(summary["warnings"].empty()) << summary["warnings"];
 }
 
+/// Forceps free the gall bladder: all of its bed tears, as one piece, and the liver stays.
+TEST_F(ShippedScenes, AGallBladderIsPulledOffItsLiver) {
+  ASSERT_TRUE(fs::exists(LIVER)) << "fetch it with deploy/fetch_liver.sh";
+  const std::string liver = (folder / "liver.h5").string(), bag = (folder / "bag.h5").string();
+  const std::string image = "import " + test::quoted(LIVER);
+  ASSERT_EQ(palpate(image + " --keep 255,255 --tetrahedra-mm 17 --out " + test::quoted(liver)), 0) << log;
+  ASSERT_EQ(palpate(image + " --keep 85,85 --tetrahedra-mm 4 --largest --out " + test::quoted(bag)), 0)
+      << log;
+  const auto summary = simulate("blunt_dissection", "--set body.liver.file=" + test::quoted(liver) +
+                                                        " --set body.gall_bladder.file=" + test::quoted(bag));
+  const auto& bed = summary["connections"]["bed"];
+  EXPECT_GT(bed["strands"].get<int>(), 100);
+  EXPECT_EQ(bed["torn"], bed["strands"]);
+  EXPECT_EQ(bed["pull"].get<double>(), 0);
+  const auto& forceps = summary["tools"]["forceps"];
+  EXPECT_GT(forceps["force_peak"].get<double>(), 0.5);
+  EXPECT_LT(forceps["force_peak"].get<double>(), 3) << "the grip";
+  EXPECT_LT(forceps["felt_off_rms"].get<double>(), 0.15);
+  EXPECT_LT(summary["energy"]["balance_error"].get<double>(), 0.01);
+  EXPECT_TRUE(summary["warnings"].empty()) << summary["warnings"];
+}
+
 /// Rows of a tool's CSV: t, x, y, z, fx, fy, fz.
 std::vector<std::array<double, 7>> read_trace(const fs::path& file) {
   std::vector<std::array<double, 7>> rows;
