@@ -36,7 +36,7 @@ ConnectionSpec read_connection(TableReader& reader, ReadContext& context) {
   set_if(spec.within, reader.read_length_mm("within_mm"));
   if (const auto kPa = reader.read_number("modulus_kPa", {.lo = 0, .hi = 1e6, .without_lo = true}))
     spec.modulus = Pa_from_kPa(*kPa);
-  set_if(spec.toughness, reader.read_number("toughness_J_per_m2", positive));
+  set_if(spec.toughness, reader.read_number("toughness_J_per_m2", not_negative));
   if (context.scene.physics->integrator == Integrator::backward_euler)
     reader.complain("name",
                     fmt::format("{} is not among what \"backward_euler\" solves for; leave \"integrator\" in "

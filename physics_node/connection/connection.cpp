@@ -1,11 +1,35 @@
 #include "physics_node/connection/connection.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "common/math/state_hash.h"
 
 namespace palpate::physics {
+
+namespace {
+
+/// What a strand takes that has passed what it holds since the last step.
+struct Tear {
+  double pulled = 0;  // in that step, by where it was before: U + F / 2 times its way [J]
+  double impulse =
+      0;  // between its ends, for what that lacks of its toughness: J r - w J^2 / 2 of what moves them apart at r [N s]
+  double by_impulse = 0;  // [J]
+};
+/// @param apart  r, its rate [m/s]  @param w  inverse mass between its ends [1/kg]
+Tear tear_of(const Strand& strand, double longer, double apart, double w, double dt_before) noexcept {
+  Tear tear;
+  const double before = std::max(0.0, longer - dt_before * std::max(0.0, apart));
+  tear.pulled = 0.5 * strand.k * before * longer;
+  const double lacks = 0.5 * strand.k * strand.most_longer * strand.most_longer - tear.pulled;
+  if (!(apart > 0) || !(w > 0) || !(lacks > 0)) return tear;
+  tear.impulse = (apart - std::sqrt(std::max(0.0, apart * apart - 2 * w * lacks))) / w;
+  tear.by_impulse = tear.impulse * apart - 0.5 * w * tear.impulse * tear.impulse;
+  return tear;
+}
+
+}  // namespace
 
 Connection::Connection(std::vector<Strand> strands, BodyModel& from, BodyModel& to)
     : strands_(std::move(strands)),
@@ -36,24 +60,35 @@ void Connection::find_forces(double dt) noexcept {
   on_from_.clear();
   on_to_.clear();
   watched_ = pull_ = 0;
+  const auto pull = [&](const Strand& strand, const Vec3& force) {
+    pull_ += force.norm();
+    on_from_.push_back({strand.node, force});
+    for (std::size_t c = 0; c < 3; ++c)
+      if (strand.share[c] > 0) on_to_.push_back({strand.foot[c], -strand.share[c] * force});
+  };
+  const auto inverse_mass = [](const BodyModel& body, Index node) {
+    return body.body().inverse_mass[static_cast<std::size_t>(node)];
+  };
   for (std::size_t s = 0; s < strands_.size(); ++s) {
     if (torn_[s] != 0) continue;
     const Strand& strand = strands_[s];
     const Now at = now(strand);
     if (at.longer <= 0) continue;
-    const double held = 0.5 * strand.k * at.longer * at.longer;
-    if (at.longer >= strand.most_longer) {
-      torn_[s] = 1;
-      ++n_torn_;
-      broken_ += held;
+    if (at.longer < strand.most_longer) {
+      const Vec3 force = strand.k * at.longer * at.u;
+      watched_ += 0.5 * strand.k * at.longer * at.longer + 0.5 * dt * power(strand, force);
+      pull(strand, force);
       continue;
     }
-    const Vec3 force = strand.k * at.longer * at.u;
-    pull_ += force.norm();
-    watched_ += held + 0.5 * dt * power(strand, force);
-    on_from_.push_back({strand.node, force});
+    double w = inverse_mass(*from_, strand.node);
     for (std::size_t c = 0; c < 3; ++c)
-      if (strand.share[c] > 0) on_to_.push_back({strand.foot[c], -strand.share[c] * force});
+      w += strand.share[c] * strand.share[c] * inverse_mass(*to_, strand.foot[c]);
+    const Tear tear = tear_of(strand, at.longer, -power(strand, at.u), w, dt_before_);
+    torn_[s] = 1;
+    ++n_torn_;
+    broken_ += tear.pulled + tear.by_impulse;
+    watched_ -= tear.by_impulse;  // which bodies lose in this step
+    if (tear.impulse > 0) pull(strand, tear.impulse / dt * at.u);
   }
   dt_before_ = dt;
 }

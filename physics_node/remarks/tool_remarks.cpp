@@ -8,6 +8,7 @@
 
 #include "common/scene/body_spec.h"
 #include "common/scene/device_spec.h"
+#include "common/scene/force_model.h"
 #include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
@@ -154,6 +155,17 @@ void add_tiny(const Scene& scene, const Bodies& bodies, const ToolSpec& tool, Re
   }
 }
 
+/// Planes through a sheet of springs turn with every spring that folds.
+void add_buzzing(const Scene& scene, const Bodies& bodies, const ToolSpec& tool, Remarks& found) {
+  if (tool.shape != ToolShape::point || force_model_of(tool) == ForceModel::tissue) return;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (is_surface_of_springs(bodies[b]->body()))
+      found.push_back(fmt::format(
+          "{}: tool \"{}\" feels planes, which shake on a surface of springs such as body \"{}\"; write "
+          "force_model = \"tissue\"",
+          tool.place.text(), tool.name, scene.bodies[b].name));
+}
+
 /// Jaws between whose masses there is room for them.
 void add_empty_jaws(const Scene& scene, const Bodies& bodies, const ToolSpec& tool, Remarks& found) {
   if (tool.shape != ToolShape::forceps) return;
@@ -173,6 +185,7 @@ Remarks tool_remarks(const Scene& scene, const Bodies& bodies) {
   for (const ToolSpec& tool : scene.tools) {
     add_tiny(scene, bodies, tool, all);
     add_empty_jaws(scene, bodies, tool, all);
+    add_buzzing(scene, bodies, tool, all);
   }
   for (const ToolSpec& tool : scene.tools)
     for (auto& remark : ToolLook(scene, bodies, tool).remarks()) all.push_back(std::move(remark));

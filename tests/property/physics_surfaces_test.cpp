@@ -9,6 +9,7 @@
 #include "common/error/error.h"
 #include "common/message/vec3.h"
 #include "common/scene/scene.h"
+#include "physics_node/remarks/remarks.h"
 #include "physics_node/world.h"
 #include "tests/support/physics/mesh_worlds.h"
 #include "tests/support/physics/pressed_world.h"
@@ -81,6 +82,26 @@ TEST(Surface, OfTheFloorKeepsItsBooks) {
   }
 }
 
+/// A bag that its pressure sets swinging, and nothing else: what it turns over is what that gives.
+TEST(Surface, SwingsUnderItsPressureAlone) {
+  for (const char* precision : {"single", "double"}) {
+    Recipe recipe = bag({4, 4, 4}, "pressure_kPa = 0.5\n");
+    recipe.precision = precision;
+    World world(scene_of(recipe));
+    double least = HUGE_VAL, most = 0;
+    for (int n = 0; n < 300; ++n) {
+      world.frame({});
+      const EnergyLedger ledger = world.ledger();
+      least = std::min(least, ledger.elastic), most = std::max(most, ledger.kinetic);
+    }
+    EXPECT_EQ(world.report().restored, 0) << precision;
+    EXPECT_FALSE(world.has_stopped());
+    EXPECT_GT(most, 1e-6) << "it swings";
+    EXPECT_GE(least, 0);
+    EXPECT_LT(world.ledger().balance_error(), 0.05) << "undamped, at the longest step";
+  }
+}
+
 /// Until it slides off, as nothing rubs.
 TEST(Surface, BearsACubeThatFallsOnIt) {
   Recipe recipe = bag({6, 6, 3}, "pressure_kPa = 1\ncontent_modulus_kPa = 20\n");
@@ -107,6 +128,17 @@ TEST(Surface, BearsACubeThatFallsOnIt) {
   EXPECT_GT(world.collisions()->tally().collisions, 0);
   EXPECT_EQ(world.report().restored, 0);
   EXPECT_LT(world.ledger().balance_error(), 0.02);
+}
+
+TEST(Surface, FeltByPlanesIsRemarkedOn) {
+  Recipe recipe = bag({4, 4, 4});
+  recipe.body = "fixed = [\"-z\"]";
+  recipe.world = point_tool(5);
+  EXPECT_THAT(remarks_about(World(scene_of(recipe))),
+              testing::Contains(HasSubstr("feels planes, which shake on a surface of springs")));
+  const std::string planes = "\"norton\"";
+  recipe.world.replace(recipe.world.find(planes), planes.size(), "\"tissue\"");
+  EXPECT_THAT(remarks_about(World(scene_of(recipe))), testing::Not(testing::Contains(HasSubstr("planes"))));
 }
 
 TEST(Surface, IsRefusedWhatItDoesNotFollow) {

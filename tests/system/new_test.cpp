@@ -86,7 +86,9 @@ class New : public CommandRun {
     }
     EXPECT_NEAR(deepest, press.depth, 0.02 * press.depth);
     EXPECT_GT(most, 0);
-    EXPECT_NEAR(first, said, 0.05);
+    // A corner of a cell may be met before a sample of a face is: within a third of the way in, which takes a second.
+    EXPECT_GT(first, said - 0.05);
+    EXPECT_LT(first, said + 0.34);
     const auto summary = read_json((folder / "out" / "summary.json").string());
     EXPECT_GT(summary["tools"]["finger"]["contacts_max"].get<int>(), 0);
     EXPECT_EQ(summary["guard"]["nonfinite"].get<int>(), 0);

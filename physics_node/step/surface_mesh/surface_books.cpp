@@ -63,14 +63,20 @@ void SurfaceSprings<Real>::forget() noexcept {
   dt_before_ = 0;
 }
 
-/// Of its springs, and of what it is filled with: - p_0 (V - V_0) + K (V - V_0)^2 / (2 V_0).
+/// Of its springs, and of what resists in it: K (V - V_0)^2 / (2 V_0).
 template <class Real>
 double SurfaceSprings<Real>::elastic() const noexcept {
   double sum = 0;
   for (const double part : elastic_) sum += part;
   if (!is_filled()) return sum;
   const double more = volume_ - rest_volume_;
-  return sum - membrane_.pressure * more + 0.5 * membrane_.content_modulus * more * more / rest_volume_;
+  return sum + 0.5 * membrane_.content_modulus * more * more / rest_volume_;
+}
+
+/// What p_0 has given. It stays whatever the bag does, as weight does, and is booked as that is: a bag that swells turns it over.
+template <class Real>
+double SurfaceSprings<Real>::given_by_pressure() const noexcept {
+  return is_filled() ? membrane_.pressure * (volume_ - rest_volume_) : 0;
 }
 
 template <class Real>
@@ -78,6 +84,7 @@ Energies SurfaceSprings<Real>::energies(const Vec3& gravity) noexcept {
   look({});
   Energies e;
   e.elastic = elastic();
+  e.gravitational = -given_by_pressure();
   double power = 0;
   for (std::size_t n = 0; n < n_nodes(); ++n) {
     if (inverse_mass_[n] == 0) continue;

@@ -227,6 +227,9 @@ void SurfaceSprings<Real>::book(const ExplicitStep& step) noexcept {
   viscous_ = passed_;
   watch_ = {};
   watch_.elastic = elastic();
+  watch_.fallen_before = given_by_pressure();
+  if (membrane_.pressure != 0) look_at_volume(step);  // where it is now
+  watch_.fallen = given_by_pressure();
   double speed2 = 0;
   Fastest fastest;
   for (const Ledger& part : ledger_) {

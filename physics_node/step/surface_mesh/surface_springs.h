@@ -14,7 +14,7 @@ namespace palpate::physics {
 
 /// Symplectic Euler, and its energy is that of the leapfrog: see lattice/element_step.h. The damper and the drag are
 /// booked by their forces on the nodes at either end of a step, which is exact; what that would give in place of taking
-/// is `numerical`.
+/// is `numerical`. What the pressure at rest gives counts with what gravity gives.
 /// Cost of a step: a pass over springs, one over nodes and their springs; where it is filled, triangles twice.
 template <class Real>
 class SurfaceSprings {
@@ -115,6 +115,7 @@ class SurfaceSprings {
   void book(const ExplicitStep& step) noexcept;
   void look(const ExplicitStep& step) noexcept;
   double elastic() const noexcept;
+  double given_by_pressure() const noexcept;
   std::size_t n_nodes() const noexcept { return inverse_mass_.size(); }
 
   Membrane membrane_;

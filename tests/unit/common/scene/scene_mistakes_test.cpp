@@ -118,7 +118,7 @@ INSTANTIATE_TEST_SUITE_P(
          "\"radius_mm\" in [[body]] \"ball\" is 0; write a number above 0"},
         {"lattice = \"fcc\"", "lattice = \"bcc\"", "40:11", "write \"fcc\" or \"voxel\""},
         {"lattice = \"fcc\"", "lattice = \"fcc\"\nmodel = \"bricks\"", "41:9",
-         "write \"springs\" or \"fem\""},
+         "write \"springs\", \"fem\" or \"surface\""},
         {"lattice = \"voxel\"", "lattice = \"voxel\"\nmodel = \"fem\"", "52:9",
          "is stepped by symplectic Euler or backward Euler; leave \"integrator\" in [physics] out, or write "
          "\"backward_euler\""},
@@ -352,7 +352,8 @@ TEST(SceneReader, KeepsComplaintsOnOneLine) {
   EXPECT_EQ(
       complaints_about("\"a\\nb\" = 1\n").at(0),
       "s.toml:1:1: unknown key \"a b\" in the scene; known keys: \"title\", \"seed\", \"gravity_m_per_s2\", "
-      "\"scene\", \"physics\", \"material\", \"device\", \"body\", \"tool\", \"floor\", \"wall\", "
+      "\"scene\", \"physics\", \"material\", \"device\", \"body\", \"connection\", \"tool\", \"floor\", "
+      "\"wall\", "
       "\"contact\", \"render\" and \"record\"");
 }
 

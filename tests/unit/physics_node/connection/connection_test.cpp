@@ -100,6 +100,22 @@ TEST(Connection, TakesItsToughnessTimesItsAreaToTear) {
   EXPECT_EQ(world.connection(0).pull(), 0);
 }
 
+/// So stiff and fast that a step takes a strand from rest to beyond what it holds.
+TEST(Connection, TakesItsToughnessHoweverStiffAndFast) {
+  for (const char* modulus : {"modulus_kPa = 1000\n", "modulus_kPa = 100000\n"}) {
+    Recipe recipe = two_blocks("toughness_J_per_m2 = 1\n", "velocity_m_per_s = [0, 0, 4]\n", "");
+    const std::string soft = "modulus_kPa = 1\n";
+    recipe.world.replace(recipe.world.find(soft), soft.size(), modulus);
+    World world(scene_of(recipe));
+    for (int n = 0; n < 20; ++n) world.frame({});
+    EXPECT_EQ(world.connection(0).n_torn(), 25);
+    EXPECT_NEAR(world.ledger().broken, 400e-6, 0.05 * 400e-6) << modulus;
+    EXPECT_LT(world.ledger().balance_error(), 0.01) << modulus;
+    const double slower = 4 * 8e-3 - world.body(1).momenta().linear.z();
+    EXPECT_NEAR(slower * 4, 400e-6, 0.2 * 400e-6) << "half of the energy goes with one body in swinging";
+  }
+}
+
 TEST(Connection, IsAfterAResetAsItWasLoaded) {
   const Recipe recipe = (two_blocks("toughness_J_per_m2 = 0.5\n", "velocity_m_per_s = [0, 0, 0.6]\n", ""));
   World world(scene_of(recipe));

@@ -83,7 +83,8 @@ TEST(SurfaceSprings, ForceIsMinusTheGradientOfEnergy) {
         Vec3 moved = u;
         moved[axis] += d;
         sphere.springs->place(node, moved, Vec3::Zero());
-        return sphere.springs->energies(Vec3::Zero()).elastic;
+        const Energies e = sphere.springs->energies(Vec3::Zero());
+        return e.elastic + e.gravitational;
       };
       const double slope = (energy_at(h) - energy_at(-h)) / (2 * h);
       sphere.springs->place(node, u, Vec3::Zero());
@@ -162,7 +163,7 @@ TEST(SurfaceSprings, AnotherStepIsBooked) {
   const auto sum = [&] {
     const Energies e = sphere.springs->energies(Vec3::Zero());
     const Losses lost = sphere.springs->losses();
-    return e.between + e.elastic + lost.numerical;
+    return e.between + e.elastic + e.gravitational + lost.numerical;
   };
   const double before = sum(), dt = 0.1 * sphere.step_limit();
   double worst = 0;
