@@ -26,7 +26,7 @@ class Connection {
   /// Elastic energy as the ledger has it when the last step began; and now, before the next [J].
   double watched() const noexcept { return watched_; }
   double energy() const noexcept;
-  /// What strands held that have torn, since the start [J].
+  /// What torn strands have taken since the start: toughness times area, where as much moved their ends apart [J].
   double broken() const noexcept { return broken_; }
   std::int64_t n_torn() const noexcept { return n_torn_; }
   std::int64_t n_strands() const noexcept { return static_cast<std::int64_t>(strands_.size()); }
