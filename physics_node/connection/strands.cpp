@@ -7,6 +7,8 @@
 #include <optional>
 #include <unordered_map>
 
+#include "physics_node/collision/point_triangle.h"
+
 namespace palpate::physics {
 namespace {
 
@@ -20,33 +22,11 @@ double seen_along(const Vec3& area, const Vec3& way, double reach) {
   return length > least_way * reach ? std::abs(area.dot(way)) / length : area.norm();
 }
 
-/// The place of a triangle nearest to p, as shares of its corners.
-/// Source: Ericson, Real-time collision detection, 5.1.5.
-std::array<double, 3> nearest_shares(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
-  const double d1 = ab.dot(ap), d2 = ac.dot(ap), d3 = ab.dot(bp), d4 = ac.dot(bp), d5 = ab.dot(cp),
-               d6 = ac.dot(cp);
-  if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
-  if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return {1 - d1 / (d1 - d3), d1 / (d1 - d3), 0};
-  if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return {1 - d2 / (d2 - d6), 0, d2 / (d2 - d6)};
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
-    const double w = (d4 - d3) / (d4 - d3 + d5 - d6);
-    return {0, 1 - w, w};
-  }
-  const double sum = va + vb + vc;
-  return {va / sum, vb / sum, vc / sum};
-}
+using Vertices = std::array<std::uint32_t, 3>;  // of a triangle of a surface
 
-using Triangle = std::array<std::uint32_t, 3>;  // vertices of a surface
-
-std::vector<Triangle> moving_triangles(const Surface& surface) {
-  std::vector<Triangle> triangles;
-  const auto take = [&](const Triangle& t) {
+std::vector<Vertices> moving_triangles(const Surface& surface) {
+  std::vector<Vertices> triangles;
+  const auto take = [&](const Vertices& t) {
     if (std::ranges::all_of(t, [&](std::uint32_t v) { return v < surface.n_moving(); }) && t[0] != t[1] &&
         t[1] != t[2] && t[2] != t[0])
       triangles.push_back(t);
@@ -59,7 +39,7 @@ std::vector<Triangle> moving_triangles(const Surface& surface) {
 }
 
 /// A third of the triangles around each moving vertex, with their normals [m^2].
-std::vector<Vec3> areas_of_vertices(const Surface& surface, const std::vector<Triangle>& triangles) {
+std::vector<Vec3> areas_of_vertices(const Surface& surface, const std::vector<Vertices>& triangles) {
   std::vector<Vec3> areas(surface.n_moving(), Vec3::Zero());
   for (const auto& [a, b, c] : triangles) {
     const Vec3 area = 0.5 * (surface.rest[b] - surface.rest[a]).cross(surface.rest[c] - surface.rest[a]);
@@ -71,11 +51,11 @@ std::vector<Vec3> areas_of_vertices(const Surface& surface, const std::vector<Tr
 /// Triangles by the boxes of a grid that they lie in, so that those within one box of a place are few.
 class TriangleGrid {
  public:
-  TriangleGrid(const Surface& surface, const std::vector<Triangle>& triangles, double reach)
-      : surface_(surface), triangles_(triangles), reach_(reach) {
+  TriangleGrid(const Surface& surface, const std::vector<Vertices>& triangles, double reach)
+      : surface_(surface), triangles_(triangles), reach_(reach), side_(reach) {
+    for (const Vertices& t : triangles) side_ = std::max(side_, box_of(t).sizes().maxCoeff());
     for (std::size_t t = 0; t < triangles.size(); ++t) {
-      Eigen::AlignedBox3d box;
-      for (const std::uint32_t v : triangles[t]) box.extend(surface.rest[v]);
+      const Eigen::AlignedBox3d box = box_of(triangles[t]);
       const Vec3i lo = cell_of(box.min()), hi = cell_of(box.max());
       for (int k = lo.z(); k <= hi.z(); ++k)
         for (int j = lo.y(); j <= hi.y(); ++j)
@@ -85,9 +65,7 @@ class TriangleGrid {
 
   struct Foot {
     std::size_t triangle = 0;
-    std::array<double, 3> share{};
-    Vec3 at = Vec3::Zero();
-    double distance = 0;
+    ClosestPoint point;
   };
   /// The nearest place within reach; of two as near that of the earlier triangle.
   std::optional<Foot> nearest(const Vec3& p) const {
@@ -98,20 +76,23 @@ class TriangleGrid {
       if (found == cells_.end()) continue;
       for (const std::size_t t : found->second) {
         const auto& [a, b, c] = triangles_[t];
-        const Vec3 &xa = surface_.rest[a], &xb = surface_.rest[b], &xc = surface_.rest[c];
-        const auto share = nearest_shares(p, xa, xb, xc);
-        const Vec3 at = share[0] * xa + share[1] * xb + share[2] * xc;
-        const double distance = (at - p).norm();
-        if (distance > reach_) continue;
-        if (!best || distance < best->distance || (distance == best->distance && t < best->triangle))
-          best = Foot{t, share, at, distance};
+        const ClosestPoint point = closest_point(p, {surface_.rest[a], surface_.rest[b], surface_.rest[c]});
+        if (point.distance > reach_) continue;
+        if (!best || point.distance < best->point.distance ||
+            (point.distance == best->point.distance && t < best->triangle))
+          best = Foot{t, point};
       }
     }
     return best;
   }
 
  private:
-  Vec3i cell_of(const Vec3& p) const { return (p / reach_).array().floor().cast<int>(); }
+  Eigen::AlignedBox3d box_of(const Vertices& triangle) const {
+    Eigen::AlignedBox3d box;
+    for (const std::uint32_t v : triangle) box.extend(surface_.rest[v]);
+    return box;
+  }
+  Vec3i cell_of(const Vec3& p) const { return (p / side_).array().floor().cast<int>(); }
   static std::uint64_t key(const Vec3i& cell) {
     constexpr std::uint64_t wide = 1 << 21;
     std::uint64_t sum = 0;
@@ -119,8 +100,10 @@ class TriangleGrid {
     return sum;
   }
   const Surface& surface_;
-  const std::vector<Triangle>& triangles_;
+  const std::vector<Vertices>& triangles_;
   double reach_;
+  double
+      side_;  // no less than the reach or a triangle, so that eight boxes hold one however short the reach is [m]
   std::unordered_map<std::uint64_t, std::vector<std::size_t>> cells_;
 };
 
@@ -134,14 +117,14 @@ std::vector<Strand> make_strands(const ConnectionSpec& spec, const Surface& from
   for (std::size_t v = 0; v < from.n_moving(); ++v) {
     const auto foot = grid.nearest(from.rest[v]);
     if (!foot) continue;
-    const double area = seen_along(areas[v], foot->at - from.rest[v], spec.within);
+    const double area = seen_along(areas[v], foot->point.away, spec.within);
     if (area <= least_area * areas[v].norm()) continue;
     Strand strand;
     strand.node = from.cell[v];
     for (std::size_t c = 0; c < 3; ++c) strand.foot[c] = to.cell[others[foot->triangle][c]];
-    strand.share = foot->share;
+    for (Eigen::Index c = 0; c < 3; ++c) strand.share[static_cast<std::size_t>(c)] = foot->point.weight[c];
     strand.area = area;
-    strand.length = std::max(foot->distance, least_length * spec.within);
+    strand.length = std::max(foot->point.distance, least_length * spec.within);
     strand.k = spec.modulus * strand.area / strand.length;
     strand.most_longer = spec.toughness > 0 ? std::sqrt(2 * spec.toughness * strand.area / strand.k)
                                             : std::numeric_limits<double>::infinity();

@@ -74,6 +74,14 @@ TEST(Strands, EndAtTheNearestPlace) {
   }
 }
 
+/// A reach of a hundredth of a micrometre beside facets of two millimetres.
+TEST(Strands, OfAShortReachTakeNoMoreRoom) {
+  ConnectionSpec spec = bed;
+  spec.within = 1e-8;
+  EXPECT_TRUE(make_strands(spec, sheet(4, 0.002, 0), sheet(4, 0.002, 0.001)).empty());
+  EXPECT_EQ(make_strands(spec, sheet(4, 0.002, 0), sheet(4, 0.002, 0)).size(), 25u);
+}
+
 TEST(Strands, AreWhereSurfacesAreNearAndNoShorterThanATenthOfTheReach) {
   EXPECT_TRUE(make_strands(bed, sheet(4, 0.002, 0), sheet(4, 0.002, 0.0041)).empty());
   for (const Strand& strand : make_strands(bed, sheet(4, 0.002, 0), sheet(4, 0.002, 1e-6)))
