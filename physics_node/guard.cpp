@@ -10,7 +10,8 @@ constexpr std::int64_t frames_between_saves = 50;
 // 1 / (1 - w dt / 2), more than this only for waves of a few cells at steps near the stable one.
 constexpr double largest_growth = 4;       // before the guard acts
 constexpr double suspicious_growth = 1.5;  // before it measures anew
-// Put in since the last frame, as a ratio. Why: a blow, and what it stores in the step it lands in shows only one step later.
+// Put in since the last frame, as a ratio. Why: a blow, and what it stores in the step it lands in shows only one
+// step later.
 constexpr double blow = 1.2;
 // That are measured after a start. Why: the step is chosen for the shape at rest, and what is shaken may outgrow it at once.
 constexpr int first_frames = 2;

@@ -106,7 +106,8 @@ Levels levels_of(const std::vector<float>& values) {
   return levels;
 }
 
-/// Values in so wide bins that a valley is none of chance, and each as many levels wide, so that none has more for that.
+/// Values in so wide bins that a valley is none of chance, and each as many levels wide, so that none has more for
+/// that.
 class Hills {
  public:
   Hills(const std::vector<float>& values, double lo, double hi) : lo_(lo), hi_(hi) {

@@ -20,8 +20,9 @@ constexpr double most_cells =
     4e6;  // of the scene. Why: what does not move is drawn, too, and a quarter of a million of facets is enough
 constexpr double largest_tip =
     5e-3;  // [m]. Why: half a finger's pad; what is felt under it lies in a centimetre or two
-// Volume over surface of a ball is a third of its radius, of a plate half of its thickness, and faces of cells are half as much again as a
-// ball's surface. Why 0.6: the tip then is a seventh of a ball, three tenths of a plate, and has its 5 mm on a head.
+// Volume over surface of a ball is a third of its radius, of a plate half of its thickness, and faces of cells are
+// half as much again as a ball's surface. Why 0.6: the tip then is a seventh of a ball, three tenths of a plate, and
+// has its 5 mm on a head.
 constexpr double tip_to_depth = 0.6;
 constexpr double cell_to_tip =
     0.5;  // Why: such cells follow a tip (README.md), and finer ones take more and shorter steps

@@ -1,5 +1,6 @@
 #pragma once
-// An image as tissue that a tip can press: which intensities it has, in cells of which size, and which of them are filled.
+// An image as tissue that a tip can press: which intensities it has, in cells of which size, and which of them are
+// filled.
 
 #include <array>
 #include <optional>

@@ -91,7 +91,8 @@ TouchPlace place_of(const NewOptions& options, const ImageTissue& tissue) {
       options.at_mm[0], options.at_mm[1], options.at_mm[2], mm_from_m(tissue.tip_radius)));
 }
 
-/// A scene that is written has nothing to be remarked on, and its finger touches where that is planned, give or take a cell.
+/// A scene that is written has nothing to be remarked on, and its finger touches where that is planned, give or take
+/// a cell.
 physics::FirstTouch tried(const std::string& text, const std::string& path, const TouchPlace& place,
                           double cell) {
   const Scene scene = parse_scene(text, path);

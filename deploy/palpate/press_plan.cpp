@@ -29,7 +29,8 @@ constexpr int largest_region = 8,
               smallest_region = 3;  // [cells] from its middle. Why: four tips; a tip and a half
 constexpr double wanted_factor =
     1.25;  // of real time. Why: hand and eye want the other core, and a forecast is good to a factor of two
-// Of a step with a tip on the faces of cells of half its radius, beside what the cells take, on one busy core: 0.07 to 0.11 ms [s].
+// Of a step with a tip on the faces of cells of half its radius, beside what the cells take, on one busy core: 0.07
+// to 0.11 ms [s].
 constexpr double contact_step_s = 1e-4;
 constexpr double come_s = 1, press_s = 1, hold_s = 1, leave_s = 2;
 

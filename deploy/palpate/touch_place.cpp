@@ -41,9 +41,9 @@ struct MeanNormal {
   double even = 0;              // 1 of any plane, however its faces are stepped
 };
 
-/// sum w n over sum w, w = area (1 - r^2 / R^2)^2 within R = two radii, of the faces that do not face away, as the tip feels them.
-/// Steps of a plane with normal m have areas in proportion to |m_x|, |m_y|, |m_z|, so the sum of the magnitudes of its components is
-/// that of their areas.
+/// sum w n over sum w, w = area (1 - r^2 / R^2)^2 within R = two radii, of the faces that do not face away, as the
+/// tip feels them. Steps of a plane with normal m have areas in proportion to |m_x|, |m_y|, |m_z|, so the sum of the
+/// magnitudes of its components is that of their areas.
 MeanNormal mean_normal(const Cells& cells, const Vec3& at, const Vec3& facing, double tip_radius) {
   const double reach = 2 * std::max(tip_radius, cells.spacing.maxCoeff());
   const Vec3i lo = cells.cell_at(at - Vec3::Constant(reach)), hi = cells.cell_at(at + Vec3::Constant(reach));

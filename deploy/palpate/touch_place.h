@@ -21,8 +21,9 @@ constexpr double approach_length(double tip_radius) { return 3 * tip_radius; }
 /// How far in tissue is looked through [m].
 constexpr double most_looked_through(double tip_radius) { return 4 * tip_radius; }
 
-/// The best of what is first met along the six axes of the image: thick tissue behind, even, near the middle of the image. Sides where the
-/// tissue reaches the end of the image, and was cut there, do not count. Nothing: no tip can come to any.
+/// The best of what is first met along the six axes of the image: thick tissue behind, even, near the middle of the
+/// image. Sides where the tissue reaches the end of the image, and was cut there, do not count. Nothing: no tip can
+/// come to any.
 std::optional<TouchPlace> best_place(const physics::Cells& cells, double tip_radius);
 
 /// The nearest to p that a tip can come to, of the nearest 20,000 faces.

@@ -11,11 +11,11 @@
 // it is the hand's own motion, for which no tank has to pay. A moment beyond what the device can turn with is felt as if
 // the tissue pressed nearer to the hand, so that the force stays.
 // What physics finds nothing at any more fades, and does not press harder however the hand moves.
-// It only pushes: the stretch stays within a cone about the answer's, of 27 degrees by energy; where the answer pushes the
-// other way it first gives way to nothing. But a tool that holds tissue pulls as well, and by no more than its grip. An answer moves
-// stretch and stiffness over about a period, no faster than 80 N/s but for what the hand's own way has just changed: else a
-// fast hand would press a spring that tissue has long yielded to. Work that this does on the hand is paid from the tank:
-// tissue that answers late cannot feed the hand.
+// It only pushes: the stretch stays within a cone about the answer's, of 27 degrees by energy; where the answer
+// pushes the other way it first gives way to nothing. But a tool that holds tissue pulls as well, and by no more than
+// its grip. An answer moves stretch and stiffness over about a period, no faster than 80 N/s but for what the hand's
+// own way has just changed: else a fast hand would press a spring that tissue has long yielded to. Work that this
+// does on the hand is paid from the tank: tissue that answers late cannot feed the hand.
 // Source: Astley & Hayward 1998 and Cavusoglu & Tendick 2000 (linear models of slow tissue); the six-dimensional form, the
 // cone and the tank are ours.
 
@@ -98,7 +98,8 @@ class TangentWrench {
   Mat6 K_ = Mat6::Zero();
   Vec6 W_last_ = Vec6::Zero(), felt_last_ = Vec6::Zero();  // before the hand moved in this tick
   bool moved_once_ = false;
-  /// Of what the spring stores: a force that stands for a tick takes less from the hand than one that grows on the way [J].
+  /// Of what the spring stores: a force that stands for a tick takes less from the hand than one that grows on the
+  /// way [J].
   double never_put_in_ = 0;
   Vec3 last_x_ = Vec3::Zero();
   Eigen::Quaterniond last_q_ = Eigen::Quaterniond::Identity();

@@ -8,8 +8,8 @@
 
 namespace palpate::physics {
 
-/// Fills mesh, law, laws and inverse_mass of a body whose model is "surface": of a surface file its triangles, of a mesh
-/// of tetrahedra the outer ones. The middle of the box round its nodes comes to the body's `at`, turned by its
+/// Fills mesh, law, laws and inverse_mass of a body whose model is "surface": of a surface file its triangles, of a
+/// mesh of tetrahedra the outer ones. The middle of the box round its nodes comes to the body's `at`, turned by its
 /// orientation. Nothing is held yet.
 /// @throws InputError: a file that cannot be read, or what check_surface() refuses
 void build_surface_body(Body& body, const BodySpec& spec, const std::vector<MaterialSpec>& materials);

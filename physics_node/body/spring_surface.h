@@ -4,8 +4,8 @@
 //   m x'' = F_ext - b x' + sum over neighbours (k (l - L) + c l') u + p dV/dx,     u towards the neighbour at distance l
 //   p = p_0 + K (V_0 - V) / V_0        of what it is filled with, V the volume that it encloses
 // A triangle of area A gives each of its three springs k = E t A / L^2, t the thickness of the membrane: of equilateral
-// triangles a strip has the stiffness E t, and a Poisson ratio of 1/3. So a spring has the shares of two, and of one where
-// these part.
+// triangles a strip has the stiffness E t, and a Poisson ratio of 1/3. So a spring has the shares of two, and of one
+// where these part.
 //
 // Source: Mendoza & Laugier, eqs. (1) and (2), EQUATIONS C-20 to C-23; k by area: van Gelder 1998.
 // Deviation: the papers give every spring the same lambda = k L, whatever its triangles.

@@ -1,8 +1,9 @@
 #pragma once
 // Strands that join two bodies while a scene runs: they pull where they are longer than at rest, and tear.
 //
-// They act in the step whose elements have just moved the nodes, by where the nodes were when it began, as elements do. Their energy
-// is that of the leapfrog, U + dt / 2 times the power of their forces with the velocities before: see step/lattice/element_step.h.
+// They act in the step whose elements have just moved the nodes, by where the nodes were when it began, as elements
+// do. Their energy is that of the leapfrog, U + dt / 2 times the power of their forces with the velocities before:
+// see step/lattice/element_step.h.
 
 #include <cstdint>
 #include <vector>

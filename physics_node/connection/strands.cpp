@@ -133,8 +133,8 @@ std::vector<Strand> make_strands(const ConnectionSpec& spec, const Surface& from
   return strands;
 }
 
-/// A strand takes k (u . (x_a - sum of w x_b))^2 <= 2 k (x_a^2 + sum of w x_b^2), since shares sum up to 1: so no body's largest
-/// squared frequency grows by more than 2 / m_i times the sum of k w at a node.
+/// A strand takes k (u . (x_a - sum of w x_b))^2 <= 2 k (x_a^2 + sum of w x_b^2), since shares sum up to 1: so no
+/// body's largest squared frequency grows by more than 2 / m_i times the sum of k w at a node.
 double added_omega2(const std::vector<Strand>& strands, int end, const std::vector<double>& inverse_mass) {
   std::unordered_map<Index, double> sums;
   double most = 0;

@@ -22,12 +22,13 @@ struct Strand {
   double most_longer = 0;         // at which it tears; infinite: never [m]
 };
 
-/// From every moving vertex of `from` to the nearest place on moving facets of `to`, where that is within reach. A strand is no shorter
-/// at rest than a tenth of the reach: surfaces that touch are not joined by what is infinitely stiff.
+/// From every moving vertex of `from` to the nearest place on moving facets of `to`, where that is within reach. A
+/// strand is no shorter at rest than a tenth of the reach: surfaces that touch are not joined by what is infinitely
+/// stiff.
 /// Cost: vertices times facets near them.
 std::vector<Strand> make_strands(const ConnectionSpec& spec, const Surface& from, const Surface& to);
 
-/// By how much the strands raise the largest squared frequency of a body, at most; see connection.cpp.
+/// By how much the strands raise the largest squared frequency of a body, at most; see strands.cpp.
 /// @param end  0: of the first body, 1: of the second  @param inverse_mass  by node
 double added_omega2(const std::vector<Strand>& strands, int end, const std::vector<double>& inverse_mass);
 

@@ -18,7 +18,8 @@ bool is_surface_file(const std::string& path);
 /// Writes beside, then renames: `path` is either complete or untouched. @throws InputError: cannot be written
 void write_surface(const std::string& path, const SurfaceFile& file);
 
-/// @throws InputError: missing, cut short, no surface of palpate, other version, absurd sizes, a place that is not finite
+/// @throws InputError: missing, cut short, no surface of palpate, other version, absurd sizes, a place that is not
+/// finite
 ///   or beyond 1000 m, a triangle that names a node that is not there, and what check_surface() refuses
 SurfaceFile read_surface_file(const std::string& path);
 

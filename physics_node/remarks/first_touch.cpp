@@ -19,7 +19,8 @@ namespace {
 constexpr double most_pieces = 20000;  // of a path
 constexpr int halvings = 20;           // of a piece in which a vertex comes into a shape
 
-/// Of which share s of the way from p to p + d it goes through the triangle; above 1: nowhere. Moeller and Trumbore 1997.
+/// Of which share s of the way from p to p + d it goes through the triangle; above 1: nowhere. Moeller and Trumbore
+/// 1997.
 double way_to(const Vec3& p, const Vec3& d, const Vec3& a, const Vec3& b, const Vec3& c) {
   constexpr double nowhere = 2, slack = 1e-9;  // slack: no gap between triangles
   const Vec3 ab = b - a, ac = c - a, q = d.cross(ac);

@@ -1,6 +1,6 @@
 #pragma once
-// A body that is a mesh, as the others know it, whatever its elements are. It is stepped by symplectic Euler, never sleeps,
-// and nothing of it breaks.
+// A body that is a mesh, as the others know it, whatever its elements are. It is stepped by symplectic Euler, never
+// sleeps, and nothing of it breaks.
 
 #include <algorithm>
 #include <utility>

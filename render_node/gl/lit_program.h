@@ -24,8 +24,8 @@ inline constexpr unsigned at_colour = 3;    // vec4, as shown
 /// balls that face the viewer; lines are not lit, their colour says enough.
 enum class Lighting { at_pixels, at_vertices, as_beads, as_lines };
 
-/// A tool near a surface. What lies within about its radius is darker, the nearer the darker: it shows how far off the tool is,
-/// and the dent in which it lies. Where it presses there is a ring, too.
+/// A tool near a surface. What lies within about its radius is darker, the nearer the darker: it shows how far off
+/// the tool is, and the dent in which it lies. Where it presses there is a ring, too.
 struct Touch {
   Eigen::Vector3f at = Eigen::Vector3f::Zero();  // [m]
   float radius = 0;                              // > 0 [m]

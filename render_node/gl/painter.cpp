@@ -149,7 +149,8 @@ void Painter::draw_bodies(ViewModel& model, const Camera& camera, const PaintOpt
   }
 }
 
-/// Tools that are shown, where they are or where tissue pushes them. A tool that is a body shades only where it is pushed.
+/// Tools that are shown, where they are or where tissue pushes them. A tool that is a body shades only where it is
+/// pushed.
 void Painter::find_touches(const ViewModel& model, const PaintOptions& options) {
   touches_.clear();
   for (std::size_t i = 0; options.tool && i < tools_.size() && touches_.size() < most_touches; ++i) {

@@ -10,10 +10,12 @@
 namespace palpate::render {
 namespace {
 
-/// How far before a surface a tool starts, besides what the surface's own steps ask for [m]. A point has no extent to the hand.
+/// How far before a surface a tool starts, besides what the surface's own steps ask for [m]. A point has no extent to
+/// the hand.
 double clearance(const ToolSpec& tool) { return tool.shape == ToolShape::stick ? tool.radius : 0.0; }
 
-/// From how far before the surface it comes down: a ball that has lain in tissue has to be outside of it with all its girth.
+/// From how far before the surface it comes down: a ball that has lain in tissue has to be outside of it with all its
+/// girth.
 double lift_of(const ToolSpec& tool) { return 2 * tool.radius; }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
-// The tools that the mouse leads: which of them the keys are about, and what keys and mouse make of it. No window in here.
+// The tools that the mouse leads: which of them the keys are about, and what keys and mouse make of it. No window in
+// here.
 
 #include <cstdint>
 #include <optional>
@@ -31,8 +32,8 @@ class ToolLeading {
   ToolLeading(const Scene& scene, const ViewModel& model, const std::vector<std::uint32_t>& pointed)
       : scene_(scene), model_(model), pointed_(pointed) {}
 
-  /// Once there is a body to see: a tool that is a body lies where its body is; another before the surface in the middle of
-  /// the view, or before all bodies.
+  /// Once there is a body to see: a tool that is a body lies where its body is; another before the surface in the
+  /// middle of the view, or before all bodies.
   void lay_out(const Camera& camera);
 
   /// @param seconds  since the last picture

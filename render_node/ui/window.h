@@ -1,6 +1,6 @@
 #pragma once
-// The picture in a window, with the keys and ways of the mouse of bindings.h. Nothing that a hand does is lost between two
-// pictures (hand_events.h).
+// The picture in a window, with the keys and ways of the mouse of bindings.h. Nothing that a hand does is lost
+// between two pictures (hand_events.h).
 
 #include <cstdint>
 #include <memory>

@@ -1,8 +1,8 @@
 #pragma once
 // A tool led by mouse and keys. Taken, it starts on the surface under the cursor, where there is one. Then the tip follows the
-// cursor over that surface, as deep in it as the wheel says; where there is none, in the plane through the tip that faces the
-// camera. When the camera moves the tool stays, and from there on the tip keeps its way from the cursor. Keys turn the tool about
-// the axes of the camera.
+// cursor over that surface, as deep in it as the wheel says; where there is none, in the plane through the tip that
+// faces the camera. When the camera moves the tool stays, and from there on the tip keeps its way from the cursor.
+// Keys turn the tool about the axes of the camera.
 //
 //   p = eye + (s(c) + d) r(c),    c = cursor + g,    d := d + step (wheel towards the scene)
 //

@@ -1,6 +1,6 @@
 #pragma once
-// The surface over which the mouse leads a tool: all bodies as they were when it took the tool. What the tool presses in does
-// not count, or each picture would see the dent and lead the tool deeper into it.
+// The surface over which the mouse leads a tool: all bodies as they were when it took the tool. What the tool presses
+// in does not count, or each picture would see the dent and lead the tool deeper into it.
 
 #include <Eigen/Geometry>
 #include <optional>
@@ -17,8 +17,8 @@ class TouchSurface {
   /// Copies what is shown now. @param hidden  bodies not to be met, as in the scene; may be shorter than bodies
   void keep(std::span<const BodyPicture> bodies, const std::vector<bool>& hidden);
 
-  /// A point just before the nearest surface under a pixel: `before` and half an edge of the body hit, in depth, so that a
-  /// smooth plane through a surface of steps still lies behind it. Nothing: the pixel shows none.
+  /// A point just before the nearest surface under a pixel: `before` and half an edge of the body hit, in depth, so
+  /// that a smooth plane through a surface of steps still lies behind it. Nothing: the pixel shows none.
   /// Cost: one pass over all facets; none while pixel and camera stay.
   /// @param before  e.g. the radius of a stick [m]
   std::optional<Vec3> under(const Camera& camera, const Eigen::Vector2d& pixel, double before);

@@ -1,4 +1,5 @@
-// Closed surfaces of springs, through the door of a scene: conservation, the ledger, contact, a tip, and what they refuse.
+// Closed surfaces of springs, through the door of a scene: conservation, the ledger, contact, a tip, and what they
+// refuse.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
-// What a visitor does first, with real processes under a virtual display (CMakeLists.txt): click on the cheek, turn the wheel, feel it.
+// What a visitor does first, with real processes under a virtual display (CMakeLists.txt): click on the cheek, turn
+// the wheel, feel it.
 
 #include <gtest/gtest.h>
 

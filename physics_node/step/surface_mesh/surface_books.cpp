@@ -73,7 +73,8 @@ double SurfaceSprings<Real>::elastic() const noexcept {
   return sum + 0.5 * membrane_.content_modulus * more * more / rest_volume_;
 }
 
-/// What p_0 has given. It stays whatever the bag does, as weight does, and is booked as that is: a bag that swells turns it over.
+/// What p_0 has given. It stays whatever the bag does, as weight does, and is booked as that is: a bag that swells
+/// turns it over.
 template <class Real>
 double SurfaceSprings<Real>::given_by_pressure() const noexcept {
   return is_filled() ? membrane_.pressure * (volume_ - rest_volume_) : 0;

@@ -63,8 +63,8 @@ class SurfaceSprings {
   /// those that pull, k (l - L) / l (1 - u u^T):
   ///   w^2 <= max over nodes of (2 largest eigenvalue of S_i + |p| / 3 sum of |edges across|) / m_i
   ///          + K / V_0 sum of |dV/dp_i|^2 / m_i
-  /// since each spring takes (u . (x_a - x_b))^2 <= 2 (u . x_a)^2 + 2 (u . x_b)^2. Of six equal springs in a plane it is
-  /// exact.
+  /// since each spring takes (u . (x_a - x_b))^2 <= 2 (u . x_a)^2 + 2 (u . x_b)^2. Of six equal springs in a plane it
+  /// is exact.
   double omega2() noexcept;
   /// As fast as damper and drag alone slow a node down, at most, near rest [1/s].
   double gamma() noexcept;

@@ -16,7 +16,8 @@ using physics::Index;
 using physics::MeshTriangle;
 using physics::TriangleMesh;
 
-/// An icosahedron whose triangles are cut in four so many times, with its corners on the sphere. (20 * 4^cuts triangles)
+/// An icosahedron whose triangles are cut in four so many times, with its corners on the sphere. (20 * 4^cuts
+/// triangles)
 inline TriangleMesh made_sphere(double radius, int cuts) {
   const double g = 0.5 * (1 + std::sqrt(5.0));
   TriangleMesh mesh;

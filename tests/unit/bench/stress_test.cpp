@@ -58,7 +58,8 @@ TEST(Stress, OfElementsComesInAllKindsToo) {
   EXPECT_EQ(kinds.size(), 2u + 2u + 2u + 2u + 2u + 2u + 2u) << fmt::format("{}", kinds);
 }
 
-/// A tool strikes a cell; what that stored shows in no step but the one after, which ends the frame with 30 times the energy put in.
+/// A tool strikes a cell; what that stored shows in no step but the one after, which ends the frame with 30 times the
+/// energy put in.
 TEST(Stress, WhatABlowStoresInAStepIsSeenInItsFrame) {
   const StressResult result = run_stress(1993, ElementModel::fem);
   EXPECT_TRUE(result.finite);

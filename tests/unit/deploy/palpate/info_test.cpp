@@ -93,7 +93,8 @@ TEST(Info, SaysWhatASceneHolds) {
   }
 }
 
-/// From z = 30 to 8 mm in 3 s: the face at 10 mm is met after 20 / 22 of that. A path that ends above it never meets it.
+/// From z = 30 to 8 mm in 3 s: the face at 10 mm is met after 20 / 22 of that. A path that ends above it never meets
+/// it.
 TEST(Info, SaysWhenAPathTouchesOrThatItNeverDoes) {
   const test::TemporaryFolder folder;
   std::string held = cube_with("name = \"finger\"");

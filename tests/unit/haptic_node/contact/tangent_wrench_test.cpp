@@ -196,8 +196,8 @@ TEST(TangentWrench, FeelsWhatYieldsAndWhatHasBeenLeftHoweverFastTheHandGoes) {
   EXPECT_LT(most_after, 0.01);
 }
 
-/// What forceps carry along swings at their spring: bears(t) changes its sign while the hand goes on at 0.3 m/s, where its spring alone
-/// would grow by 240 N/s.
+/// What forceps carry along swings at their spring: bears(t) changes its sign while the hand goes on at 0.3 m/s,
+/// where its spring alone would grow by 240 N/s.
 double most_felt_beside_a_swing(double grip, double amplitude, double last = 0.3) {
   TangentWrench spring(K_hand, 0, 20, 0, grip);
   const double speed = 0.3;

@@ -1,4 +1,5 @@
-// Laws of a closed surface of springs: forces from energy, momentum, books to rounding, closed forms, and its stable step.
+// Laws of a closed surface of springs: forces from energy, momentum, books to rounding, closed forms, and its stable
+// step.
 #include "physics_node/step/surface_mesh/surface_springs.h"
 
 #include <gtest/gtest.h>
@@ -174,7 +175,8 @@ TEST(SurfaceSprings, AnotherStepIsBooked) {
   EXPECT_LT(worst, 5e-3 * before);
 }
 
-/// Laplace: tension p R / 2 in all directions; in a sheet of springs with a Poisson ratio of 1/3 that is a strain of p R / 2 (1 - 1/3) / (E t).
+/// Laplace: tension p R / 2 in all directions; in a sheet of springs with a Poisson ratio of 1/3 that is a strain of
+/// p R / 2 (1 - 1/3) / (E t).
 TEST(SurfaceSprings, APressureSwellsAsLaplaceSays) {
   Membrane membrane = empty;
   membrane.pressure = 50;
