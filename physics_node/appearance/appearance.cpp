@@ -5,21 +5,10 @@
 
 #include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
+#include "physics_node/appearance/surface_chunks.h"
 #include "physics_node/boundary/loose_parts.h"
 
 namespace palpate::physics {
-namespace {
-
-/// Of a whole surface.
-std::uint32_t n_chunks(std::size_t vertices, std::size_t facets) {
-  const auto chunks_for = [](std::size_t n, std::size_t per_chunk) {
-    return static_cast<std::uint32_t>((n + per_chunk - 1) / per_chunk);
-  };
-  return std::max({1U, chunks_for(vertices, max_surface_vertices), chunks_for(facets, max_surface_facets)});
-}
-
-}  // namespace
-
 Appearance::Appearance(const World& world, std::optional<double> threshold, Remake how)
     : world_(world), views_(world.n_bodies()), threshold_(threshold), how_(how) {
   restored_ = world.report().restored;
@@ -29,6 +18,8 @@ Appearance::Appearance(const World& world, std::optional<double> threshold, Rema
     views_[b].shown = NumberedSurface(surface_of(b));
     begin_whole(views_[b]);
   }
+  for (std::size_t c = 0; c < world.n_connections(); ++c)
+    strands_.emplace_back(world.connection(c), static_cast<std::uint32_t>(views_.size() + c), strand_colour);
 }
 
 /// What a surface is made from, so that the body may move on.
@@ -94,7 +85,10 @@ void Appearance::begin_whole(View& view) {
   view.blocks.begin(view.shown.n_vertices());
 }
 
-void Appearance::publish_anew(std::size_t body) { begin_whole(views_[body]); }
+void Appearance::publish_anew(std::size_t body) {
+  if (body < views_.size()) return begin_whole(views_[body]);
+  strands_.at(body - views_.size()).publish_anew();
+}
 
 void Appearance::set_threshold(double threshold) {
   wanted_ = threshold;
@@ -139,7 +133,8 @@ bool Appearance::poll() {
       });
     }
   }
-  return std::any_of(views_.begin(), views_.end(), [](const View& view) { return view.due != Due::nothing; });
+  return std::ranges::any_of(views_, [](const View& view) { return view.due != Due::nothing; }) ||
+         std::ranges::any_of(strands_, &StrandPicture::is_due);
 }
 
 int Appearance::write_surfaces(const SurfaceSinks& sinks) {
@@ -159,6 +154,7 @@ int Appearance::write_surfaces(const SurfaceSinks& sinks) {
     bytes_.sent += bytes;
     bytes_.whole += chunk_bytes * n_chunks(view.shown.n_vertices(), view.shown.facets().size());
   }
+  for (StrandPicture& strands : strands_) samples += strands.write(*chunk_, sinks.whole);
   return samples;
 }
 
@@ -187,22 +183,11 @@ int Appearance::write_whole(std::size_t body, const std::function<void(const Bod
   BodySurface& out = *chunk_;
   out.body = static_cast<std::uint32_t>(body);
   out.revision = view.revision;
-  out.total_vertices = static_cast<std::uint32_t>(surface.n_vertices());
-  out.total_facets = static_cast<std::uint32_t>(surface.facets().size());
   out.facets_hidden = static_cast<std::uint32_t>(surface.hidden());
   out.rigid = surface.is_rigid() ? 1 : 0;
-  out.n_chunks = n_chunks(surface.n_vertices(), surface.facets().size());
-  for (out.chunk = 0; out.chunk < out.n_chunks; ++out.chunk) {
-    out.first_vertex = std::min(out.chunk * max_surface_vertices, out.total_vertices);
-    out.n_vertices = std::min(max_surface_vertices, out.total_vertices - out.first_vertex);
-    out.first_facet = std::min(out.chunk * max_surface_facets, out.total_facets);
-    out.n_facets = std::min(max_surface_facets, out.total_facets - out.first_facet);
-    for (std::uint32_t n = 0; n < out.n_vertices; ++n)
-      out.position[n] = float_of(surface.position(out.first_vertex + n, moving));
-    std::copy_n(surface.facets().begin() + out.first_facet, out.n_facets, out.corners.begin());
-    std::copy_n(surface.rgba().begin() + out.first_facet, out.n_facets, out.rgba.begin());
-    sink(out);
-  }
+  write_chunks(
+      out, surface.n_vertices(), surface.facets(), surface.rgba(),
+      [&](std::size_t n) { return float_of(surface.position(n, moving)); }, sink);
   view.n_told = surface.n_vertices();
   view.pages.begin(out.body, out.revision, out.total_vertices);
   return static_cast<int>(out.n_chunks);
@@ -210,19 +195,21 @@ int Appearance::write_whole(std::size_t body, const std::function<void(const Bod
 
 int Appearance::write_blocks(const std::function<void(const VertexBlock&)>& sink) {
   int blocks = 0;
+  block_->tick = static_cast<std::uint64_t>(world_.report().frames);
+  block_->t = world_.t();
   for (std::size_t b = 0; b < views_.size(); ++b) {
     View& view = views_[b];
     block_->body = static_cast<std::uint32_t>(b);
     block_->revision = view.revision;
-    block_->tick = static_cast<std::uint64_t>(world_.report().frames);
-    block_->t = world_.t();
     blocks += view.blocks.write(view.shown, world_.body(b), *block_, sink);
   }
+  for (StrandPicture& strands : strands_) blocks += strands.write_blocks(*block_, sink);
   return blocks;
 }
 
 void Appearance::resend() {
   for (View& view : views_) view.blocks.resend();
+  for (StrandPicture& strands : strands_) strands.resend();
 }
 
 std::size_t Appearance::facets_visible() const {
@@ -230,6 +217,7 @@ std::size_t Appearance::facets_visible() const {
   for (const View& view : views_)
     n += static_cast<std::size_t>(std::count_if(view.shown.facets().begin(), view.shown.facets().end(),
                                                 [](const auto& facet) { return !is_loose(facet); }));
+  for (const StrandPicture& strands : strands_) n += strands.n_facets();
   return n;
 }
 

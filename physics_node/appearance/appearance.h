@@ -1,5 +1,5 @@
 #pragma once
-// What physics sends to the eye: the visible surface of every body, then only what changes in it and the blocks of vertices
+// What physics sends to the eye: the visible surface of every body and the strands between them, then only what changes in it and the blocks of vertices
 // that moved. Free of DDS: the messages go to whoever asks.
 
 #include <functional>
@@ -13,6 +13,7 @@
 #include "physics_node/appearance/colours.h"
 #include "physics_node/appearance/moved_blocks.h"
 #include "physics_node/appearance/numbered_surface.h"
+#include "physics_node/appearance/strand_picture.h"
 #include "physics_node/appearance/surface_bytes_report.h"
 #include "physics_node/boundary/surface.h"
 #include "physics_node/world.h"
@@ -100,6 +101,7 @@ class Appearance {
 
   const World& world_;
   std::vector<View> views_;
+  std::vector<StrandPicture> strands_;
   std::optional<double> threshold_;  // of the surfaces shown or being made
   std::optional<double> wanted_;     // threshold asked for since
   Remake how_;

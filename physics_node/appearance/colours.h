@@ -14,6 +14,8 @@ namespace palpate::physics {
 /// Steel for a body that is a tool, otherwise one tint of tissue after the other.
 std::uint32_t body_colour(const Scene& scene, std::size_t body);
 
+inline constexpr std::uint32_t strand_colour = 0xFF70C8E8;  // of connecting tissue, as of fat
+
 /// Well apart from the colours of nearby labels, and always the same for a label. @param label  >= 0
 std::uint32_t fragment_colour(std::int32_t label);
 

@@ -6,7 +6,6 @@
 namespace palpate::physics {
 namespace {
 
-constexpr float visible_motion = 1e-5F;  // [m]
 constexpr Array3f nowhere{NAN, NAN, NAN};
 
 std::uint8_t vertex_flags(const Condition& condition) {
@@ -50,9 +49,7 @@ bool MovedBlocks::changed(const NumberedSurface& surface, const BodyModel& movin
                           std::size_t last) const {
   for (std::size_t n = first; n < last; ++n) {
     if (flags_[n - first] != sent_flags_[n]) return true;
-    const Array3f p = float_of(surface.position(n, moving));
-    for (std::size_t a = 0; a < 3; ++a)
-      if (!(std::abs(p[a] - sent_[n][a]) <= visible_motion)) return true;
+    if (is_seen_to_move(sent_[n], float_of(surface.position(n, moving)))) return true;
   }
   return false;
 }

@@ -1,6 +1,7 @@
 #pragma once
 // Which vertices of one body have moved, or changed their state, since they were last sent.
 
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -12,6 +13,14 @@ namespace palpate::physics {
 /// As the wire has positions.
 inline Array3f float_of(const Vec3& p) {
   return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
+}
+
+/// By more than a hundredth of a millimetre; what has not been sent, which is not a number, has.
+inline bool is_seen_to_move(const Array3f& sent, const Array3f& now) {
+  constexpr float visible_motion = 1e-5F;  // [m]
+  for (std::size_t a = 0; a < 3; ++a)
+    if (!(std::abs(now[a] - sent[a]) <= visible_motion)) return true;
+  return false;
 }
 
 class MovedBlocks {

@@ -4,6 +4,7 @@
 
 #include "common/message/vec3.h"
 #include "common/scene/body_spec.h"
+#include "common/scene/connection_spec.h"
 #include "common/scene/device_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
@@ -11,8 +12,9 @@
 
 namespace palpate::render {
 ViewModel::ViewModel(const Scene& scene) : tools_(scene.tools.size()) {
-  bodies_.reserve(scene.bodies.size());
-  for (std::size_t n = 0; n < scene.bodies.size(); ++n) bodies_.emplace_back(budget_);
+  const std::size_t n = scene.bodies.size() + scene.connections.size();
+  bodies_.reserve(n);
+  for (std::size_t i = 0; i < n; ++i) bodies_.emplace_back(budget_);
   for (std::size_t i = 0; i < tools_.size(); ++i) {
     const DeviceSpec& device = scene.device(scene.tools[i].device);
     tools_[i].name = scene.tools[i].name;

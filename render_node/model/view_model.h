@@ -84,7 +84,7 @@ class ViewModel {
   void take_part(const M& part);
 
   std::shared_ptr<MemoryBudget> budget_ = std::make_shared<MemoryBudget>();
-  std::vector<BodyPicture> bodies_;  // as in the scene
+  std::vector<BodyPicture> bodies_;  // as in the scene, its connections behind
   std::vector<ToolView> tools_;      // as in the scene
   std::array<std::optional<NodeStatus>, n_node_kinds> nodes_;
   double t_ = 0;

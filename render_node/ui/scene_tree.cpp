@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/scene/body_spec.h"
+#include "common/scene/connection_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
 
@@ -38,24 +39,32 @@ bool eye_row(const std::string& name, bool seen) {
   return clicked;
 }
 
+/// @param first  what comes before these in `hidden`
 template <class Specs>
-void eye_rows(const Specs& specs, std::vector<bool>& hidden) {
-  hidden.resize(specs.size(), false);
+void eye_rows(const Specs& specs, std::size_t first, std::vector<bool>& hidden) {
+  hidden.resize(std::max(hidden.size(), first + specs.size()), false);
   for (std::size_t i = 0; i < specs.size(); ++i)
-    if (eye_row(specs[i].name, !hidden[i])) hidden[i] = !hidden[i];
+    if (eye_row(specs[i].name, !hidden[first + i])) hidden[first + i] = !hidden[first + i];
+}
+
+std::size_t n_rows(const Scene& scene) {
+  return scene.bodies.size() + scene.connections.size() + scene.tools.size();
 }
 
 }  // namespace
 
 void lay_out_scene_tree(const Scene& scene, Hidden& hidden) {
-  const std::size_t rows = std::min(scene.bodies.size() + scene.tools.size(), most_rows);
+  const std::size_t rows = std::min(n_rows(scene), most_rows);
   const float height = static_cast<float>(rows) * ImGui::GetTextLineHeightWithSpacing();
   ImGui::BeginChild("bodies and tools", {0, height}, false, ImGuiWindowFlags_NoNav);
   ImGui::PushID("bodies");
-  eye_rows(scene.bodies, hidden.bodies);
+  eye_rows(scene.bodies, 0, hidden.bodies);
+  ImGui::PopID();
+  ImGui::PushID("connections");
+  eye_rows(scene.connections, scene.bodies.size(), hidden.bodies);
   ImGui::PopID();
   ImGui::PushID("tools");
-  eye_rows(scene.tools, hidden.tools);
+  eye_rows(scene.tools, 0, hidden.tools);
   ImGui::PopID();
   ImGui::EndChild();
 }

@@ -25,7 +25,7 @@ void ToolLeading::lay_out(const Camera& camera) {
   const auto box = model_.box();
   const Vec3 before = box.center() + 0.5 * box.diagonal().norm() * camera.axes().row(2).transpose();
   const auto middle = camera.project(camera.target());
-  touch_.keep(model_.bodies(), {});
+  touch_.keep(tissue(), {});
   for (const std::uint32_t tool : pointed_) {
     const auto surface = middle ? touch_.under(camera, *middle, clearance(scene_.tools[tool])) : std::nullopt;
     const auto body = std::find_if(scene_.bodies.begin(), scene_.bodies.end(), [&](const BodySpec& spec) {
@@ -33,6 +33,11 @@ void ToolLeading::lay_out(const Camera& camera) {
     });
     pointers_.emplace_back(tool, body == scene_.bodies.end() ? surface.value_or(before) : body->at);
   }
+}
+
+/// What a tool is laid on: bodies, and not the strands between them.
+std::span<const BodyPicture> ToolLeading::tissue() const {
+  return std::span(model_.bodies()).first(scene_.bodies.size());
 }
 
 /// A tool that is a body starts where it lies and keeps to a plane: to jump would tear what it is in.
@@ -64,7 +69,7 @@ PointerInput ToolLeading::input_from(const HandEvents& events, const CursorNow& 
     return input;
   }
   const bool taken = input.place || (input.toggle && !pointers_[led_].held());
-  if (taken) touch_.keep(model_.bodies(), hidden.bodies);
+  if (taken) touch_.keep(tissue(), hidden.bodies);
   if (cursor.in_picture)
     input.surface = [&](const Eigen::Vector2d& pixel) {
       return touch_.under(camera, pixel, clearance(scene_.tools[pointers_[led_].tool()]));

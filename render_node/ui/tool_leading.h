@@ -47,6 +47,7 @@ class ToolLeading {
 
  private:
   bool keeps_to_surface() const;
+  std::span<const BodyPicture> tissue() const;
   PointerInput input_from(const HandEvents& events, const CursorNow& cursor, const Camera& camera,
                           const Hidden& hidden, double seconds);
 

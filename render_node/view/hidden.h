@@ -7,7 +7,8 @@
 namespace palpate::render {
 
 struct Hidden {
-  std::vector<bool> bodies, tools;  // as in the scene; may be shorter
+  std::vector<bool> bodies;  // as in the scene, its connections behind; may be shorter
+  std::vector<bool> tools;   // as in the scene; may be shorter
 };
 
 /// Those that the list has no word for are shown.
