@@ -93,6 +93,7 @@ class World {
   void book_solved(double dt) noexcept;
   double press(double dt) noexcept;
   double cut(PressingTool& tool) noexcept;
+  double power(const PressingTool& tool) const noexcept;
   void take_tools(std::span<const std::optional<ToolState>> tools) noexcept;
   void find_contacts() noexcept;
   void divide_frame() noexcept;
@@ -114,7 +115,7 @@ class World {
   BodyModels bodies_;
   std::vector<std::unique_ptr<Fragments>> fragments_;  // of each body that may break, null elsewhere
   std::vector<TouchableBody> touchable_;
-  std::vector<std::unique_ptr<Connection>> connections_;
+  Connections connections_;
   Toolbox toolbox_;
   bool stick_near_ = false;  // one of those that lead may touch in this frame
   std::unique_ptr<Collisions> collisions_;

@@ -92,7 +92,7 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
     touchable_.push_back({bodies_.back().get(), std::make_unique<Boundary>(*bodies_.back(), bucket, feels)});
   }
   join_bodies();
-  toolbox_ = make_tools(scene_, bodies_, touchable_);
+  toolbox_ = make_tools(scene_, bodies_, touchable_, connections_);
   if (scene.contact->enabled && (bodies_.size() > 1 || any_breaks_))
     collisions_ = std::make_unique<Collisions>(bodies_, fragments_, *scene.contact);
   if (collisions_)

@@ -21,6 +21,13 @@ void World::gather() noexcept {
     }
 }
 
+/// Of the forces of a tool, with velocities now [W].
+double World::power(const PressingTool& tool) const noexcept {
+  double sum = tool.forces().empty() ? 0.0 : bodies_[tool.touched_body()]->power(tool.forces());
+  for (std::size_t c = 0; c < connections_.size(); ++c) sum += connections_[c]->power(tool.pushes(c));
+  return sum;
+}
+
 /// Of the forces of tools that press, where no step has solved for them.
 /// @param begun  false: of those alone that are known before a step
 /// @return work in half a step of dt [J]
@@ -28,8 +35,8 @@ double World::book_tools(double dt, bool begun) noexcept {
   double sum = 0;
   if (is_implicit()) return sum;
   for (PressingTool* tool : toolbox_.pressing) {
-    if ((!begun && tool->follows_steps()) || tool->forces().empty()) continue;
-    sum += tool->book().tissue(0.5 * dt * bodies_[tool->touched_body()]->power(tool->forces()));
+    if (!begun && tool->follows_steps()) continue;
+    sum += tool->book().tissue(0.5 * dt * power(*tool));
   }
   return sum;
 }
@@ -52,6 +59,8 @@ double World::cut(PressingTool& tool) noexcept {
     cut_since_ += lost;
     tool.take_released(lost.broken);
   }
+  for (std::size_t c = 0; c < connections_.size(); ++c)
+    cut_since_.broken += connections_[c]->cut(tool.pushes(c));
   const CutWork work = tool.cut_work();
   if (!std::isfinite(work.hand) || !std::isfinite(work.released)) return work.hand;
   report_.cut += work.hand + work.released;
@@ -68,6 +77,7 @@ double World::press(double dt) noexcept {
     const StageTimer timer(report_, Stage::contact_forces);
     sum += tool->book().tissue(0.5 * dt * tool->press(dt));
     if (!tool->forces().empty()) bodies_[tool->touched_body()]->kick(tool->forces(), dt);
+    for (std::size_t c = 0; c < connections_.size(); ++c) connections_[c]->kick(tool->pushes(c), dt);
     sum += cut(*tool);
   }
   return sum;

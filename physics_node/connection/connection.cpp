@@ -35,15 +35,35 @@ Connection::Connection(std::vector<Strand> strands, BodyModel& from, BodyModel& 
     : strands_(std::move(strands)),
       from_(&from),
       to_(&to),
-      torn_(strands_.size(), 0),
-      saved_(Torn{torn_}, Torn{torn_}) {
+      left_(strands_.size(), 1.0),
+      saved_(Left{left_}, Left{left_}) {
   on_from_.reserve(strands_.size());
   on_to_.reserve(3 * strands_.size());
 }
 
+Connection::Ends Connection::places(const Strand& strand) const noexcept {
+  Ends ends{from_->position(strand.node), Vec3::Zero()};
+  for (std::size_t c = 0; c < 3; ++c) ends.foot += strand.share[c] * to_->position(strand.foot[c]);
+  return ends;
+}
+
+Connection::Ends Connection::velocities(const Strand& strand) const noexcept {
+  Ends ends{from_->velocity(strand.node), Vec3::Zero()};
+  for (std::size_t c = 0; c < 3; ++c) ends.foot += strand.share[c] * to_->velocity(strand.foot[c]);
+  return ends;
+}
+
+double Connection::inverse_mass_of_node(const Strand& strand) const noexcept {
+  return from_->body().inverse_mass[static_cast<std::size_t>(strand.node)];
+}
+
+double Connection::inverse_mass_of_foot(const Strand& strand, std::size_t corner) const noexcept {
+  return to_->body().inverse_mass[static_cast<std::size_t>(strand.foot[corner])];
+}
+
 Connection::Now Connection::now(const Strand& strand) const noexcept {
-  Vec3 d = -from_->position(strand.node);
-  for (std::size_t c = 0; c < 3; ++c) d += strand.share[c] * to_->position(strand.foot[c]);
+  const Ends ends = places(strand);
+  const Vec3 d = ends.foot - ends.node;
   const double length = d.norm();
   if (!(length > strand.length)) return {};
   return {length - strand.length, d / length};
@@ -51,9 +71,14 @@ Connection::Now Connection::now(const Strand& strand) const noexcept {
 
 /// Of a force on the first body, and its opposite on the second [W].
 double Connection::power(const Strand& strand, const Vec3& force) const noexcept {
-  Vec3 v = from_->velocity(strand.node);
-  for (std::size_t c = 0; c < 3; ++c) v -= strand.share[c] * to_->velocity(strand.foot[c]);
-  return force.dot(v);
+  const Ends v = velocities(strand);
+  return force.dot(v.node - v.foot);
+}
+
+void Connection::put(const Strand& strand, const Vec3& on_node, const Vec3& on_foot) noexcept {
+  on_from_.push_back({strand.node, on_node});
+  for (std::size_t c = 0; c < 3; ++c)
+    if (strand.share[c] > 0) on_to_.push_back({strand.foot[c], strand.share[c] * on_foot});
 }
 
 void Connection::find_forces(double dt) noexcept {
@@ -62,16 +87,12 @@ void Connection::find_forces(double dt) noexcept {
   watched_ = pull_ = 0;
   const auto pull = [&](const Strand& strand, const Vec3& force) {
     pull_ += force.norm();
-    on_from_.push_back({strand.node, force});
-    for (std::size_t c = 0; c < 3; ++c)
-      if (strand.share[c] > 0) on_to_.push_back({strand.foot[c], -strand.share[c] * force});
-  };
-  const auto inverse_mass = [](const BodyModel& body, Index node) {
-    return body.body().inverse_mass[static_cast<std::size_t>(node)];
+    put(strand, force, -force);
   };
   for (std::size_t s = 0; s < strands_.size(); ++s) {
-    if (torn_[s] != 0) continue;
-    const Strand& strand = strands_[s];
+    if (!holds(s)) continue;
+    Strand strand = strands_[s];
+    strand.k *= left_[s];
     const Now at = now(strand);
     if (at.longer <= 0) continue;
     if (at.longer < strand.most_longer) {
@@ -80,11 +101,11 @@ void Connection::find_forces(double dt) noexcept {
       pull(strand, force);
       continue;
     }
-    double w = inverse_mass(*from_, strand.node);
+    double w = inverse_mass_of_node(strand);
     for (std::size_t c = 0; c < 3; ++c)
-      w += strand.share[c] * strand.share[c] * inverse_mass(*to_, strand.foot[c]);
+      w += strand.share[c] * strand.share[c] * inverse_mass_of_foot(strand, c);
     const Tear tear = tear_of(strand, at.longer, -power(strand, at.u), w, dt_before_);
-    torn_[s] = 1;
+    left_[s] = 0;
     ++n_torn_;
     broken_ += tear.pulled + tear.by_impulse;
     watched_ -= tear.by_impulse;  // which bodies lose in this step
@@ -99,40 +120,80 @@ void Connection::act(double dt) noexcept {
   to_->kick(on_to_, dt);
 }
 
-double Connection::energy() const noexcept {
+void Connection::kick(std::span<const StrandPush> pushes, double dt) noexcept {
+  if (pushes.empty()) return;
+  on_from_.clear();
+  on_to_.clear();
+  for (const StrandPush& push : pushes)
+    put(strands_[push.strand], (1 - push.at) * push.force, push.at * push.force);
+  from_->kick(on_from_, dt);
+  to_->kick(on_to_, dt);
+}
+
+double Connection::power(std::span<const StrandPush> pushes) const noexcept {
   double sum = 0;
-  for (std::size_t s = 0; s < strands_.size(); ++s) {
-    if (torn_[s] != 0) continue;
-    const Now at = now(strands_[s]);
-    const Vec3 force = strands_[s].k * at.longer * at.u;
-    sum += 0.5 * strands_[s].k * at.longer * at.longer + 0.5 * dt_before_ * power(strands_[s], force);
+  for (const StrandPush& push : pushes) {
+    const Ends v = velocities(strands_[push.strand]);
+    sum += push.force.dot((1 - push.at) * v.node + push.at * v.foot);
   }
   return sum;
 }
 
+double Connection::cut(std::span<const StrandPush> pushes) noexcept {
+  double released = 0;
+  for (const StrandPush& push : pushes) {
+    double& left = left_[push.strand];
+    const double cut = std::min(push.cuts, left);
+    if (cut <= 0) continue;
+    released += cut * energy(strands_[push.strand]);
+    left -= cut;
+    if (left <= 0) ++n_cut_;
+  }
+  broken_ += released;
+  return released;
+}
+
+/// As the leapfrog has it.
+double Connection::energy(const Strand& strand) const noexcept {
+  const Now at = now(strand);
+  const Vec3 force = strand.k * at.longer * at.u;
+  return 0.5 * strand.k * at.longer * at.longer + 0.5 * dt_before_ * power(strand, force);
+}
+
+double Connection::stored_by_share(std::size_t strand) const noexcept {
+  return std::max(0.0, energy(strands_[strand]));
+}
+
+double Connection::energy() const noexcept {
+  double sum = 0;
+  for (std::size_t s = 0; s < strands_.size(); ++s)
+    if (holds(s)) sum += left_[s] * energy(strands_[s]);
+  return sum;
+}
+
 void Connection::save(bool good) noexcept {
-  Torn& to = saved_.next(good);
-  std::ranges::copy(torn_, to.of.begin());
-  to.broken = broken_, to.n = n_torn_;
+  Left& to = saved_.next(good);
+  std::ranges::copy(left_, to.of.begin());
+  to.broken = broken_, to.n_torn = n_torn_, to.n_cut = n_cut_;
 }
 
 void Connection::restore() noexcept {
-  const Torn& from = saved_.good();
-  std::ranges::copy(from.of, torn_.begin());
-  broken_ = from.broken, n_torn_ = from.n;
+  const Left& from = saved_.good();
+  std::ranges::copy(from.of, left_.begin());
+  broken_ = from.broken, n_torn_ = from.n_torn, n_cut_ = from.n_cut;
   dt_before_ = 0;
 }
 
 void Connection::reset() noexcept {
-  std::ranges::fill(torn_, std::uint8_t(0));
+  std::ranges::fill(left_, 1.0);
   watched_ = broken_ = pull_ = dt_before_ = 0;
-  n_torn_ = 0;
+  n_torn_ = n_cut_ = 0;
   save(false);
   save(true);
 }
 
 std::uint64_t Connection::hash(std::uint64_t seed) const noexcept {
-  return hash_state(torn_.data(), torn_.size(), seed);
+  return hash_state(left_.data(), left_.size(), seed);
 }
 
 }  // namespace palpate::physics

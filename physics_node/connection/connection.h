@@ -1,11 +1,14 @@
 #pragma once
-// Strands that join two bodies while a scene runs: they pull where they are longer than at rest, and tear.
+// Strands that join two bodies while a scene runs: they pull where they are longer than at rest, tear, and are cut. What
+// has been cut of one pulls no longer: k is as much less.
 //
 // They act in the step whose elements have just moved the nodes, by where the nodes were when it began, as elements
 // do. Their energy is that of the leapfrog, U + dt / 2 times the power of their forces with the velocities before:
 // see step/lattice/element_step.h.
 
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "physics_node/connection/strands.h"
@@ -24,16 +27,36 @@ class Connection {
   /// Gives them to both bodies, whose elements have moved the nodes on.
   void act(double dt) noexcept;
 
+  /// Of a tool that follows steps: forces on the masses at the ends, in the step whose elements have just moved them.
+  void kick(std::span<const StrandPush> pushes, double dt) noexcept;
+  double power(std::span<const StrandPush> pushes) const noexcept;  // of these, with velocities now [W]
+  /// Cuts as much as they say. @return what that had held and has lost [J]
+  double cut(std::span<const StrandPush> pushes) noexcept;
+
+  /// Where a strand begins and ends now [m], and how fast [m/s].
+  struct Ends {
+    Vec3 node = Vec3::Zero(), foot = Vec3::Zero();
+  };
+  Ends places(const Strand& strand) const noexcept;
+  Ends velocities(const Strand& strand) const noexcept;
+  /// What a cut that begins at the strand would release by the share that it cuts [J].
+  double stored_by_share(std::size_t strand) const noexcept;
+  double inverse_mass_of_node(const Strand& strand) const noexcept;  // [1/kg]
+  double inverse_mass_of_foot(const Strand& strand, std::size_t corner) const noexcept;
+
   /// Elastic energy as the ledger has it when the last step began; and now, before the next [J].
   double watched() const noexcept { return watched_; }
   double energy() const noexcept;
   /// What torn strands have taken since the start: toughness times area, where as much moved their ends apart [J].
   double broken() const noexcept { return broken_; }
   std::int64_t n_torn() const noexcept { return n_torn_; }
+  std::int64_t n_cut() const noexcept { return n_cut_; }  // through and through
   std::int64_t n_strands() const noexcept { return static_cast<std::int64_t>(strands_.size()); }
   double pull() const noexcept { return pull_; }  // sum of the sizes of their forces in the last step [N]
   const std::vector<Strand>& strands() const noexcept { return strands_; }
-  bool is_torn(std::size_t strand) const noexcept { return torn_[strand] != 0; }
+  bool holds(std::size_t strand) const noexcept { return left_[strand] > 0; }
+  /// Share of it that is neither cut nor torn.
+  double left(std::size_t strand) const noexcept { return left_[strand]; }
 
   void save(bool good) noexcept;
   void restore() noexcept;
@@ -41,10 +64,10 @@ class Connection {
   std::uint64_t hash(std::uint64_t seed) const noexcept;
 
  private:
-  struct Torn {
-    std::vector<std::uint8_t> of;
+  struct Left {
+    std::vector<double> of;
     double broken = 0;
-    std::int64_t n = 0;
+    std::int64_t n_torn = 0, n_cut = 0;
   };
   /// Towards the foot: how much longer than at rest, and which way.
   struct Now {
@@ -53,15 +76,19 @@ class Connection {
   };
   Now now(const Strand& strand) const noexcept;
   double power(const Strand& strand, const Vec3& force) const noexcept;
+  double energy(const Strand& strand) const noexcept;  // of a whole one
+  void put(const Strand& strand, const Vec3& on_node, const Vec3& on_foot) noexcept;
 
   std::vector<Strand> strands_;
   BodyModel* from_;
   BodyModel* to_;
-  std::vector<std::uint8_t> torn_;
+  std::vector<double> left_;
   std::vector<NodalForce> on_from_, on_to_;
   double watched_ = 0, broken_ = 0, pull_ = 0, dt_before_ = 0;
-  std::int64_t n_torn_ = 0;
-  GoodState<Torn> saved_;
+  std::int64_t n_torn_ = 0, n_cut_ = 0;
+  GoodState<Left> saved_;
 };
+
+using Connections = std::vector<std::unique_ptr<Connection>>;
 
 }  // namespace palpate::physics

@@ -20,6 +20,15 @@ struct Strand {
   double length = 0;              // at rest [m]
   double k = 0;                   // [N/m]
   double most_longer = 0;         // at which it tears; infinite: never [m]
+  double cut_work = 0;            // that a blade takes to cut it: G_c A of a cut; 0: nobody has said [J]
+};
+
+/// A force on a strand, which its ends carry by how near they are.
+struct StrandPush {
+  std::size_t strand = 0;
+  double at = 0;              // share of the way from its node to its foot
+  Vec3 force = Vec3::Zero();  // [N]
+  double cuts = 0;            // share of the strand that this cuts
 };
 
 /// From every moving vertex of `from` to the nearest place on moving facets of `to`, where that is within reach. A

@@ -13,11 +13,11 @@ constexpr double cut_behind =
 
 }  // namespace
 
-double BladeEdge::felt_stiffness() const noexcept {
+double BladeEdge::held() const noexcept {
   double sum = 0;
   for (const BladeStrip& strip : strips_)
     if (strip.bites) sum += strip.cover * hold();
-  return sum > 0 ? stiffness_ * sum / (stiffness_ + sum) : 0.0;
+  return sum;
 }
 
 EdgePlace BladeEdge::place() const noexcept {
@@ -100,22 +100,21 @@ double BladeEdge::hold_ahead(double q) const noexcept {
   return sum;
 }
 
-/// Where the blade is in balance between strips and hand. Ahead by halving, as the sum has a corner for each strip.
-void BladeEdge::find_blade() noexcept {
+/// Where the blade is in balance between strips, strands and hand. Ahead by halving, as the sum has a corner for each.
+void BladeEdge::find_blade(const BladeStrands& strands) noexcept {
   lag_ = aside_ = 0;
-  double low = 0, across = 0, held = 0;
+  double low = strands.lowest(), across = 0, held = 0;
   for (const BladeStrip& strip : strips_) {
     if (!strip.bites) continue;
     low = std::min(low, strip.q);
     const double k = hold_of(strip);
     across += k * strip.r, held += k;
   }
-  if (held == 0) return;
-  aside_ = across / (stiffness_ + held);
+  if (held > 0) aside_ = across / (stiffness_ + held);
   double high = 0;
   for (int n = 0; n < 50 && low < high; ++n) {
     const double middle = 0.5 * (low + high);
-    (hold_ahead(middle) < -stiffness_ * middle ? low : high) = middle;
+    (hold_ahead(middle) + strands.hold_ahead(middle) < -stiffness_ * middle ? low : high) = middle;
   }
   lag_ = 0.5 * (low + high);
 }
@@ -174,8 +173,8 @@ void BladeEdge::press(BladeLinks& links, const BladeFrame& frame, double dt, Out
   }
 }
 
-BladeEdge::Outcome BladeEdge::step(BladeLinks& links, const BladeFrame& frame, double dt,
-                                   std::vector<EdgeGone>& cuts) noexcept {
+BladeOutcome BladeEdge::step(BladeLinks& links, BladeStrands& strands, const BladeFrame& frame, double dt,
+                             std::vector<EdgeGone>& cuts) noexcept {
   Outcome done;
   links.update(frame, place());
   strips_.follow(links, frame);
@@ -188,10 +187,12 @@ BladeEdge::Outcome BladeEdge::step(BladeLinks& links, const BladeFrame& frame, d
   strips_.compare_with_rest(links, dt);
   share_released(links, dt);
   soften(links, dt);
-  find_blade();
+  strands.meet(frame, lag_before_, stiffness_, dt);
+  find_blade(strands);
   for (BladeStrip& strip : strips_) slide(strip, done);
   purse_ -= done.released;
   press(links, frame, dt, done);
+  strands.slide(frame, lag_, done);
   cut(links, cuts);
   links.remember();
   bites_ = std::ranges::any_of(strips_, [](const BladeStrip& strip) { return strip.bites; });

@@ -20,38 +20,34 @@
 #include <span>
 #include <vector>
 
+#include "physics_node/contact/blade_strands.h"
 #include "physics_node/contact/blade_strips.h"
 
 namespace palpate::physics {
 
 class BladeEdge {
  public:
-  /// What a step did.
-  struct Outcome {
-    Vec3 force = Vec3::Zero();   // on the tissue [N]
-    Vec3 moment = Vec3::Zero();  // of it, about the tip [N m]
-    double work = 0;             // of going on, which the hand pays [J]
-    double released = 0;         // and that which tissue pays [J]
-    double area = 0;             // opened [m^2]
-    double power = 0;            // of the forces, with the velocities before the step [W]
-  };
+  using Outcome = BladeOutcome;
 
   /// @param n_strips  of equal length @param stiffness  of the hand's spring, all of it [N/m]
   BladeEdge(double length, std::size_t n_strips, double stiffness);
 
   /// How stiff the hand's spring is now [N/m].
   void set_stiffness(double stiffness) noexcept { stiffness_ = stiffness; }
-  /// After a step of dt: slides, finds forces on the nodes of `links`, and lists in `cuts` the elements that it has passed.
-  Outcome step(BladeLinks& links, const BladeFrame& frame, double dt, std::vector<EdgeGone>& cuts) noexcept;
+  /// After a step of dt: slides, finds forces on the nodes of `links` and on `strands`, and lists in `cuts` the elements that it
+  /// has passed.
+  Outcome step(BladeLinks& links, BladeStrands& strands, const BladeFrame& frame, double dt,
+               std::vector<EdgeGone>& cuts) noexcept;
   /// What the elements held that the last step's list names [J].
   void take_released(double energy) noexcept { coming_ += energy; }
   void let_go() noexcept;
 
-  /// Is any of it in tissue?
+  /// Is any of it in springs?
   bool bites() const noexcept { return bites_; }
   EdgePlace place() const noexcept;
-  /// What the hand feels of its spring as long as no strip goes on [N/m].
-  double felt_stiffness() const noexcept;
+  /// What the hand feels of its spring ahead and across as long as nothing goes on [N/m].
+  double felt_ahead(const BladeStrands& strands) const noexcept { return felt(held() + strands.held()); }
+  double felt_across() const noexcept { return felt(held()); }
 
  private:
   void touch(BladeLinks& links, const BladeFrame& frame) noexcept;
@@ -72,7 +68,9 @@ class BladeEdge {
   double most_force(const BladeStrip& strip) const noexcept { return (1 - from_tissue_) * resistance(strip); }
   void share_released(const BladeLinks& links, double dt) noexcept;
   double hold_ahead(double q) const noexcept;
-  void find_blade() noexcept;
+  double held() const noexcept;  // how stiffly all strips hold it [N/m]
+  double felt(double held) const noexcept { return held > 0 ? stiffness_ * held / (stiffness_ + held) : 0.0; }
+  void find_blade(const BladeStrands& strands) noexcept;
   void slide(BladeStrip& strip, Outcome& done) const noexcept;
   void press(BladeLinks& links, const BladeFrame& frame, double dt, Outcome& done) noexcept;
   void cut(BladeLinks& links, std::vector<EdgeGone>& cuts) noexcept;

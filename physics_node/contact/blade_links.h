@@ -67,6 +67,8 @@ class BladeLinks {
     Crossing now{}, before{};  // before: when the last step ended
   };
 
+  /// Of no body: nothing is near.
+  BladeLinks() = default;
   /// @param body  of springs; outlives this  @param length  of the edge [m]
   BladeLinks(const BodyModel& body, double length);
 
@@ -93,8 +95,8 @@ class BladeLinks {
   void look_around(const BladeFrame& frame, const EdgePlace& edge) noexcept;
   void settle_side(Node& node, const EdgePlace& edge) noexcept;
 
-  const BodyModel* body_;
-  double length_, h_;
+  const BodyModel* body_ = nullptr;
+  double length_ = 0, h_ = 1;
   std::vector<Index> around_;         // nodes of the body within a margin
   std::vector<std::int32_t> number_;  // of a node in nodes_, by cell; -1: none
   std::vector<std::int8_t> side_;     // of what is around, by cell; 0: not settled

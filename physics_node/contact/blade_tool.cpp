@@ -16,11 +16,13 @@ constexpr double strips_a_spacing =
     2;  // Why: a strip answers for half a spacing of edge, so that a blade that enters does so gradually
 constexpr std::size_t most_cuts = 4096;  // in a step
 
+bool is_lattice_of_springs(const Body& body) { return !body.solid && !body.mesh; }
+
 void refuse_uncut(const ToolSpec& tool, const Body& body) {
-  if (body.solid || body.mesh)
+  if (!is_lattice_of_springs(body))
     throw InputError(
-        fmt::format("{}: shape = \"scalpel\" cuts lattices of springs, and \"{}\" is {}; write model = "
-                    "\"springs\" there",
+        fmt::format("{}: shape = \"scalpel\" cuts lattices of springs and what a [[connection]] joins, and \"{}\" "
+                    "is {}; write model = \"springs\" there",
                     tool.place.text(), body.name,
                     is_surface_of_springs(body) ? "a surface of springs" : "of finite elements"));
   if (std::ranges::any_of(body.laws, [](const ElementLaw& law) { return law.cut_toughness <= 0; }))
@@ -39,16 +41,19 @@ std::size_t strips_of(const ToolSpec& tool, const BodyModels& bodies) {
 
 }  // namespace
 
-BladeTool::BladeTool(const ToolSpec& tool, std::uint32_t index, const BodyModels& bodies, double period)
+BladeTool::BladeTool(const ToolSpec& tool, std::uint32_t index, const BodyModels& bodies,
+                     const Connections& connections, double period)
     : PressingTool(index, tool.set_point),
       attitude_(tool.attitude),
       edge_(tool.edge),
       stiffness_(tool.stiffness),
       play_(period),
+      strands_(connections, tool.length),
       blade_(tool.length, strips_of(tool, bodies), tool.stiffness) {
-  for (const auto& body : bodies) {
-    refuse_uncut(tool, body->body());
-    bodies_.emplace_back(*body, tool.length);
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const Body& body = bodies[b]->body();
+    if (connections.empty() || is_lattice_of_springs(body)) refuse_uncut(tool, body);
+    if (is_lattice_of_springs(body)) bodies_.push_back({b, BladeLinks(*bodies[b], tool.length)});
   }
   forces_.reserve(BladeLinks::most_nodes);
   cuts_.reserve(most_cuts);
@@ -67,8 +72,8 @@ BladeFrame BladeTool::frame_at(double share) const noexcept {
 
 void BladeTool::reset() noexcept {
   play_.reset();
-  blade_.let_go();
-  for (BladeLinks& body : bodies_) body.reset();
+  let_go();
+  for (OfBody& body : bodies_) body.links.reset();
   engaged_ = near_ = false;
   keep_ = 1;
   done_ = {};
@@ -80,7 +85,7 @@ void BladeTool::take(const ToolState* state, double dt) noexcept {
   frame_dt_ = dt;
   elapsed_ = 0;
   const ToolState hand = state != nullptr ? numbered(*state) : ToolState{};
-  if (!play_.take(state != nullptr ? &hand : nullptr, dt)) blade_.let_go();
+  if (!play_.take(state != nullptr ? &hand : nullptr, dt)) let_go();
   keep_ = spring_left(keep_, state != nullptr, dt);
   if (state == nullptr) return;
   note(*state);
@@ -93,37 +98,41 @@ void BladeTool::find_contact(double t) noexcept {
   forces_.clear();
   cuts_.clear();
   if (!play_.seen()) return;
-  if (!engaged_) blade_.let_go();
+  if (!engaged_) let_go();
   const BladeFrame frame = frame_at(0);
   hand_ = frame.tip;
   std::size_t most = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     if (blade_.bites() && b != touched_) continue;
-    bodies_[b].gather(frame, blade_.place(), t);
-    if (bodies_[b].links().size() <= most) continue;
-    most = bodies_[b].links().size();
+    BladeLinks& links = bodies_[b].links;
+    links.gather(frame, blade_.place(), t);
+    if (links.links().size() <= most) continue;
+    most = links.links().size();
     if (b != touched_) blade_.let_go();
     touched_ = b;
   }
   near_ = most > 0;
-  if (!near_) blade_.let_go();
+  if (engaged_) strands_.gather(frame, play_.way(), t);
+  if (!near_ && !strands_.is_near()) blade_.let_go();
 }
 
 void BladeTool::begin_step() noexcept {
-  if (may_press()) bodies_[touched_].begin_step();
+  if (near_) bodies_[touched_].links.begin_step();
+  strands_.begin_step();
 }
 
 double BladeTool::press(double dt) noexcept {
   elapsed_ += dt;
   forces_.clear();
   cuts_.clear();
+  strands_.clear_pushes();
   done_ = {};
   frame_ = frame_at(frame_dt_ > 0 ? elapsed_ / frame_dt_ : 1.0);
   hand_ = frame_.tip;
   if (!may_press() || keep_ == 0) return 0;
   blade_.set_stiffness(keep_ * stiffness_);
-  BladeLinks& links = bodies_[touched_];
-  done_ = blade_.step(links, frame_, dt, cuts_);
+  BladeLinks& links = near_ ? bodies_[touched_].links : nothing_;
+  done_ = blade_.step(links, strands_, frame_, dt, cuts_);
   for (const BladeLinks::Node& node : links.nodes())
     if (!node.force.isZero(0)) forces_.push_back({node.cell, node.force});
   book().cut(done_.area, done_.work + done_.released);
@@ -131,18 +140,15 @@ double BladeTool::press(double dt) noexcept {
 }
 
 Wrench BladeTool::wrench() const noexcept {
-  if (forces_.empty()) return {};
   return {-done_.force, -done_.moment + (hand_ - set_point_).cross(-done_.force)};
 }
 
 void BladeTool::write_wrench(ToolWrench& out, std::uint64_t frame, std::int64_t now_ns,
                              double t) const noexcept {
   begin_wrench(out, wrench(), frame, now_ns, t);
-  if (!blade_.bites()) return;
-  const Eigen::Matrix3d ways =
-      frame_.ahead * frame_.ahead.transpose() + frame_.side * frame_.side.transpose();
   Mat6 K = Mat6::Zero();
-  K.topLeftCorner<3, 3>() = blade_.felt_stiffness() * ways;
+  K.topLeftCorner<3, 3>() = blade_.felt_ahead(strands_) * frame_.ahead * frame_.ahead.transpose() +
+                            blade_.felt_across() * frame_.side * frame_.side.transpose();
   Eigen::Map<Mat6>(out.stiffness.data()) = K;  // symmetric
 }
 

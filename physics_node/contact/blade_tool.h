@@ -1,10 +1,12 @@
 #pragma once
-// A scalpel: a rigid edge that the hand leads through bodies of springs, and what it passes is cut (blade_edge.h). No mass is lost.
+// A scalpel: a rigid edge that the hand leads through bodies of springs and through the strands of connections, and what it
+// passes is cut (blade_edge.h, blade_strands.h). No mass is lost.
 // What the hand pays is the tissue's toughness times the area that has been opened.
 //
 // The hand is told the force of the frame's last step and how its spring would change that: of two ways, as the edge slides along itself.
 // While physics hears nothing the blade stands, and after Hands::silence its spring lets go, within 200 ms.
-// Limits: it touches one body at a time, that which most of its edge is near; flanks do not rub, and what lies beside the blade does not press on it.
+// Limits: it touches one body of springs at a time, that which most of its edge is near; flanks do not rub, what lies beside the blade
+// does not press on it, and finite elements and surfaces of springs it passes unfelt.
 
 #include <memory>
 #include <vector>
@@ -17,21 +19,25 @@ namespace palpate::physics {
 
 class BladeTool final : public PressingTool {
  public:
-  /// @param bodies  all of a scene: springs, or none that it can cut  @param period  of the hand's samples [s]
-  /// @throws InputError  a body of finite elements, or a material that does not say how tough it is
-  BladeTool(const ToolSpec& tool, std::uint32_t index, const BodyModels& bodies, double period);
+  /// @param bodies, connections  all of a scene, which outlive this  @param period  of the hand's samples [s]
+  /// @throws InputError  bodies of which it can cut none, and nothing that joins them; or a material that does not say how tough it is
+  BladeTool(const ToolSpec& tool, std::uint32_t index, const BodyModels& bodies,
+            const Connections& connections, double period);
 
   void take(const ToolState* state, double dt) noexcept override;
   void find_contact(double t) noexcept override;
   void reset() noexcept override;
 
   std::span<const NodalForce> forces() const noexcept override { return forces_; }
-  bool may_press() const noexcept override { return engaged_ && near_; }
-  std::size_t touched_body() const noexcept override { return touched_; }
+  bool may_press() const noexcept override { return engaged_ && (near_ || strands_.is_near()); }
+  std::size_t touched_body() const noexcept override { return near_ ? bodies_[touched_].number : 0; }
   bool follows_steps() const noexcept override { return true; }
   void begin_step() noexcept override;
   double press(double dt) noexcept override;
   std::span<const EdgeGone> cuts() const noexcept override { return cuts_; }
+  std::span<const StrandPush> pushes(std::size_t connection) const noexcept override {
+    return strands_.pushes(connection);
+  }
   CutWork cut_work() const noexcept override { return {done_.work, done_.released}; }
   void take_released(double energy) noexcept override { blade_.take_released(energy); }
 
@@ -44,25 +50,34 @@ class BladeTool final : public PressingTool {
   Vec3 tip() const noexcept override { return hand_; }
   Wrench wrench() const noexcept override;
   Wrench raw_wrench() const noexcept override { return wrench(); }
-  std::uint32_t contacts() const noexcept override { return static_cast<std::uint32_t>(forces_.size()); }
-  Vec3 borne() const noexcept override { return forces_.empty() ? Vec3(Vec3::Zero()) : Vec3(-done_.force); }
+  std::uint32_t contacts() const noexcept override {
+    return static_cast<std::uint32_t>(forces_.size() + strands_.n_pushes());
+  }
+  Vec3 borne() const noexcept override { return -done_.force; }
   bool knows_tissue_work() const noexcept override { return true; }
 
  private:
+  struct OfBody {
+    std::size_t number = 0;
+    BladeLinks links;
+  };
   BladeFrame frame_at(double share) const noexcept;
+  void let_go() noexcept { blade_.let_go(), strands_.let_go(); }
 
   Eigen::Matrix3d attitude_;
   double edge_, stiffness_;
   HandPlay play_;
-  std::vector<BladeLinks> bodies_;
+  std::vector<OfBody> bodies_;  // of springs
+  BladeLinks nothing_;          // where none of them is near
+  BladeStrands strands_;
   BladeEdge blade_;
   bool engaged_ = false, near_ = false;
   double keep_ = 1;                    // of the spring, after silence
   double frame_dt_ = 0, elapsed_ = 0;  // of it [s]
-  std::size_t touched_ = 0;
+  std::size_t touched_ = 0;  // of bodies_
   Vec3 hand_ = Vec3::Zero();
   BladeFrame frame_;
-  BladeEdge::Outcome done_;  // of the last step
+  BladeOutcome done_;  // of the last step
   std::vector<NodalForce> forces_;
   std::vector<EdgeGone> cuts_;
 };

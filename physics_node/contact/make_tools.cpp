@@ -1,6 +1,9 @@
 #include "physics_node/contact/make_tools.h"
 
+#include <fmt/format.h>
+
 #include "common/error/error.h"
+#include "common/scene/connection_spec.h"
 #include "common/scene/device_spec.h"
 #include "common/scene/force_model.h"
 #include "common/scene/physics_spec.h"
@@ -49,10 +52,17 @@ void add_tissue(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
   add_pressing(std::move(tool), bodies, box);
 }
 
-void add_scalpel(const Scene& scene, std::uint32_t n, const BodyModels& bodies, Toolbox& box) {
+void add_scalpel(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
+                 const Connections& connections, Toolbox& box) {
   const ToolSpec& spec = scene.tools[n];
   refuse_implicit(scene, spec, "a scalpel cuts step by step");
-  auto blade = std::make_unique<BladeTool>(spec, n, bodies, 1 / scene.device(spec.device).rate_Hz);
+  for (const ConnectionSpec& joint : scene.connections)
+    if (joint.cut_toughness <= 0)
+      throw InputError(fmt::format(
+          "{}: shape = \"scalpel\" needs to know how tough connection \"{}\" is; give that "
+          "cut_toughness_J_per_m2, such as 100",
+          spec.place.text(), joint.name));
+  auto blade = std::make_unique<BladeTool>(spec, n, bodies, connections, 1 / scene.device(spec.device).rate_Hz);
   add_pressing(std::move(blade), bodies, box);
 }
 
@@ -87,7 +97,7 @@ void add_body(const ToolSpec& spec, std::uint32_t n, const BodyModels& bodies, T
 }  // namespace
 
 Toolbox make_tools(const Scene& scene, const BodyModels& bodies,
-                   const std::vector<TouchableBody>& touchable) {
+                   const std::vector<TouchableBody>& touchable, const Connections& connections) {
   Toolbox box;
   for (std::uint32_t n = 0; n < scene.tools.size(); ++n) {
     const ToolSpec& spec = scene.tools[n];
@@ -96,7 +106,7 @@ Toolbox make_tools(const Scene& scene, const BodyModels& bodies,
     else if (spec.shape == ToolShape::point)
       add_point(scene, n, bodies, touchable, box);
     else if (spec.shape == ToolShape::scalpel)
-      add_scalpel(scene, n, bodies, box);
+      add_scalpel(scene, n, bodies, connections, box);
     else if (spec.shape == ToolShape::forceps)
       add_forceps(scene, n, bodies, box);
     else if (spec.shape == ToolShape::stick)

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "physics_node/connection/connection.h"
 #include "physics_node/contact/led_tool.h"
 #include "physics_node/contact/point_tool.h"
 
@@ -18,7 +19,8 @@ struct Toolbox {
 };
 
 /// Makes them, and has the bodies make room for what these tools want to know.
-/// @throws InputError  where a tool cannot work with the scene's integrator
-Toolbox make_tools(const Scene& scene, const BodyModels& bodies, const std::vector<TouchableBody>& touchable);
+/// @throws InputError  where a tool cannot work with the scene's integrator, or with what it is to cut
+Toolbox make_tools(const Scene& scene, const BodyModels& bodies, const std::vector<TouchableBody>& touchable,
+                   const Connections& connections);
 
 }  // namespace palpate::physics

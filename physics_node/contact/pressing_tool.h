@@ -4,6 +4,7 @@
 #include <span>
 
 #include "physics_node/body/topology_events.h"
+#include "physics_node/connection/strands.h"
 #include "physics_node/contact/tool.h"
 
 namespace palpate::physics {
@@ -31,6 +32,10 @@ class PressingTool : public Tool {
   virtual double press(double dt) noexcept = 0;
   /// Elements of the touched body that it has cut in the step of press().
   virtual std::span<const EdgeGone> cuts() const noexcept { return {}; }
+  /// What it does to the strands of a connection in the step of press().
+  virtual std::span<const StrandPush> pushes([[maybe_unused]] std::size_t connection) const noexcept {
+    return {};
+  }
   /// What that step's way through tissue took: toughness times area.
   virtual CutWork cut_work() const noexcept { return {}; }
   /// What the elements of cuts() held [J].

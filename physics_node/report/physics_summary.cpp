@@ -197,6 +197,7 @@ nlohmann::json physics_summary(const World& world, const Recorder* recorder, dou
   for (std::size_t n = 0; n < world.n_connections(); ++n)
     part["connections"][scene.connections[n].name] = {{"strands", world.connection(n).n_strands()},
                                                       {"torn", world.connection(n).n_torn()},
+                                                      {"cut", world.connection(n).n_cut()},
                                                       {"pull", world.connection(n).pull()}};
   for (std::size_t n = 0; n < world.n_tools(); ++n)
     part["tools"][scene.tools[n].name] = touch_part(world.tool(n));
