@@ -32,6 +32,13 @@ void refuse_uncut(const ToolSpec& tool, const Body& body) {
                     tool.place.text(), body.name));
 }
 
+std::vector<std::size_t> passed_bodies(const BodyModels& bodies) {
+  std::vector<std::size_t> passed;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (!is_lattice_of_springs(bodies[b]->body())) passed.push_back(b);
+  return passed;
+}
+
 std::size_t strips_of(const ToolSpec& tool, const BodyModels& bodies) {
   double finest = tool.length;
   for (const auto& body : bodies) finest = std::min(finest, body->body().spacing());
@@ -42,13 +49,15 @@ std::size_t strips_of(const ToolSpec& tool, const BodyModels& bodies) {
 }  // namespace
 
 BladeTool::BladeTool(const ToolSpec& tool, std::uint32_t index, const BodyModels& bodies,
-                     const Connections& connections, double period)
+                     const std::vector<TouchableBody>& touchable, const Connections& connections,
+                     double period)
     : PressingTool(index, tool.set_point),
       attitude_(tool.attitude),
       edge_(tool.edge),
       stiffness_(tool.stiffness),
       play_(period),
       strands_(connections, tool.length),
+      inside_(touchable, passed_bodies(bodies), tool.length),
       blade_(tool.length, strips_of(tool, bodies), tool.stiffness) {
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const Body& body = bodies[b]->body();
@@ -74,6 +83,7 @@ void BladeTool::reset() noexcept {
   play_.reset();
   let_go();
   for (OfBody& body : bodies_) body.links.reset();
+  inside_.reset();
   engaged_ = near_ = false;
   keep_ = 1;
   done_ = {};
@@ -98,7 +108,7 @@ void BladeTool::find_contact(double t) noexcept {
   forces_.clear();
   cuts_.clear();
   if (!play_.seen()) return;
-  if (!engaged_) let_go();
+  if (!engaged_) let_go(), inside_.let_go();
   const BladeFrame frame = frame_at(0);
   hand_ = frame.tip;
   std::size_t most = 0;
@@ -112,7 +122,7 @@ void BladeTool::find_contact(double t) noexcept {
     touched_ = b;
   }
   near_ = most > 0;
-  if (engaged_) strands_.gather(frame, play_.way(), t);
+  if (engaged_) strands_.gather(frame, play_.way(), t), inside_.follow(frame);
   if (!near_ && !strands_.is_near()) blade_.let_go();
 }
 

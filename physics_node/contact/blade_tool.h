@@ -6,12 +6,13 @@
 // The hand is told the force of the frame's last step and how its spring would change that: of two ways, as the edge slides along itself.
 // While physics hears nothing the blade stands, and after Hands::silence its spring lets go, within 200 ms.
 // Limits: it touches one body of springs at a time, that which most of its edge is near; flanks do not rub, what lies beside the blade
-// does not press on it, and finite elements and surfaces of springs it passes unfelt.
+// does not press on it, and finite elements and surfaces of springs it passes unfelt, and counts that.
 
 #include <memory>
 #include <vector>
 
 #include "physics_node/contact/blade_edge.h"
+#include "physics_node/contact/blade_inside.h"
 #include "physics_node/contact/hand_play.h"
 #include "physics_node/contact/pressing_tool.h"
 
@@ -19,10 +20,10 @@ namespace palpate::physics {
 
 class BladeTool final : public PressingTool {
  public:
-  /// @param bodies, connections  all of a scene, which outlive this  @param period  of the hand's samples [s]
+  /// @param bodies, touchable, connections  all of a scene, which outlive this  @param period  of the hand's samples [s]
   /// @throws InputError  bodies of which it can cut none, and nothing that joins them; or a material that does not say how tough it is
   BladeTool(const ToolSpec& tool, std::uint32_t index, const BodyModels& bodies,
-            const Connections& connections, double period);
+            const std::vector<TouchableBody>& touchable, const Connections& connections, double period);
 
   void take(const ToolState* state, double dt) noexcept override;
   void find_contact(double t) noexcept override;
@@ -39,6 +40,7 @@ class BladeTool final : public PressingTool {
     return strands_.pushes(connection);
   }
   CutWork cut_work() const noexcept override { return {done_.work, done_.released}; }
+  std::span<const double> passed_unfelt() const noexcept override { return inside_.areas(); }
   void take_released(double energy) noexcept override { blade_.take_released(energy); }
 
   void write_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) noexcept override {
@@ -70,6 +72,7 @@ class BladeTool final : public PressingTool {
   std::vector<OfBody> bodies_;  // of springs
   BladeLinks nothing_;          // where none of them is near
   BladeStrands strands_;
+  BladeInside inside_;
   BladeEdge blade_;
   bool engaged_ = false, near_ = false;
   double keep_ = 1;                    // of the spring, after silence

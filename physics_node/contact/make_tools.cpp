@@ -53,7 +53,7 @@ void add_tissue(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
 }
 
 void add_scalpel(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
-                 const Connections& connections, Toolbox& box) {
+                 const std::vector<TouchableBody>& touchable, const Connections& connections, Toolbox& box) {
   const ToolSpec& spec = scene.tools[n];
   refuse_implicit(scene, spec, "a scalpel cuts step by step");
   for (const ConnectionSpec& joint : scene.connections)
@@ -62,7 +62,7 @@ void add_scalpel(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
           "{}: shape = \"scalpel\" needs to know how tough connection \"{}\" is; give that "
           "cut_toughness_J_per_m2, such as 100",
           spec.place.text(), joint.name));
-  auto blade = std::make_unique<BladeTool>(spec, n, bodies, connections, 1 / scene.device(spec.device).rate_Hz);
+  auto blade = std::make_unique<BladeTool>(spec, n, bodies, touchable, connections, 1 / scene.device(spec.device).rate_Hz);
   add_pressing(std::move(blade), bodies, box);
 }
 
@@ -106,7 +106,7 @@ Toolbox make_tools(const Scene& scene, const BodyModels& bodies,
     else if (spec.shape == ToolShape::point)
       add_point(scene, n, bodies, touchable, box);
     else if (spec.shape == ToolShape::scalpel)
-      add_scalpel(scene, n, bodies, connections, box);
+      add_scalpel(scene, n, bodies, touchable, connections, box);
     else if (spec.shape == ToolShape::forceps)
       add_forceps(scene, n, bodies, box);
     else if (spec.shape == ToolShape::stick)

@@ -9,6 +9,7 @@
 #include "common/report/warnings.h"
 #include "common/scene/connection_spec.h"
 #include "common/scene/physics_spec.h"
+#include "common/scene/body_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/surroundings_spec.h"
 #include "common/scene/tool_spec.h"
@@ -103,13 +104,16 @@ nlohmann::json team_part(const TeamChoice& choice) {
 }
 
 /// What the hand felt, and whether tissue bore it.
-nlohmann::json touch_part(const Tool& tool) {
+nlohmann::json touch_part(const Tool& tool, const Scene& scene) {
   nlohmann::json part = {{"hand_work", tool.book().hand_work()}};
   if (tool.knows_tissue_work()) part["tissue_work"] = tool.book().tissue_work();
   if (tool.book().cut_area() > 0) {
     part["cut_area_mm2"] = 1e6 * tool.book().cut_area();
     part["cut_work"] = tool.book().cut_work();
   }
+  const auto passed = tool.passed_unfelt();
+  for (std::size_t b = 0; b < passed.size(); ++b)
+    if (passed[b] > 0) part["passed_unfelt_mm2"][scene.bodies[b].name] = 1e6 * passed[b];
   if (const auto ratio = tool.book().felt_over_true_rms()) part["felt_over_true_rms"] = *ratio;
   if (const auto off = tool.book().felt_off_rms()) part["felt_off_rms"] = *off;
   return part;
@@ -200,7 +204,7 @@ nlohmann::json physics_summary(const World& world, const Recorder* recorder, dou
                                                       {"cut", world.connection(n).n_cut()},
                                                       {"pull", world.connection(n).pull()}};
   for (std::size_t n = 0; n < world.n_tools(); ++n)
-    part["tools"][scene.tools[n].name] = touch_part(world.tool(n));
+    part["tools"][scene.tools[n].name] = touch_part(world.tool(n), scene);
   for (std::size_t n = 0; recorder != nullptr && n < scene.tools.size(); ++n)
     part["tools"][scene.tools[n].name].update({{"contacts_max", recorder->contacts_max(n)},
                                                {"force_peak", recorder->force_peak(n)},

@@ -7,6 +7,7 @@
 #include "physics_node/report/physics_summary.h"
 #include "tests/support/image/scratch_folder.h"
 #include "tests/support/physics/pressed_world.h"
+#include "tests/support/physics/recorded_hand.h"
 #include "tests/support/physics/small_worlds.h"
 #include "tests/support/reference/page.h"
 
@@ -23,7 +24,8 @@ void add_keys(Keys& keys, const json& part, const std::string& at) {
     keys.insert(at);
     return;
   }
-  const bool names = at == "stages" || at == "bodies" || at == "connections" || at == "tools";
+  const bool names = at == "stages" || at == "bodies" || at == "connections" || at == "tools" ||
+                     at.ends_with("passed_unfelt_mm2");
   for (const auto& [key, value] : part.items())
     add_keys(keys, value, at + (at.empty() ? "" : ".") + (names ? "NAME" : key));
 }
@@ -89,15 +91,24 @@ void add_of_finite_elements(Keys& keys) {
   add_keys(keys, world, nullptr);
 }
 
-/// Two bodies and what joins them.
+/// Two bodies, what joins them, and a scalpel that goes through one of them.
 void add_joined(Keys& keys) {
   Recipe recipe;
+  recipe.lattice = "voxel";
+  recipe.material = "density_kg_per_m3 = 1000\nmodulus_kPa = 10";
+  recipe.body = "model = \"fem\"";
   recipe.world =
-      "[[body]]\nname = \"other\"\nlattice = \"fcc\"\nshape = \"box\"\nsize_mm = [40, 40, 40]\nspacing_mm = "
-      "10\nmaterial = \"m\"\nat_mm = [0, 0, 45]\n[[connection]]\nname = \"bed\"\nfrom = \"body\"\nto = "
-      "\"other\"\nwithin_mm = 20\nmodulus_kPa = 1\n";
+      "[[body]]\nname = \"other\"\nlattice = \"voxel\"\nmodel = \"fem\"\nshape = \"box\"\nsize_mm = [40, 40, 40]\n"
+      "spacing_mm = 10\nmaterial = \"m\"\nat_mm = [0, 0, 45]\n"
+      "[[connection]]\nname = \"bed\"\nfrom = \"body\"\nto = \"other\"\nwithin_mm = 20\nmodulus_kPa = 1\n"
+      "cut_toughness_J_per_m2 = 1\n"
+      "[[tool]]\nname = \"blade\"\nshape = \"scalpel\"\nlength_mm = 20\ndevice = \"hand\"\n"
+      "[device.hand]\ndriver = \"simulated\"\nwaypoints = [[0, 30, 0, -5], [1, -30, 0, -5]]\n";
   World world(scene_of(recipe));
-  world.frame({});
+  for (std::uint64_t n = 1; n < 60; ++n) {
+    const std::optional<ToolState> hand = recorded_hand([](double t) { return Vec3(0.03 - t, 0, -0.005); }, n);
+    world.frame(std::span(&hand, 1));
+  }
   add_keys(keys, world, nullptr);
 }
 
