@@ -181,16 +181,40 @@ TEST_F(ShippedScenes, AGallBladderOfAnImageIsPressed) {
   EXPECT_TRUE(summary["warnings"].empty()) << summary["warnings"];
 }
 
+/// With liver and gall bladder.
+class Dissection : public ShippedScenes {
+ protected:
+  nlohmann::json dissect(const std::string& scene) {
+    if (!fs::exists(LIVER)) throw std::runtime_error("fetch the liver with deploy/fetch_liver.sh");
+    const std::string liver = (folder / "liver.h5").string(), bag = (folder / "bag.h5").string();
+    const std::string image = "import " + test::quoted(LIVER);
+    EXPECT_EQ(palpate(image + " --keep 255,255 --tetrahedra-mm 17 --out " + test::quoted(liver)), 0) << log;
+    EXPECT_EQ(palpate(image + " --keep 85,85 --tetrahedra-mm 4 --largest --out " + test::quoted(bag)), 0)
+        << log;
+    return simulate(scene, "--set body.liver.file=" + test::quoted(liver) +
+                               " --set body.gall_bladder.file=" + test::quoted(bag));
+  }
+};
+
+/// A scalpel frees it, and what is left of its bed when it hangs by little tears.
+TEST_F(Dissection, AScalpelFreesAGallBladder) {
+  const auto summary = dissect("gallbladder");
+  const auto& bed = summary["connections"]["bed"];
+  EXPECT_GT(bed["cut"].get<int>(), 0.75 * bed["strands"].get<int>());
+  EXPECT_EQ(bed["cut"].get<int>() + bed["torn"].get<int>(), bed["strands"].get<int>());
+  EXPECT_EQ(bed["pull"].get<double>(), 0);
+  const auto& scalpel = summary["tools"]["scalpel"];
+  EXPECT_NEAR(scalpel["cut_work"].get<double>(), 30e-6 * scalpel["cut_area_mm2"].get<double>(), 1e-9);
+  EXPECT_NEAR(summary["energy"]["cut"].get<double>(), scalpel["cut_work"].get<double>(), 1e-9);
+  EXPECT_LT(scalpel["force_peak"].get<double>(), 30 * 0.032) << "toughness times all of its edge";
+  EXPECT_LT(summary["energy"]["balance_error"].get<double>(), 0.01);
+  ASSERT_EQ(summary["warnings"].size(), 1U) << summary["warnings"];
+  EXPECT_NE(summary["warnings"][0].get<std::string>().find("\"scalpel\" went through"), std::string::npos);
+}
+
 /// Forceps free the gall bladder: all of its bed tears, as one piece, and the liver stays.
-TEST_F(ShippedScenes, AGallBladderIsPulledOffItsLiver) {
-  ASSERT_TRUE(fs::exists(LIVER)) << "fetch it with deploy/fetch_liver.sh";
-  const std::string liver = (folder / "liver.h5").string(), bag = (folder / "bag.h5").string();
-  const std::string image = "import " + test::quoted(LIVER);
-  ASSERT_EQ(palpate(image + " --keep 255,255 --tetrahedra-mm 17 --out " + test::quoted(liver)), 0) << log;
-  ASSERT_EQ(palpate(image + " --keep 85,85 --tetrahedra-mm 4 --largest --out " + test::quoted(bag)), 0)
-      << log;
-  const auto summary = simulate("blunt_dissection", "--set body.liver.file=" + test::quoted(liver) +
-                                                        " --set body.gall_bladder.file=" + test::quoted(bag));
+TEST_F(Dissection, AGallBladderIsPulledOffItsLiver) {
+  const auto summary = dissect("blunt_dissection");
   const auto& bed = summary["connections"]["bed"];
   EXPECT_GT(bed["strands"].get<int>(), 100);
   EXPECT_EQ(bed["torn"], bed["strands"]);
