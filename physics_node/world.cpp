@@ -46,7 +46,10 @@ Energies World::energies() const {
 
 Losses World::losses_and_due() const {
   Losses sum = sum_losses_and_due(bodies_);
-  for (const auto& connection : connections_) sum.broken += connection->broken();
+  for (const auto& connection : connections_) {
+    sum.broken += connection->broken();
+    sum.viscous += connection->viscous();
+  }
   return sum;
 }
 
@@ -62,6 +65,7 @@ EnergyLedger World::watched_ledger() const noexcept {
   for (const auto& connection : connections_) {
     now.elastic += connection->watched();
     lost.broken += connection->broken();
+    lost.viscous += connection->watched_viscous();
   }
   return account_.book(now, lost, watched_);
 }

@@ -124,7 +124,7 @@ void World::join_bodies() {
     return static_cast<std::size_t>(std::ranges::find(scene_.bodies, name, &BodySpec::name) -
                                     scene_.bodies.begin());
   };
-  double added = 0;  // to the largest squared frequency [1/s^2]
+  double added = 0, rate = 0;  // to the largest squared frequency [1/s^2]; of their dampers [1/s]
   for (const ConnectionSpec& spec : scene_.connections) {
     const std::size_t from = number(spec.from), to = number(spec.to);
     auto strands = make_strands(spec, touchable_[from].surface->surface(), touchable_[to].surface->surface());
@@ -136,10 +136,14 @@ void World::join_bodies() {
                       spec.place.text(), spec.name, spec.from, 1e3 * spec.within, spec.to));
     added += std::max(added_omega2(strands, 0, bodies_[from]->body().inverse_mass),
                       added_omega2(strands, 1, bodies_[to]->body().inverse_mass));
+    rate += std::max(added_rate(strands, 0, bodies_[from]->body().inverse_mass),
+                     added_rate(strands, 1, bodies_[to]->body().inverse_mass));
     connections_.push_back(std::make_unique<Connection>(std::move(strands), *bodies_[from], *bodies_[to]));
   }
-  // 1 / dt^2 = w^2 / 4, of a sum at most the sum.
-  if (added > 0) stable_dt_ = 1 / std::sqrt(1 / (stable_dt_ * stable_dt_) + added / 4);
+  if (connections_.empty()) return;
+  // Of a sum at most the sum: dt^2 w^2 / 4 + dt D <= 1, with 2 D the rate of dampers that act by the velocity before.
+  const double quarter = 1 / (stable_dt_ * stable_dt_) + added / 4, half = rate / 2;
+  stable_dt_ = (std::sqrt(half * half + 4 * quarter) - half) / (2 * quarter);
 }
 
 Integrator World::settle_steps(std::vector<Body>& built) {

@@ -13,6 +13,7 @@ struct ConnectionSpec {
   std::string from, to;  // bodies
   double within = 0;     // how far apart the surfaces are at most, where they are joined [m]
   double modulus = 0;    // Young's, along the strands [Pa]
+  double viscosity = 0;  // of dampers beside them; 0: none [Pa s]
   double toughness = 0;  // what it takes to tear, by area of the first surface; 0: it does not [J/m^2]
   double cut_toughness = 0;  // and what it takes to cut; 0: nobody has said [J/m^2]
   Place place;

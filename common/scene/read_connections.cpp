@@ -36,6 +36,7 @@ ConnectionSpec read_connection(TableReader& reader, ReadContext& context) {
   set_if(spec.within, reader.read_length_mm("within_mm"));
   if (const auto kPa = reader.read_number("modulus_kPa", {.lo = 0, .hi = 1e6, .without_lo = true}))
     spec.modulus = Pa_from_kPa(*kPa);
+  set_if(spec.viscosity, reader.read_number("viscosity_Pa_s", {.lo = 0, .hi = 1e6}));
   set_if(spec.toughness, reader.read_number("toughness_J_per_m2", not_negative));
   set_if(spec.cut_toughness,
          reader.read_number("cut_toughness_J_per_m2", positive));

@@ -36,6 +36,7 @@ Connection::Connection(std::vector<Strand> strands, BodyModel& from, BodyModel& 
       from_(&from),
       to_(&to),
       left_(strands_.size(), 1.0),
+      damping_(strands_.size(), Vec3::Zero()),
       saved_(Left{left_}, Left{left_}) {
   on_from_.reserve(strands_.size());
   on_to_.reserve(3 * strands_.size());
@@ -81,24 +82,43 @@ void Connection::put(const Strand& strand, const Vec3& on_node, const Vec3& on_f
     if (strand.share[c] > 0) on_to_.push_back({strand.foot[c], strand.share[c] * on_foot});
 }
 
+/// As much as it may take from a pull, and no more: it does not push.
+Vec3 Connection::damp(const Strand& strand, const Now& at) const noexcept {
+  const double rate = -power(strand, at.u);
+  return std::max(strand.c * rate, -strand.k * at.longer) * at.u;
+}
+
+double Connection::due() const noexcept {
+  double power_now = 0;
+  for (std::size_t s = 0; s < strands_.size(); ++s)
+    if (!damping_[s].isZero(0)) power_now += power(strands_[s], damping_[s]);
+  return -0.5 * dt_before_ * power_now;
+}
+
 void Connection::find_forces(double dt) noexcept {
   on_from_.clear();
   on_to_.clear();
+  watched_viscous_ = viscous_ = viscous();
   watched_ = pull_ = 0;
   const auto pull = [&](const Strand& strand, const Vec3& force) {
     pull_ += force.norm();
     put(strand, force, -force);
   };
   for (std::size_t s = 0; s < strands_.size(); ++s) {
+    damping_[s].setZero();
     if (!holds(s)) continue;
     Strand strand = strands_[s];
-    strand.k *= left_[s];
+    strand.k *= left_[s], strand.c *= left_[s];
     const Now at = now(strand);
     if (at.longer <= 0) continue;
     if (at.longer < strand.most_longer) {
       const Vec3 force = strand.k * at.longer * at.u;
       watched_ += 0.5 * strand.k * at.longer * at.longer + 0.5 * dt * power(strand, force);
-      pull(strand, force);
+      if (strand.c > 0) {
+        damping_[s] = damp(strand, at);
+        viscous_ -= 0.5 * dt * power(strand, damping_[s]);
+      }
+      pull(strand, force + damping_[s]);
       continue;
     }
     double w = inverse_mass_of_node(strand);
@@ -174,19 +194,21 @@ double Connection::energy() const noexcept {
 void Connection::save(bool good) noexcept {
   Left& to = saved_.next(good);
   std::ranges::copy(left_, to.of.begin());
-  to.broken = broken_, to.n_torn = n_torn_, to.n_cut = n_cut_;
+  to.broken = broken_, to.viscous = viscous(), to.n_torn = n_torn_, to.n_cut = n_cut_;
 }
 
 void Connection::restore() noexcept {
   const Left& from = saved_.good();
   std::ranges::copy(from.of, left_.begin());
-  broken_ = from.broken, n_torn_ = from.n_torn, n_cut_ = from.n_cut;
+  broken_ = from.broken, viscous_ = from.viscous, n_torn_ = from.n_torn, n_cut_ = from.n_cut;
+  std::ranges::fill(damping_, Vec3::Zero());
   dt_before_ = 0;
 }
 
 void Connection::reset() noexcept {
   std::ranges::fill(left_, 1.0);
-  watched_ = broken_ = pull_ = dt_before_ = 0;
+  std::ranges::fill(damping_, Vec3::Zero());
+  watched_ = watched_viscous_ = broken_ = viscous_ = pull_ = dt_before_ = 0;
   n_torn_ = n_cut_ = 0;
   save(false);
   save(true);

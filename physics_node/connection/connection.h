@@ -2,6 +2,8 @@
 // Strands that join two bodies while a scene runs: they pull where they are longer than at rest, tear, and are cut. What
 // has been cut of one pulls no longer: k is as much less.
 //
+// A damper's work is that of its force, half with the velocities before a step and half with those after it, as of a tool's.
+//
 // They act in the step whose elements have just moved the nodes, by where the nodes were when it began, as elements
 // do. Their energy is that of the leapfrog, U + dt / 2 times the power of their forces with the velocities before:
 // see step/lattice/element_step.h.
@@ -49,6 +51,9 @@ class Connection {
   double energy() const noexcept;
   /// What torn strands have taken since the start: toughness times area, where as much moved their ends apart [J].
   double broken() const noexcept { return broken_; }
+  /// What dampers have taken, as the ledger has it when the last step began; and by now [J].
+  double watched_viscous() const noexcept { return watched_viscous_; }
+  double viscous() const noexcept { return viscous_ + due(); }
   std::int64_t n_torn() const noexcept { return n_torn_; }
   std::int64_t n_cut() const noexcept { return n_cut_; }  // through and through
   std::int64_t n_strands() const noexcept { return static_cast<std::int64_t>(strands_.size()); }
@@ -66,7 +71,7 @@ class Connection {
  private:
   struct Left {
     std::vector<double> of;
-    double broken = 0;
+    double broken = 0, viscous = 0;
     std::int64_t n_torn = 0, n_cut = 0;
   };
   /// Towards the foot: how much longer than at rest, and which way.
@@ -77,14 +82,17 @@ class Connection {
   Now now(const Strand& strand) const noexcept;
   double power(const Strand& strand, const Vec3& force) const noexcept;
   double energy(const Strand& strand) const noexcept;  // of a whole one
+  double due() const noexcept;                         // the half of the last step's dampers that is still to be booked [J]
+  Vec3 damp(const Strand& strand, const Now& at) const noexcept;
   void put(const Strand& strand, const Vec3& on_node, const Vec3& on_foot) noexcept;
 
   std::vector<Strand> strands_;
   BodyModel* from_;
   BodyModel* to_;
   std::vector<double> left_;
+  std::vector<Vec3> damping_;  // in the last step, on the first body [N]
   std::vector<NodalForce> on_from_, on_to_;
-  double watched_ = 0, broken_ = 0, pull_ = 0, dt_before_ = 0;
+  double watched_ = 0, watched_viscous_ = 0, broken_ = 0, viscous_ = 0, pull_ = 0, dt_before_ = 0;
   std::int64_t n_torn_ = 0, n_cut_ = 0;
   GoodState<Left> saved_;
 };

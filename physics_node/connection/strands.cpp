@@ -126,6 +126,7 @@ std::vector<Strand> make_strands(const ConnectionSpec& spec, const Surface& from
     strand.area = area;
     strand.length = std::max(foot->point.distance, least_length * spec.within);
     strand.k = spec.modulus * strand.area / strand.length;
+    strand.c = spec.viscosity * strand.area / strand.length;
     strand.most_longer = spec.toughness > 0 ? std::sqrt(2 * spec.toughness * strand.area / strand.k)
                                             : std::numeric_limits<double>::infinity();
     strand.cut_work = spec.cut_toughness * strand.area;
@@ -134,9 +135,12 @@ std::vector<Strand> make_strands(const ConnectionSpec& spec, const Surface& from
   return strands;
 }
 
+namespace {
+
 /// A strand takes k (u . (x_a - sum of w x_b))^2 <= 2 k (x_a^2 + sum of w x_b^2), since shares sum up to 1: so no
-/// body's largest squared frequency grows by more than 2 / m_i times the sum of k w at a node.
-double added_omega2(const std::vector<Strand>& strands, int end, const std::vector<double>& inverse_mass) {
+/// body's largest squared frequency grows by more than 2 / m_i times the sum of k w at a node. A damper alike.
+double most_by_mass(const std::vector<Strand>& strands, double Strand::*of, int end,
+                    const std::vector<double>& inverse_mass) {
   std::unordered_map<Index, double> sums;
   double most = 0;
   const auto add = [&](Index node, double k) {
@@ -144,10 +148,20 @@ double added_omega2(const std::vector<Strand>& strands, int end, const std::vect
     most = std::max(most, 2 * sum * inverse_mass[static_cast<std::size_t>(node)]);
   };
   for (const Strand& strand : strands) {
-    if (end == 0) add(strand.node, strand.k);
-    for (std::size_t c = 0; end == 1 && c < 3; ++c) add(strand.foot[c], strand.share[c] * strand.k);
+    if (end == 0) add(strand.node, strand.*of);
+    for (std::size_t c = 0; end == 1 && c < 3; ++c) add(strand.foot[c], strand.share[c] * strand.*of);
   }
   return most;
+}
+
+}  // namespace
+
+double added_omega2(const std::vector<Strand>& strands, int end, const std::vector<double>& inverse_mass) {
+  return most_by_mass(strands, &Strand::k, end, inverse_mass);
+}
+
+double added_rate(const std::vector<Strand>& strands, int end, const std::vector<double>& inverse_mass) {
+  return most_by_mass(strands, &Strand::c, end, inverse_mass);
 }
 
 }  // namespace palpate::physics

@@ -1,7 +1,8 @@
 #pragma once
 // What strands between two bodies are made of, and where they begin and end.
 //
-//   F = k (l - L) u where l > L, else 0;  k = E A / L        A the area of the first surface that a strand stands for
+//   F = (k (l - L) + c dl/dt) u where l > L, and never pushes;  k = E A / L,  c = eta A / L
+// A is the area of the first surface that a strand stands for.
 // A strand tears for good where it holds as much as its area is tough for: k (l - L)^2 / 2 = G_c A.
 
 #include <array>
@@ -19,6 +20,7 @@ struct Strand {
   double area = 0;                // a third of the triangles around its node, as much as shows along it [m^2]
   double length = 0;              // at rest [m]
   double k = 0;                   // [N/m]
+  double c = 0;                   // [N s/m]
   double most_longer = 0;         // at which it tears; infinite: never [m]
   double cut_work = 0;            // that a blade takes to cut it: G_c A of a cut; 0: nobody has said [J]
 };
@@ -40,5 +42,7 @@ std::vector<Strand> make_strands(const ConnectionSpec& spec, const Surface& from
 /// By how much the strands raise the largest squared frequency of a body, at most; see strands.cpp.
 /// @param end  0: of the first body, 1: of the second  @param inverse_mass  by node
 double added_omega2(const std::vector<Strand>& strands, int end, const std::vector<double>& inverse_mass);
+/// And their dampers the largest rate 2 D = c / m that a velocity dies away by, at most [1/s].
+double added_rate(const std::vector<Strand>& strands, int end, const std::vector<double>& inverse_mass);
 
 }  // namespace palpate::physics

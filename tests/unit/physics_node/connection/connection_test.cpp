@@ -118,6 +118,40 @@ TEST(Connection, TakesItsToughnessHoweverStiffAndFast) {
   }
 }
 
+/// Two masses of 8 g that part, k = 200 N/m and c = 0.2 N s/m between them, until nothing pulls any more: x = v / w exp(-D t) sin(w t)
+/// up to where its second derivative is 0 again.
+TEST(Connection, DampsASwingAsTheClosedFormSays) {
+  World world(scene_of(two_blocks("viscosity_Pa_s = 1\n", "velocity_m_per_s = [0, 0, 0.1]\n", "")));
+  const Vec3 start = world.body(1).momenta().linear + world.body(0).momenta().linear;
+  const auto apart = [&] {
+    return (world.body(1).momenta().linear.z() - world.body(0).momenta().linear.z()) / 8e-3;
+  };
+  const double m = 4e-3, D = 0.2 / (2 * m), w = std::sqrt(200 / m - D * D);
+  double worst = 0, worst_watched = 0;
+  for (int n = 0; n < 20; ++n) {
+    world.frame({});
+    worst = std::max(worst, world.ledger().balance_error());
+    worst_watched = std::max(worst_watched, world.watched_ledger().balance_error());
+  }
+  EXPECT_EQ(world.connection(0).pull(), 0) << "they have come back";
+  const double wt = std::numbers::pi - std::atan2(2 * D * w, w * w - D * D);
+  const double left = std::exp(-D * wt / w) * (std::cos(wt) - D / w * std::sin(wt));
+  EXPECT_NEAR(apart(), 0.1 * left, 0.003);
+  EXPECT_GT(world.connection(0).viscous(), 0);
+  EXPECT_LT(worst, 1e-3);
+  EXPECT_LT(worst_watched, 1e-3);
+  const Vec3 end = world.body(1).momenta().linear + world.body(0).momenta().linear;
+  EXPECT_LT((end - start).norm(), 1e-12 * start.norm());
+}
+
+TEST(Connection, ShortensTheStepByItsViscosity) {
+  World world(scene_of(two_blocks("viscosity_Pa_s = 1000\n", "velocity_m_per_s = [0, 0, 0.1]\n", "")));
+  EXPECT_LT(world.stable_step_seconds(), 0.5 * World(scene_of(two_blocks())).stable_step_seconds());
+  for (int n = 0; n < 50; ++n) world.frame({});
+  EXPECT_EQ(world.report().restored, 0);
+  EXPECT_LT(world.ledger().balance_error(), 1e-3);
+}
+
 TEST(Connection, IsAfterAResetAsItWasLoaded) {
   const Recipe recipe = (two_blocks("toughness_J_per_m2 = 0.5\n", "velocity_m_per_s = [0, 0, 0.6]\n", ""));
   World world(scene_of(recipe));
