@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -17,6 +18,7 @@
 #include "common/report/json_file.h"
 #include "common/report/log.h"
 #include "common/scene/device_spec.h"
+#include "common/scene/physics_spec.h"
 #include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
@@ -176,8 +178,12 @@ std::string keep(const Image& picture, const std::string& out) {
   }
 }
 
-void pass_on(const PanelWishes& wishes, bool paused, ThresholdControl& threshold, Wire& wire) {
-  if (wishes.paused != paused) wire.command(wishes.paused ? CommandKind::pause : CommandKind::resume);
+void pass_on(const PanelWishes& wishes, bool paused, double frame_Hz, ThresholdControl& threshold, Wire& wire) {
+  const double hundredth = std::max(1.0, std::round(0.01 * frame_Hz));
+  const double frames = wishes.frames_on + hundredth * wishes.hundredths_on;
+  if (frames > 0)
+    wire.command(CommandKind::pause, frames);
+  else if (wishes.paused != paused) wire.command(wishes.paused ? CommandKind::pause : CommandKind::resume);
   if (const auto value = threshold.due(seconds_from_ns(now_ns()), wishes.threshold_released)) {
     wire.command(CommandKind::threshold, *value);
   }
@@ -212,7 +218,7 @@ int run_window(const NodeOptions& options, const Scene& given) {
     facts.interactive = true;
     facts.paused = news.paused;
     const PanelWishes wishes = window.draw(facts);
-    pass_on(wishes, facts.paused, window.threshold(), wire);
+    pass_on(wishes, facts.paused, scene.physics->frame_Hz, window.threshold(), wire);
     if (wishes.reset) reset(scene, model, wire);
     if (wishes.picture) window.say(keep(*wishes.picture, options.out));
     for (auto& pointer : window.pointers()) wire.point(pointer.message(now_ns()));

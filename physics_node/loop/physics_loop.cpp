@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 
 #include "common/error/error.h"
@@ -28,6 +29,7 @@
 namespace palpate::physics {
 namespace {
 
+constexpr int most_steps = 10000;   // that physics goes on by while it is paused
 constexpr int most_commands = 64;  // a frame; what is more waits
 // Where frames and hand have one rate, frames are led to begin just after the hand has spoken, so that nothing waits for a
 // frame: a little earlier each time it had, later when it had not. One frame in 21 then begins too early.
@@ -94,15 +96,18 @@ bool PhysicsLoop::take_tools() {
 void PhysicsLoop::take_commands() {
   Command command;
   bool reset = false;
+  double steps = 0;
   std::optional<double> threshold;
   for (int n = 0; n < most_commands && wire_.commands.take(command); ++n) {
     if (recorder_) recorder_->command(*world_, command);
     switch (command.kind) {
       case CommandKind::pause:
         paused_ = true;
+        steps += command.value;
         break;
       case CommandKind::resume:
         paused_ = false;
+        steps = frames_to_go_ = 0;
         break;
       case CommandKind::reset:
         reset = true;
@@ -122,6 +127,8 @@ void PhysicsLoop::take_commands() {
         break;  // the hand's
     }
   }
+  if (steps > 0)
+    frames_to_go_ = static_cast<int>(std::min(frames_to_go_ + std::floor(steps), static_cast<double>(most_steps)));
   if (reset) world_->reset();
   if (threshold) appearance_->set_threshold(*threshold);
 }
@@ -214,10 +221,12 @@ int PhysicsLoop::run() {
     const bool heard = take_tools();
     const auto fresh = hands_.at(now_ns());
     if (in_step && hands_.any()) ticker.shift(heard ? -earlier_ns : later_ns);
-    if (!paused_) world_->frame(fresh);
+    const bool moves = !paused_ || frames_to_go_ > 0;
+    if (paused_ && moves) --frames_to_go_;
+    if (moves) world_->frame(fresh);
     if (world_->has_stopped()) break;  // no answer is better than one from a world that stands still
     publish_hand();
-    if (recorder_ && !paused_) recorder_->frame(*world_, fresh);
+    if (recorder_ && moves) recorder_->frame(*world_, fresh);
     const std::int64_t now = now_ns();
     if (now >= next_eye) {
       publish_eye();

@@ -15,6 +15,8 @@ enum class Action {
   help,
   fold,
   pause,
+  frame_on,
+  hundredth_on,
   reset,
   picture,
   close,
@@ -37,7 +39,7 @@ enum class Action {
   roll_left,
   roll_right
 };
-inline constexpr int n_actions = 23;  // with none
+inline constexpr int n_actions = 25;  // with none
 
 /// What a row is about; the headings of the help.
 enum class Part { window, view, tool };

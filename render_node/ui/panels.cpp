@@ -119,6 +119,7 @@ PanelWishes controls(const PanelFacts& facts, ThresholdControl& threshold) {
   }
   if (facts.interactive)
     buttons({{facts.paused ? "Go on" : "Pause", Action::pause},
+             {"Step", Action::hundredth_on},
              {"Reset", Action::reset},
              {"Help", Action::help},
              {"Picture", Action::picture},

@@ -188,6 +188,12 @@ void Window::perform(Action action, PanelWishes& wishes) {
     case Action::pause:
       wishes.paused = !wishes.paused;
       break;
+    case Action::frame_on:
+      ++wishes.frames_on;
+      break;
+    case Action::hundredth_on:
+      ++wishes.hundredths_on;
+      break;
     case Action::reset:
       wishes.reset = true;
       break;

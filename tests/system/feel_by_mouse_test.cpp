@@ -114,6 +114,23 @@ class FeelByMouse : public testing::Test {
       }
   }
 
+  /// Frames of the tissue, once it stands still for three statuses on end.
+  std::uint64_t frames_at_rest() {
+    std::uint64_t frames = 0;
+    const auto end = std::chrono::steady_clock::now() + test::patience;
+    for (int same = 0; same < 3 && std::chrono::steady_clock::now() < end; std::this_thread::sleep_for(20ms))
+      for (NodeStatus node; wire->statuses.take(node);) {
+        if (node.node != NodeKind::physics) continue;
+        same = node.ticks == frames ? same + 1 : 0;
+        frames = node.ticks;
+      }
+    return frames;
+  }
+  static void tap(render::test::WindowHand& hand, KeySym key) {
+    hand.key(key, true);
+    hand.key(key, false);
+  }
+
   struct Wire {
     Participant participant{test::own_domain()};
     Reader<NodeStatus> statuses{participant};
@@ -153,6 +170,30 @@ TEST_F(FeelByMouse, AClickAndTheWheelAreEnough) {
     fs::copy_file(picture, fs::path(kept) / "feel.png", fs::copy_options::overwrite_existing);
   hand->key(XK_Escape, true);
   hand->key(XK_Escape, false);
+  while (status == running && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(20ms);
+  EXPECT_EQ(status, 0);
+}
+
+TEST_F(FeelByMouse, StandsStillAndGoesOnByFrames) {
+  start();
+  const auto hand = hand_at_the_window();
+  ASSERT_TRUE(hand && hand->found());
+  tap(*hand, XK_p);
+  const std::uint64_t at_rest = frames_at_rest();
+  tap(*hand, XK_period);
+  tap(*hand, XK_period);
+  std::this_thread::sleep_for(500ms);
+  EXPECT_EQ(frames_at_rest(), at_rest + 2);
+  hand->key(XK_period, true, true);
+  hand->key(XK_period, false, true);
+  std::this_thread::sleep_for(500ms);
+  EXPECT_EQ(frames_at_rest(), at_rest + 12);
+  tap(*hand, XK_p);
+  std::this_thread::sleep_for(500ms);
+  tap(*hand, XK_p);
+  EXPECT_GT(frames_at_rest(), at_rest + 12);
+  tap(*hand, XK_Escape);
+  const auto end = std::chrono::steady_clock::now() + test::patience;
   while (status == running && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(20ms);
   EXPECT_EQ(status, 0);
 }

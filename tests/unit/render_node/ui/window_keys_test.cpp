@@ -70,6 +70,10 @@ TEST(Window, ActsByItsKeysAndTellsTheRest) {
   EXPECT_TRUE(shown.draw().paused) << "to and fro";
   shown.tap(XK_p);
   EXPECT_FALSE(shown.draw().paused);
+  shown.tap(XK_period);
+  shown.tap(XK_period);
+  EXPECT_EQ(shown.draw().frames_on, 2);
+  EXPECT_EQ(shown.draw().frames_on, 0);
   shown.tap(XK_BackSpace);
   EXPECT_TRUE(shown.draw().reset);
   EXPECT_FALSE(shown.draw().reset);
