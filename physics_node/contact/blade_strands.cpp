@@ -13,7 +13,7 @@ constexpr double strands_again_s = 0.020;      // Why: tissue may come by itself
 constexpr double strand_held_by =
     20;  // Why: as in springs (blade_edge.h): much stiffer than the hand's spring, however little of the edge is held
 constexpr double least_hold =
-    4;  // Why: times by how fast T falls behind a strand; a hold as soft as that would let the edge jump
+    4;  // Why: times by how fast T falls behind a strand; with a softer hold the edge would jump in what does not give way
 
 /// s / d of an edge that has cut such a share of a strand, whose T rises and falls alike.
 double passed_by(double share) noexcept {
@@ -150,25 +150,28 @@ void BladeStrands::soften(double dt) noexcept {
     each_foot(near, [&](double w, double pull, std::size_t c) {
       gives += w * connection.inverse_mass_of_foot(strand, c) * std::max(pull, w * near.k);
     });
-    near.k = std::max(near.k / (1 + dt * dt * gives), 2 * near.most / near.d);
+    near.k /= 1 + dt * dt * gives;
   }
 }
 
 /// Within a step T is the mean of what s goes through, which makes an equation of the second degree of it where s passes
-/// the strand. k is more than T falls by, so there is one answer.
+/// the strand. Where the hold is softer than T falls, there is no answer behind the strand: it parts at once.
 BladeStrands::Slide BladeStrands::slide_of(const Near& near, double q) noexcept {
   const double way = (q - near.q) / near.d, k = near.k * near.d, most = near.most, s = near.passed;
   if (!(way > 0)) return {};
   if (k * way <= most * std::min(s, 2 - s)) return {0, k * way};
+  const Slide through{2 - s, most * (1 - share_at(s)) / way};  // what was left, over all of the way
+  const double a = k - 0.5 * most;
   double on = 0;
-  if (s < 1 && (on = (k * way - most * s) / (k + 0.5 * most)) > 1 - s) {
-    const double up = 1 - s, a = k - 0.5 * most, b = k * way - most * (1 + up);
+  if (s < 1 && (on = (k * way - most * s) / (k + 0.5 * most)) <= 1 - s) return {on, k * (way - on)};
+  if (!(a > 0)) return through;
+  if (s < 1) {
+    const double up = 1 - s, b = k * way - most * (1 + up);
     on = (b + std::sqrt(b * b + 4 * a * most * up * up)) / (2 * a);
-  } else if (s >= 1) {
-    on = (k * way - most * (2 - s)) / (k - 0.5 * most);
+  } else {
+    on = (k * way - most * (2 - s)) / a;
   }
-  if (on < 2 - s) return {on, k * (way - on)};
-  return {2 - s, most * (1 - share_at(s)) / way};  // through: what was left, over all of the way
+  return on < 2 - s ? Slide{on, k * (way - on)} : through;
 }
 
 double BladeStrands::hold_ahead(double q) const noexcept {

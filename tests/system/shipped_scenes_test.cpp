@@ -206,6 +206,7 @@ TEST_F(Dissection, AScalpelFreesAGallBladder) {
   const auto& scalpel = summary["tools"]["scalpel"];
   EXPECT_NEAR(scalpel["cut_work"].get<double>(), 30e-6 * scalpel["cut_area_mm2"].get<double>(), 1e-9);
   EXPECT_NEAR(summary["energy"]["cut"].get<double>(), scalpel["cut_work"].get<double>(), 1e-9);
+  EXPECT_LT(scalpel["felt_off_rms"].get<double>(), 0.25);
   EXPECT_LT(scalpel["force_peak"].get<double>(), 30 * 0.032) << "toughness times all of its edge";
   EXPECT_LT(summary["energy"]["balance_error"].get<double>(), 0.01);
   ASSERT_EQ(summary["warnings"].size(), 1U) << summary["warnings"];

@@ -138,6 +138,22 @@ TEST(BladeStrands, ArePaidByWhatTheyHold) {
   }
 }
 
+/// Masses so light, and tissue so soft, that it gives way by several strands before the first is cut.
+TEST(BladeStrands, OfTissueThatGivesWayArePaidAllTheSame) {
+  Recipe recipe = bed("fixed = [\"+y\"]\n", "fixed = [\"-y\"]\n", 1000);
+  recipe.spacing_mm = 2;
+  recipe.material = "density_kg_per_m3 = 1000\nmodulus_kPa = 3\nviscosity_Pa_s = 3";
+  const std::string coarse = "spacing_mm = 5";
+  recipe.world.replace(recipe.world.find(coarse), coarse.size(), "spacing_mm = 2");
+  Stroke stroke(recipe);
+  for (const Vec3& force : stroke.along(Vec3(-0.060, middle, -0.015), 0.3)) EXPECT_LT(force.norm(), 1000 * side);
+  EXPECT_GT(stroke.bed().n_cut(), 0);
+  const EnergyLedger ledger = stroke.world.ledger();
+  EXPECT_NEAR(ledger.cut, 1000 * stroke.book().cut_area(), 1e-9);
+  EXPECT_LT(ledger.balance_error(), 0.01);
+  EXPECT_EQ(stroke.world.report().restored, 0);
+}
+
 TEST(BladeStrands, GetTheImpulseThatTheHandFeels) {
   Stroke stroke(bed("", ""));
   Vec3 impulse = Vec3::Zero();
