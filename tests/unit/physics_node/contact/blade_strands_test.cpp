@@ -73,8 +73,20 @@ struct Stroke {
   std::vector<Vec3> path{Vec3(0.030, middle, -0.015), Vec3(0.030, middle, -0.015)};
 };
 
-TEST(BladeStrands, FeelToughnessTimesLength) {
-  Stroke stroke(bed());
+/// Between blocks of springs a blade may cut them, too, and here it passes between them.
+Recipe bed_between_springs() {
+  Recipe recipe = bed();
+  recipe.material += "\ncut_toughness_J_per_m2 = 190";
+  recipe.body = "fixed = [\"-y\"]\n";
+  const std::string fem = "model = \"fem\"\n";
+  recipe.world.replace(recipe.world.find(fem), fem.size(), "");
+  return recipe;
+}
+
+class FeltBed : public testing::TestWithParam<bool> {};
+
+TEST_P(FeltBed, IsFeltAsToughnessTimesLength) {
+  Stroke stroke(GetParam() ? bed_between_springs() : bed());
   // Over two whole rows of strands, with as many before the edge as behind.
   stroke.along(Vec3(0.0, middle, -0.015), 0.05);
   const double at_first = stroke.book().cut_area();
@@ -91,6 +103,10 @@ TEST(BladeStrands, FeelToughnessTimesLength) {
   EXPECT_LT(most, 1.15 * toughness * side);
   EXPECT_LT(jump, 0.03 * toughness * side) << "of a frame, in 50 um";
 }
+
+INSTANTIATE_TEST_SUITE_P(BladeStrands, FeltBed, testing::Bool(), [](const testing::TestParamInfo<bool>& one) {
+  return one.param ? "BetweenSprings" : "BetweenElements";
+});
 
 TEST(BladeStrands, TakeToughnessTimesAreaHoweverFastTheHand) {
   for (const double speed : {0.01, 0.2, 2.0, 12.0}) {
