@@ -9,8 +9,8 @@
 
 namespace palpate {
 
-/// physics -> render. One chunk of what is visible of a body: vertices with their positions at publication
-/// and four-cornered facets. A set is complete when all n_chunks of one revision have come. A triangle repeats its last
+/// physics -> render. One chunk of what is visible of a body: vertices where they lie at rest, and four-cornered facets; where they
+/// are, VertexBlocks say. A set is complete when all n_chunks of one revision have come. A triangle repeats its last
 /// corner; a facet without an area is an element (a, b, b, b) or a mass (a, a, a, a) that belongs to no other facet.
 struct BodySurface {
   std::uint32_t body = 0;
@@ -26,7 +26,7 @@ struct BodySurface {
   std::uint32_t n_vertices = 0;     // <= max_surface_vertices
   std::uint32_t first_facet = 0;
   std::uint32_t n_facets = 0;                                              // <= max_surface_facets
-  std::array<Array3f, max_surface_vertices> position{};                    // [m]
+  std::array<Array3f, max_surface_vertices> position{};                    // at rest [m]
   std::array<std::array<std::uint32_t, 4>, max_surface_facets> corners{};  // < total_vertices
   std::array<std::uint32_t, max_surface_facets> rgba{};                    // 0xAABBGGRR
 
@@ -99,7 +99,7 @@ struct SurfaceChange {
   std::uint32_t n_vertices = 0;                         // <= max_change_vertices
   std::uint32_t first_change = 0;                       // of facets, counted through all pages
   std::uint32_t n_changes = 0;                          // <= max_change_facets
-  std::array<Array3f, max_change_vertices> position{};  // when they were new [m]
+  std::array<Array3f, max_change_vertices> position{};  // at rest [m]
   std::array<FacetChange, max_change_facets> facets{};  // one after the other
 
   template <class Visit>

@@ -35,12 +35,13 @@ void read_render(TableReader& root, ReadContext& context) {
     render.size_px = {(*size)[0], (*size)[1]};
   read_camera(reader, context);
   render.threshold = reader.read_number("threshold");
-  if (const auto shown = reader.read_words("show", {"tool", "force", "panels", "wire", "fragments"})) {
+  if (const auto shown = reader.read_words("show", {"tool", "force", "panels", "wire", "fragments", "displacement"})) {
     render.show_tool = (*shown)[0];
     render.show_force = (*shown)[1];
     render.show_panels = (*shown)[2];
     render.show_wire = (*shown)[3];
     render.show_fragments = (*shown)[4];
+    render.show_displacement = (*shown)[5];
   }
   set_if(render.rate_Hz, reader.read_number("rate_Hz", {.lo = 0, .hi = 1000, .without_lo = true}));
   if (const auto most = reader.read_integer("most_frames", 2, 1'000'000))

@@ -37,10 +37,11 @@ void VirtualEye::frame(physics::World& world, std::int64_t now_ns) {
 }
 
 void VirtualEye::draw(physics::World& world, std::int64_t now_ns) {
-  if (appearance_.poll())
+  const bool anew = appearance_.poll();
+  appearance_.write_blocks([this](const VertexBlock& block) { picture_.take(block); });
+  if (anew)
     appearance_.write_surfaces({[this](const BodySurface& chunk) { picture_.take(chunk); },
                                 [this](const SurfaceChange& page) { picture_.take(page); }});
-  appearance_.write_blocks([this](const VertexBlock& block) { picture_.take(block); });
   for (std::size_t n = 0; n < traces_.size(); ++n) {
     pass(traces_[n]);
     ToolWrench wrench;

@@ -69,7 +69,7 @@ void Appearance::show(Made made) {
   const SurfaceDelta& delta = made.delta;
   if (delta.vertices.empty() && delta.facets.empty() && delta.hidden == view.shown.hidden()) return;
   view.shown.apply(delta);
-  view.blocks.grow(view.shown.n_vertices());
+  view.blocks.grow(view.shown);
   if (view.due == Due::whole) return;
   view.due = Due::change;
   view.due_facets.insert(view.due_facets.end(), delta.facets.begin(), delta.facets.end());
@@ -162,10 +162,8 @@ int Appearance::write_surfaces(const SurfaceSinks& sinks) {
 int Appearance::write_change(std::size_t body, const std::function<void(const SurfaceChange&)>& sink) {
   View& view = views_[body];
   new_vertices_.clear();
-  for (std::size_t v = view.n_told; v < view.shown.n_vertices(); ++v) {
-    new_vertices_.push_back(float_of(view.shown.position(v, world_.body(body))));
-    view.blocks.told(v, new_vertices_.back());
-  }
+  for (std::size_t v = view.n_told; v < view.shown.n_vertices(); ++v)
+    new_vertices_.push_back(float_of(view.shown.rest(v)));
   const int pages = view.pages.add(new_vertices_, view.due_facets,
                                    {static_cast<std::uint32_t>(view.shown.facets().size()),
                                     static_cast<std::uint32_t>(view.shown.hidden())},
@@ -179,7 +177,6 @@ int Appearance::write_change(std::size_t body, const std::function<void(const Su
 int Appearance::write_whole(std::size_t body, const std::function<void(const BodySurface&)>& sink) {
   View& view = views_[body];
   const NumberedSurface& surface = view.shown;
-  const BodyModel& moving = world_.body(body);
   BodySurface& out = *chunk_;
   out.body = static_cast<std::uint32_t>(body);
   out.revision = view.revision;
@@ -187,7 +184,7 @@ int Appearance::write_whole(std::size_t body, const std::function<void(const Bod
   out.rigid = surface.is_rigid() ? 1 : 0;
   write_chunks(
       out, surface.n_vertices(), surface.facets(), surface.rgba(),
-      [&](std::size_t n) { return float_of(surface.position(n, moving)); }, sink);
+      [&](std::size_t n) { return float_of(surface.rest(n)); }, sink);
   view.n_told = surface.n_vertices();
   view.pages.begin(out.body, out.revision, out.total_vertices);
   return static_cast<int>(out.n_chunks);

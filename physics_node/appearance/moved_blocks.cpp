@@ -24,9 +24,9 @@ void MovedBlocks::begin(std::size_t n_vertices) {
   sent_flags_.assign(n_vertices, 0);
 }
 
-void MovedBlocks::grow(std::size_t n_vertices) {
-  sent_.resize(n_vertices, nowhere);
-  sent_flags_.resize(n_vertices, 0);
+void MovedBlocks::grow(const NumberedSurface& surface) {
+  for (std::size_t n = sent_.size(); n < surface.n_vertices(); ++n) sent_.push_back(float_of(surface.rest(n)));
+  sent_flags_.resize(surface.n_vertices(), 0);
 }
 
 void MovedBlocks::resend() { std::fill(sent_.begin(), sent_.end(), nowhere); }

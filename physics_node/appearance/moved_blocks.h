@@ -27,9 +27,8 @@ class MovedBlocks {
  public:
   /// Of so many vertices, none of which has been sent.
   void begin(std::size_t n_vertices);
-  void grow(std::size_t n_vertices);
-  /// A vertex has been sent by other means.
-  void told(std::size_t vertex, const Array3f& position) { sent_[vertex] = position; }
+  /// The surface has new ones, of which its reader knows where they lie at rest.
+  void grow(const NumberedSurface& surface);
   /// All blocks are written again next time.
   void resend();
 

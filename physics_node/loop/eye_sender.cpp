@@ -37,12 +37,14 @@ void EyeSender::post(const BodySurface& chunk) {
   std::erase_if(blocks_due_, outdated);
   std::erase_if(sent_, outdated);
   revision_[chunk.body] = chunk.revision;
+  begin_ahead(chunk.body);
   surfaces_due_[{chunk.body, chunk.chunk}] = std::make_unique<BodySurface>(chunk);
   something_.notify_one();
 }
 
 void EyeSender::post(const SurfaceChange& page) {
   const std::lock_guard lock(mutex_);
+  begin_ahead(page.body);
   changes_due_[{page.body, page.page}] = std::make_unique<SurfaceChange>(page);
   something_.notify_one();
 }
@@ -67,11 +69,11 @@ void EyeSender::send() {
   auto next_again = std::chrono::steady_clock::now();
   while (!end_) {
     if (!surfaces_due_.empty()) {
-      send_surely(surfaces_due_, surfaces_, lock);
+      if (!send_ahead(surfaces_due_.begin()->first.first, lock)) send_surely(surfaces_due_, surfaces_, lock);
     } else if (!changes_due_.empty()) {
-      send_surely(changes_due_, changes_, lock);
+      if (!send_ahead(changes_due_.begin()->first.first, lock)) send_surely(changes_due_, changes_, lock);
     } else if (!blocks_due_.empty()) {
-      send_block(lock);
+      send_block(blocks_due_.begin()->first, lock);
     } else {
       something_.wait_for(lock, again_period);
     }
@@ -100,8 +102,23 @@ void EyeSender::send_surely(Due<M>& due, Writer<M>& writer, std::unique_lock<std
   if (node.mapped()->revision >= revision_[body]) due.insert(std::move(node));
 }
 
-void EyeSender::send_block(std::unique_lock<std::mutex>& lock) {
-  auto node = blocks_due_.extract(blocks_due_.begin());
+void EyeSender::begin_ahead(std::uint32_t body) {
+  std::erase_if(ahead_, [body](const Key& key) { return key.first == body; });
+}
+
+/// A surface says where vertices lie at rest: a reader that knows already where they are never shows them there. Each block goes
+/// ahead once, so that a slow network still takes surfaces. @return false: there is none to be sent ahead
+bool EyeSender::send_ahead(std::uint32_t body, std::unique_lock<std::mutex>& lock) {
+  for (auto due = blocks_due_.lower_bound({body, 0}); due != blocks_due_.end() && due->first.first == body; ++due) {
+    if (!ahead_.insert(due->first).second) continue;
+    send_block(due->first, lock);
+    return true;
+  }
+  return false;
+}
+
+void EyeSender::send_block(Key which, std::unique_lock<std::mutex>& lock) {
+  auto node = blocks_due_.extract(which);
   lock.unlock();
   blocks_.write(*node.mapped());
   lock.lock();

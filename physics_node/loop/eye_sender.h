@@ -46,7 +46,9 @@ class EyeSender {
   void send();
   template <class M>
   void send_surely(Due<M>& due, Writer<M>& writer, std::unique_lock<std::mutex>& lock);
-  void send_block(std::unique_lock<std::mutex>& lock);
+  void begin_ahead(std::uint32_t body);
+  bool send_ahead(std::uint32_t body, std::unique_lock<std::mutex>& lock);
+  void send_block(Key which, std::unique_lock<std::mutex>& lock);
   void send_again(std::unique_lock<std::mutex>& lock);
 
   Writer<BodySurface> surfaces_;
@@ -58,6 +60,7 @@ class EyeSender {
   Due<BodySurface> surfaces_due_;
   Due<SurfaceChange> changes_due_;
   Due<VertexBlock> blocks_due_;
+  std::set<Key> ahead_;  // blocks that went before the surface or the changes that are due
   Due<VertexBlock> sent_;                            // of the newest revision; empty unless repeat
   std::map<std::uint32_t, std::uint32_t> revision_;  // newest of each body
   std::set<std::uint32_t> incomplete_;

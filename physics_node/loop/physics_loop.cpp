@@ -147,9 +147,14 @@ void PhysicsLoop::publish_hand() {
 
 void PhysicsLoop::publish_eye() {
   for (const std::uint32_t body : wire_.eye.take_incomplete()) appearance_->publish_anew(body);
-  if (appearance_->poll())
+  const bool anew = appearance_->poll();
+  publish_blocks();  // first: whoever gets a new surface then knows already where it is
+  if (anew)
     appearance_->write_surfaces({[this](const BodySurface& chunk) { wire_.eye.post(chunk); },
                                  [this](const SurfaceChange& page) { wire_.eye.post(page); }});
+}
+
+void PhysicsLoop::publish_blocks() {
   const std::uint64_t ever = wire_.eye.watchers_ever();  // one that came as another left counts as well
   if (ever > watchers_ever_) appearance_->resend();
   watchers_ever_ = ever;

@@ -26,6 +26,7 @@ class PhysicsLoop {
   void take_commands();
   void publish_hand();
   void publish_eye();
+  void publish_blocks();
   void publish_status(NodePhase phase);
   void tell_warnings();
   void note(std::string_view text);  // for the window

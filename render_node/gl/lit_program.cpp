@@ -47,11 +47,25 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in uint flags;
 layout(location = 3) in vec4 colour;
+layout(location = 4) in vec3 rest;
+uniform float most_way;
 uniform mat4 clip_from_world;
 uniform mat4 world_from_model;
 uniform float shading;
+// As WayScale has it: its own colour, yellow, orange, red, violet.
+vec3 by_way(vec3 own, float share) {
+  vec3 yellow = vec3(1.00, 0.86, 0.30), orange = vec3(0.96, 0.50, 0.12);
+  vec3 red = vec3(0.78, 0.12, 0.16), violet = vec3(0.40, 0.06, 0.46);
+  float s = 4.0 * clamp(share, 0.0, 1.0);
+  if (s < 1.0) return mix(own, yellow, s);
+  if (s < 2.0) return mix(yellow, orange, s - 1.0);
+  if (s < 3.0) return mix(orange, red, s - 2.0);
+  return mix(red, violet, s - 3.0);
+}
 vec3 albedo_here() {
-  vec3 light = colour.rgb * colour.rgb;
+  vec3 shown = colour.rgb;
+  if (most_way > 0.0) shown = by_way(shown, distance(position, rest) / most_way);
+  vec3 light = shown * shown;
   vec3 dark = light * 0.08 + vec3(0.004, 0.004, 0.010);
   return mix(light, dark, shading * float(flags >> 2u) / 63.0);  // light: elastic, dark: yielded
 }
@@ -160,6 +174,7 @@ void LitProgram::begin(const Camera& camera) const {
   finish(0, 1);
   pale(0);
   shade(1);
+  colour_by_way(0);
 }
 
 void LitProgram::place(const Eigen::Matrix4f& world_from_model) const {
@@ -173,6 +188,8 @@ void LitProgram::finish(float gloss, float opacity) const {
 
 void LitProgram::pale(float share) const { program_.set("paleness", share); }
 void LitProgram::shade(float share) const { program_.set("shading", share); }
+
+void LitProgram::colour_by_way(float most) const { program_.set("most_way", most); }
 
 void LitProgram::touched(std::span<const Touch> touches) const {
   static constexpr std::array<const char*, most_touches> names = {"touch[0]", "touch[1]", "touch[2]",

@@ -18,6 +18,7 @@ inline constexpr unsigned at_position = 0;  // vec3, model space
 inline constexpr unsigned at_normal = 1;    // vec3, model space, unit
 inline constexpr unsigned at_flags = 2;     // uint, flags of VertexBlock
 inline constexpr unsigned at_colour = 3;    // vec4, as shown
+inline constexpr unsigned at_rest = 4;      // vec3, where it lies without any load
 
 /// Where the light is computed. Facets of about a pixel look the same lit at their vertices, at a third of the cost in
 /// software; but only pixels know which side of an open surface they show. Points are drawn as beads, that is as small
@@ -46,6 +47,8 @@ class LitProgram {
   void pale(float share) const;
   /// How dark elements are shown that have yielded: 1 nearly black, less where colours are to be told apart.
   void shade(float share) const;
+  /// Coloured by how far a vertex is from rest, up to so much [m]; 0, as after begin(): in its own colour.
+  void colour_by_way(float most) const;
   /// By tools; none after begin().
   void touched(std::span<const Touch> touches) const;
   /// Of beads. @param radius [m]  @param height  of the picture [px]

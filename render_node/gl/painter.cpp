@@ -101,6 +101,7 @@ void Painter::draw(ViewModel& model, const Camera& camera, const PaintOptions& o
   glClear(GL_DEPTH_BUFFER_BIT);
   backdrop_.draw_gradient();
   find_touches(model, options);
+  follow_ways(model, options);
   draw_bodies(model, camera, options, height);
   at_pixels_.begin(camera);
   for (std::size_t i = 0; i < tools_.size(); ++i)
@@ -118,6 +119,19 @@ void Painter::draw_planes(const ViewModel& model, const Camera& camera) {
     backdrop_.draw_plane(camera, middle, wall.point, wall.normal, cell, 3 * size_);
 }
 
+/// Not a tool, nor the strands between bodies: these have no place at rest.
+bool Painter::is_tissue(std::size_t body) const {
+  return body < scene_.bodies.size() &&
+         std::ranges::none_of(tools_, [body](const Tool& tool) { return tool.body == body; });
+}
+
+void Painter::follow_ways(const ViewModel& model, const PaintOptions& options) {
+  if (!options.displacement) return;
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    if (is_tissue(i) && !is_hidden(options.hidden.bodies, i))
+      way_scale_.see(static_cast<double>(model.bodies()[i].farthest()));
+}
+
 void Painter::draw_bodies(ViewModel& model, const Camera& camera, const PaintOptions& options, int height) {
   bytes_uploaded_ = 0;
   const float shade = options.fragments ? 0.5F : 1.0F;
@@ -131,6 +145,7 @@ void Painter::draw_bodies(ViewModel& model, const Camera& camera, const PaintOpt
     lit.shade(options.wire ? 0.0F : shade);
     lit.pale(options.wire ? 0.75F : 0.0F);
     lit.touched(touches_);
+    if (options.displacement && is_tissue(i)) lit.colour_by_way(static_cast<float>(way_scale_.most()));
     glEnable(GL_POLYGON_OFFSET_FILL);  // lines lie before the surface
     glPolygonOffset(1, 1);
     drawing.draw(lit);

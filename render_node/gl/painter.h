@@ -16,12 +16,14 @@
 #include "render_node/model/view_model.h"
 #include "render_node/view/camera.h"
 #include "render_node/view/hidden.h"
+#include "render_node/view/way_scale.h"
 
 namespace palpate::render {
 
 /// What of the scene's [render] table a hand may switch while it runs.
 struct PaintOptions {
   bool tool = true, force = true, wire = false, fragments = false;
+  bool displacement = false;  // colours say how far tissue is from rest
   Hidden hidden = {};
 };
 
@@ -34,6 +36,8 @@ class Painter {
   void draw(ViewModel& model, const Camera& camera, const PaintOptions& options, int width, int height);
 
   double arrow_metres_per_newton() const noexcept { return metres_per_newton_; }  // 0: nothing seen yet
+  /// What its colours say, where they were asked for.
+  const WayScale& way_scale() const noexcept { return way_scale_; }
   std::size_t bytes_uploaded() const noexcept { return bytes_uploaded_; }         // by the last draw()
 
  private:
@@ -52,6 +56,8 @@ class Painter {
   };
   void adapt_sizes(const Eigen::AlignedBox3d& box);
   void find_touches(const ViewModel& model, const PaintOptions& options);
+  void follow_ways(const ViewModel& model, const PaintOptions& options);
+  bool is_tissue(std::size_t body) const;
   void draw_bodies(ViewModel& model, const Camera& camera, const PaintOptions& options, int height);
   void draw_planes(const ViewModel& model, const Camera& camera);
   void draw_tool(Tool& tool, const ToolView& view, const ViewModel& model, const PaintOptions& options);
@@ -70,6 +76,7 @@ class Painter {
   std::vector<Touch> touches_;
   double size_ = 0;  // half the diagonal of all bodies [m]
   double metres_per_newton_ = 0;
+  WayScale way_scale_;
   std::size_t bytes_uploaded_ = 0;
 };
 

@@ -45,7 +45,9 @@ TissueDrawing::TissueDrawing() {
                          offset_of(offsetof(PackedVertex, flags)));
   colour_.bind();
   glVertexAttribPointer(at_colour, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(std::uint32_t), nullptr);
-  for (const auto place : {at_position, at_normal, at_flags, at_colour}) glEnableVertexAttribArray(place);
+  rest_.bind();
+  glVertexAttribPointer(at_rest, 3, GL_FLOAT, GL_FALSE, sizeof(Array3f), nullptr);
+  for (const auto place : {at_position, at_normal, at_flags, at_colour, at_rest}) glEnableVertexAttribArray(place);
 }
 
 std::size_t TissueDrawing::upload(BodyPicture& body) {
@@ -82,6 +84,7 @@ std::size_t TissueDrawing::upload_all(const BodyPicture& body) {
   position_.upload(std::span<const Array3f>(body.surface().position));
   packed_.upload(std::span<const PackedVertex>(body.packed()));
   colour_.upload(std::span<const std::uint32_t>(body.vertex_rgba()));
+  rest_.upload(std::span<const Array3f>(body.rest()));
   triangles_.upload(std::span<const std::uint32_t>(triangles));
   lines_.upload(std::span<const std::uint32_t>(lines));
   beads_.upload(std::span<const std::uint32_t>(beads));
@@ -91,7 +94,7 @@ std::size_t TissueDrawing::upload_all(const BodyPicture& body) {
   n_edge_indices_ = 0;
   closed_ = is_closed(body.surface());
   return (triangles.size() + lines.size() + beads.size()) * sizeof(std::uint32_t) +
-         body.packed().size() * (sizeof(Array3f) + sizeof(PackedVertex) + sizeof(std::uint32_t));
+         body.packed().size() * (2 * sizeof(Array3f) + sizeof(PackedVertex) + sizeof(std::uint32_t));
 }
 
 void TissueDrawing::draw(const LitProgram& program) const {

@@ -35,6 +35,7 @@ class TissueDrawing {
   Buffer position_{Buffer::Kind::vertices};
   Buffer packed_{Buffer::Kind::vertices};
   Buffer colour_{Buffer::Kind::vertices};
+  Buffer rest_{Buffer::Kind::vertices};
   Buffer triangles_{Buffer::Kind::indices};
   Buffer edges_{Buffer::Kind::indices};
   Buffer lines_{Buffer::Kind::indices};

@@ -83,6 +83,7 @@ void BodyPicture::show(Surface surface) {
   shown_memory_.clear();
   shown_memory_.add(n * sizeof(Array3f) +
                     surface_.corners.size() * (sizeof(Corners) + sizeof(std::uint32_t)));
+  rest_.clear();
   flags_.clear();
   packed_.clear();
   is_moved_.assign(n, 0);
@@ -98,6 +99,8 @@ void BodyPicture::show(Surface surface) {
 /// Facets or the number of vertices have changed.
 void BodyPicture::follow_surface() {
   const auto n = surface_.position.size();
+  rest_.insert(rest_.end(), surface_.position.begin() + static_cast<std::ptrdiff_t>(rest_.size()),
+               surface_.position.end());  // new ones lie there still
   flags_.resize(n, 0);
   is_moved_.resize(n, 0);
   packed_.resize(n);
@@ -174,6 +177,16 @@ void BodyPicture::refresh() {
   for (const auto v : moved_) is_moved_[v] = 0;
   moved_.clear();
   rebuild_ = false;
+}
+
+float BodyPicture::farthest() const noexcept {
+  float most2 = 0;
+  for (std::size_t v = 0; v < rest_.size(); ++v) {
+    const Array3f &p = surface_.position[v], &r = rest_[v];
+    const float x = p[0] - r[0], y = p[1] - r[1], z = p[2] - r[2];
+    most2 = std::max(most2, x * x + y * y + z * z);
+  }
+  return std::sqrt(most2);
 }
 
 void BodyPicture::pack(std::size_t vertex) {

@@ -51,6 +51,9 @@ class BodyPicture {
 
   bool empty() const noexcept { return surface_.revision == 0; }
   const Surface& surface() const noexcept { return surface_; }
+  std::vector<Array3f> const& rest() const noexcept { return rest_; }  // of each vertex [m]
+  /// How far the vertex is from there that is farthest. Cost: a pass over all. [m]
+  float farthest() const noexcept;
   std::vector<PackedVertex> const& packed() const noexcept { return packed_; }
   std::vector<std::uint32_t> const& vertex_rgba() const noexcept {
     return vertex_rgba_;
@@ -89,6 +92,7 @@ class BodyPicture {
 
   Surface surface_;
   SurfaceNormals normals_;
+  std::vector<Array3f> rest_;               // (n_vertices)
   std::vector<std::uint32_t> vertex_rgba_;  // (n_vertices)
   std::vector<std::uint8_t> flags_;         // (n_vertices)
   std::vector<PackedVertex> packed_;        // (n_vertices)

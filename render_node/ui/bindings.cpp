@@ -42,6 +42,7 @@ constexpr Binding table[] = {
     {Part::view, "5", "all bodies in the picture", {{{GLFW_KEY_5, A::fit}, {GLFW_KEY_KP_5, A::fit}}}},
     {Part::view, "R", "the first view", {{{GLFW_KEY_R, A::first_view}}}},
     {Part::view, "W", "edges as wires, or surfaces", {{{GLFW_KEY_W, A::wires}}}},
+    {Part::view, "C", "colours: how far tissue is from rest, or its own", {{{GLFW_KEY_C, A::ways}}}},
     {Part::tool, "click", "take it, on the tissue under the cursor", {}},
     {Part::tool, "mouse", "lead it over the tissue", {}},
     {Part::tool, "wheel", "press deeper, or lift; with Shift a tenth", {}},

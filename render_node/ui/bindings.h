@@ -28,6 +28,7 @@ enum class Action {
   fit,
   first_view,
   wires,
+  ways,
   // of the tool that the mouse leads
   toggle_tool,
   next_tool,
@@ -39,7 +40,7 @@ enum class Action {
   roll_left,
   roll_right
 };
-inline constexpr int n_actions = 25;  // with none
+inline constexpr int n_actions = 26;  // with none
 
 /// What a row is about; the headings of the help.
 enum class Part { window, view, tool };

@@ -22,6 +22,7 @@ Stage::Stage(const Scene& scene, ViewModel& model, int height)
                scene.render->show_force,
                scene.render->show_wire,
                scene.render->show_fragments,
+               scene.render->show_displacement,
                {}},
       threshold_(scene),
       painter_(scene, model),
@@ -45,7 +46,10 @@ PanelWishes Stage::draw(const PanelFacts& facts, int width, int height, float se
   if (panels)
     wishes = facts.folded ? lay_out_folded()
                           : lay_out_panels(scene_, model_, shown, threshold_, options_.hidden, scale);
-  if (model_.anything_to_see()) lay_out_measures(camera_, left, scale);
+  if (model_.anything_to_see()) {
+    lay_out_measures(camera_, left, scale);
+    if (options_.displacement) lay_out_legend(painter_.way_scale(), scale);
+  }
   if (facts.interactive) lay_out_hindrances(hindrances(scene_, model_, facts.paused, facts.pointer), left);
   lay_out_words(facts.words, left);
   if (facts.help && lay_out_help(facts.pointer != nullptr, scale)) wishes.actions.push_back(Action::help);

@@ -225,6 +225,9 @@ void Window::perform(Action action, PanelWishes& wishes) {
     case Action::wires:
       stage_->options().wire = !stage_->options().wire;
       break;
+    case Action::ways:
+      stage_->options().displacement = !stage_->options().displacement;
+      break;
     default:
       break;  // about the tool that the mouse leads
   }

@@ -203,6 +203,30 @@ TEST(Picture, FollowsVerticesThatMove) {
   EXPECT_LT(pixel(picture, left).x(), pixel(picture, left).z());         // went: bluish background
 }
 
+/// The whole cube moves by as much as the scale has: what was skin is violet, and a legend says so.
+TEST(Picture, ColoursTissueByHowFarItIsFromRest) {
+  Scene scene = small_scene();
+  const auto middle = *camera_of(scene).project({0, -side / 2, 0});
+  for (const bool shown : {false, true}) {
+    scene.render->show_displacement = shown;
+    Picture picture(scene);
+    show(picture, cube);
+    picture.draw(0);
+    const Eigen::Vector3i own = pixel(picture, middle);
+    auto block = block_of(cube, 0, 1, 0);
+    for (std::uint32_t v = 0; v < block.n_vertices; ++v) block.position[v][0] += 0.0199F;
+    picture.take(block);
+    picture.draw(0.1);
+    const Eigen::Vector3i now = pixel(picture, middle);
+    if (!shown) {
+      EXPECT_LT(difference(own, now), 12);
+      continue;
+    }
+    EXPECT_LT(now.y(), own.y() - 40);
+    EXPECT_GT(now.z(), now.y() + 20);
+  }
+}
+
 TEST(Picture, UploadsOnlyWhatMoved) {
   const auto large = cube_surface(80, side, skin);
   Picture picture(small_scene());

@@ -97,6 +97,20 @@ TEST(BodyPicture, KeepsABlockThatComesBeforeAnyOfItsSurface) {
   }
 }
 
+TEST(BodyPicture, KnowsHowFarVerticesAreFromRest) {
+  BodyPicture picture;
+  auto ahead = block_of(cube, 0, 1, 0);
+  ahead.position[7][1] += 0.003F;
+  picture.take(ahead);  // before its surface, which says where it lies at rest
+  for (const auto& chunk : chunks_of(cube, 0, 1)) picture.take(chunk);
+  EXPECT_NEAR(picture.farthest(), 0.003F, 1e-6F);
+  EXPECT_EQ(picture.rest(), cube.position);
+  ahead.position[7] = cube.position[7];
+  ahead.position[8][0] -= 0.001F;
+  picture.take(ahead);
+  EXPECT_NEAR(picture.farthest(), 0.001F, 1e-6F);
+}
+
 TEST(BodyPicture, DoesNotCountElementsAndMassesAsFacets) {
   auto with_loose = cube_surface(2, 0.1, 0xff0000ffU);
   const std::size_t facets = with_loose.corners.size();

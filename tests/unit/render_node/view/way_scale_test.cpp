@@ -1,0 +1,36 @@
+#include "render_node/view/way_scale.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace palpate::render {
+namespace {
+
+TEST(WayScale, IsRoundAndOnlyGrows) {
+  WayScale scale;
+  EXPECT_EQ(scale.words(), "1 mm");
+  scale.see(0.5e-3);
+  EXPECT_EQ(scale.words(), "1 mm") << "a dent that nobody sees";
+  scale.see(1.2e-3);
+  EXPECT_EQ(scale.words(), "2 mm");
+  scale.see(7e-3);
+  EXPECT_EQ(scale.words(), "10 mm");
+  EXPECT_GE(scale.most(), 7e-3);
+  scale.see(3e-3);
+  EXPECT_EQ(scale.words(), "10 mm");
+  for (double way = 1e-3; way < 10; way *= 1.07) {
+    scale.see(way);
+    EXPECT_GE(scale.most(), way * (1 - 1e-12));
+  }
+}
+
+TEST(WayScale, HearsNothingOfWhatIsNotANumber) {
+  WayScale scale;
+  scale.see(std::numeric_limits<double>::quiet_NaN());
+  scale.see(std::numeric_limits<double>::infinity());
+  EXPECT_EQ(scale.words(), "1 mm");
+}
+
+}  // namespace
+}  // namespace palpate::render
