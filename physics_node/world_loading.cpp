@@ -143,7 +143,15 @@ void World::join_bodies() {
   if (connections_.empty()) return;
   // Of a sum at most the sum: dt^2 w^2 / 4 + dt D <= 1, with 2 D the rate of dampers that act by the velocity before.
   const double quarter = 1 / (stable_dt_ * stable_dt_) + added / 4, half = rate / 2;
+  const double unjoined = stable_dt_, shortest = 1 / (scene_.physics->frame_Hz * most_steps_a_frame);
   stable_dt_ = (std::sqrt(half * half + 4 * quarter) - half) / (2 * quarter);
+  const double safety = scene_.physics->safety;
+  if (safety * stable_dt_ < shortest && safety * unjoined >= shortest && !scene_.physics->step)
+    throw InputError(fmt::format(
+        "{}: strands so stiff or viscous want a step of {:.2g} s, where a frame has at most {:g}; give "
+        "connection \"{}\" a smaller modulus_kPa or viscosity_Pa_s",
+        scene_.connections.front().place.text(), safety * stable_dt_, most_steps_a_frame,
+        scene_.connections.front().name));
 }
 
 Integrator World::settle_steps(std::vector<Body>& built) {

@@ -7,13 +7,18 @@
 namespace palpate::physics {
 namespace {
 
-constexpr double strands_around = 0.010;           // beside the edge and its way [m]
+constexpr double strands_around = 0.010;       // beside the edge and its way [m]
 constexpr double strands_again_after = 0.004;  // [m]
 constexpr double strands_again_s = 0.020;      // Why: tissue may come by itself
 constexpr double strand_held_by =
     20;  // Why: as in springs (blade_edge.h): much stiffer than the hand's spring, however little of the edge is held
 constexpr double least_hold =
     4;  // Why: times by how fast T falls behind a strand; with a softer hold the edge would jump in what does not give way
+
+constexpr double held_by_edge =
+    0.25;  // Why: of d; no more may tissue move a strand out of its cut or beyond an end of the edge
+constexpr double flattest =
+    3;  // Why: of ahead to across; a strand that lies nearly in the plane is not cut through by it
 
 /// s / d of an edge that has cut such a share of a strand, whose T rises and falls alike.
 double passed_by(double share) noexcept {
@@ -39,6 +44,7 @@ BladeStrands::BladeStrands(const Connections& connections, double length)
     const auto& strands = connections[c]->strands();
     OfConnection& of = of_[c];
     of.side.assign(strands.size(), Side::unknown);
+    of.depth.assign(strands.size(), 0);
     of.pushes.reserve(strands.size());
     n += strands.size();
     std::unordered_map<Index, std::uint32_t> number;
@@ -63,17 +69,16 @@ void BladeStrands::clear_pushes() noexcept {
   for (OfConnection& of : of_) of.pushes.clear();
 }
 
-void BladeStrands::gather(const BladeFrame& frame, double way, double t) noexcept {
-  const Vec3 tip = frame.tip, end = tip + length_ * frame.along;
+void BladeStrands::gather(const BladeFrame& frame, double lag, double way, double t) noexcept {
+  const Vec3 tip = frame.tip + lag * frame.ahead, end = tip + length_ * frame.along;
   const double moved = std::max((tip - tip_).norm(), (end - end_).norm());
   if (moved + way < strands_again_after && t - when_ < strands_again_s && t >= when_) return;
   tip_ = tip, end_ = end, when_ = t;
-  look_around(frame, strands_around + 2 * way);
+  look_around(strands_around + 2 * way);
 }
 
-void BladeStrands::look_around(const BladeFrame& frame, double reach) noexcept {
+void BladeStrands::look_around(double reach) noexcept {
   near_.clear();
-  const Vec3 end = frame.tip + length_ * frame.along;
   for (std::size_t c = 0; c < connections_.size(); ++c) {
     const auto& strands = connections_[c]->strands();
     for (std::size_t s = 0; s < strands.size(); ++s) {
@@ -81,7 +86,7 @@ void BladeStrands::look_around(const BladeFrame& frame, double reach) noexcept {
       const double d = std::sqrt(strand.area);
       const Connection::Ends at = connections_[c]->places(strand);
       const double far = (at.foot - at.node).norm() + 3 * d + reach;
-      if (connections_[c]->holds(s) && distance_to_edge(at.node, frame.tip, end) < far)
+      if (connections_[c]->holds(s) && distance_to_edge(at.node, tip_, end_) < far)
         near_.push_back({.connection = c, .strand = s, .v_before = Connection::Ends{}, .d = d});
       else
         of_[c].side[s] = Side::unknown;
@@ -93,29 +98,43 @@ void BladeStrands::begin_step() noexcept {
   for (Near& near : near_) near.v_before = connection_of(near).velocities(strand_of(near));
 }
 
-/// A strand is the edge's once the whole of its patch that is left has lain before the edge, in the plane. Of what the edge comes
-/// to from aside it takes the part before it; and never what it comes to with its back.
+/// A strand is the edge's once its patch has lain before the edge, in the plane; never what the edge comes to with its back. Of a
+/// patch that it comes into from aside it goes through what lies before it, which is as tough as the whole: nothing presses
+/// at once.
 bool BladeStrands::follow(Near& near, const BladeFrame& frame, double lag) noexcept {
   const Connection& connection = connection_of(near);
   Side& side = of_[near.connection].side[near.strand];
+  double& depth = of_[near.connection].depth[near.strand];
   const Connection::Ends ends = connection.places(strand_of(near));
-  const Vec3 a = frame.coordinates(ends.node), b = frame.coordinates(ends.foot);
-  const double left = connection.left(near.strand);
+  const Vec3 a = frame.coordinates(ends.node), b = frame.coordinates(ends.foot), w = b - a;
+  const double left = connection.left(near.strand), aside = std::min(std::abs(a.z()), std::abs(b.z()));
   const bool crosses = (a.z() >= 0) != (b.z() >= 0);
-  const bool is_held = side == Side::before && left < 1;  // it may have been moved aside of the plane meanwhile
-  near.at = crosses                                     ? a.z() / (a.z() - b.z())
-            : std::abs(a.z()) < std::abs(b.z()) ? 0.0
-                                                        : 1.0;
-  const Vec3 at = a + near.at * (b - a);
+  const double margin =
+      side == Side::before ? held_by_edge * near.d : 0;  // so that none comes and goes with each step
+  const bool reaches = crosses || (left < 1 && aside < margin);
+  near.at = crosses ? a.z() / (a.z() - b.z()) : std::abs(a.z()) < std::abs(b.z()) ? 0.0 : 1.0;
+  const Vec3 at = a + near.at * w;
   near.x = ends.node + near.at * (ends.foot - ends.node);
   near.passed = passed_by(1 - left);
-  near.q = at.y() + (near.passed - 1) * near.d;
-  if (left <= 0 || !(crosses || is_held) || at.x() < 0 || at.x() > length_)
+  const bool is_along = at.x() >= -margin && at.x() <= length_ + margin;
+  const bool is_flat = crosses && std::abs(w.y()) > flattest * std::abs(w.z());
+  if (left <= 0 || !reaches || !is_along || is_flat) {
     side = Side::unknown;
-  else if (near.q >= lag || (side == Side::unknown && at.y() >= lag))
+    return false;
+  }
+  const double end = at.y() + near.d;
+  if (side == Side::unknown) {
+    side = at.y() >= lag ? Side::before : Side::behind;
+    depth = std::min(near.d, (end - lag) / (2 - near.passed));
+  }
+  if (side == Side::behind && end - (2 - near.passed) * near.d >= lag) {
     side = Side::before;
-  else if (side == Side::unknown)
-    side = Side::behind;
+    depth = near.d;
+  }
+  near.depth = depth;
+  near.q = end - (2 - near.passed) * depth;
+  near.push = frame.ahead;
+  if (crosses) near.push -= w.y() / w.z() * frame.side;  // else it does not slide along the edge
   return side == Side::before;
 }
 
@@ -125,8 +144,8 @@ void BladeStrands::meet(const BladeFrame& frame, double lag, double stiffness, d
     if (!near.bites) continue;
     const double cut_work = strand_of(near).cut_work;
     near.pays = std::min(1.0, connection_of(near).stored_by_share(near.strand) / cut_work);
-    near.most = (1 - near.pays) * cut_work / near.d;
-    near.k = std::max(strand_held_by * stiffness * near.d / length_, least_hold * near.most / near.d);
+    near.most = (1 - near.pays) * cut_work / near.depth;
+    near.k = std::max(strand_held_by * stiffness * near.d / length_, least_hold * near.most / near.depth);
   }
   soften(dt);
 }
@@ -150,14 +169,14 @@ void BladeStrands::soften(double dt) noexcept {
     each_foot(near, [&](double w, double pull, std::size_t c) {
       gives += w * connection.inverse_mass_of_foot(strand, c) * std::max(pull, w * near.k);
     });
-    near.k /= 1 + dt * dt * gives;
+    near.k /= 1 + dt * dt * near.push.squaredNorm() * gives;
   }
 }
 
 /// Within a step T is the mean of what s goes through, which makes an equation of the second degree of it where s passes
 /// the strand. Where the hold is softer than T falls, there is no answer behind the strand: it parts at once.
 BladeStrands::Slide BladeStrands::slide_of(const Near& near, double q) noexcept {
-  const double way = (q - near.q) / near.d, k = near.k * near.d, most = near.most, s = near.passed;
+  const double way = (q - near.q) / near.depth, k = near.k * near.depth, most = near.most, s = near.passed;
   if (!(way > 0)) return {};
   if (k * way <= most * std::min(s, 2 - s)) return {0, k * way};
   const Slide through{2 - s, most * (1 - share_at(s)) / way};  // what was left, over all of the way
@@ -211,7 +230,7 @@ void BladeStrands::slide(const BladeFrame& frame, double lag, BladeOutcome& done
     const double share = through ? left : std::min(left, share_at(near.passed + slide.on) - (1 - left));
     const Strand& strand = strand_of(near);
     const double takes = std::max(0.0, share) * strand.cut_work;
-    const Vec3 force = slide.force * frame.ahead;
+    const Vec3 force = slide.force * near.push;
     of_[near.connection].pushes.push_back({near.strand, near.at, force, std::max(0.0, share)});
     done.area += std::max(0.0, share) * strand.area;
     done.work += (1 - near.pays) * takes;

@@ -7,10 +7,12 @@
 //   T(s) = Gc min(s, 2 d - s),   integral of T ds = Gc A
 //
 // Neighbours stand about d apart, so their T sum up to Gc times the length of the edge, and none begins or ends with a jump.
-// The edge takes hold of a strand where it crosses the plane, and presses with
+// The edge takes hold of a strand where it crosses the plane, and presses it with
 //
-//   F = k (b - x),   0 <= F <= (1 - c) T;   where it would be more, s goes on until it is not
+//   F (ahead - (ahead . w) / (side . w) side),   F = k (b - x),   0 <= F <= (1 - c) T
 //
+// where F would be more, s goes on until it is not. w is along the strand, and the force at right angles to it: the edge slides along
+// it, so that a blade that is inclined, or tissue that leans, is pushed aside, and what the hand pays is what is cut.
 // b is where the blade is, x where the edge is in the strand's tissue, c what the strand pays by the energy that it holds
 // (Griffith 1921). T is the mean of a step, so that the work is Gc A to rounding however fast the hand is. What has been cut of
 // a strand no longer pulls. Its ends carry F by how near they are. Nothing holds the blade across: it goes between two surfaces.
@@ -41,8 +43,8 @@ class BladeStrands {
   BladeStrands(const Connections& connections, double length);
 
   /// Before the steps of a frame: what the edge may come to in it. Cost: nothing; a pass over all strands once the blade has
-  /// gone a few millimetres, and every 20 ms. @param way  of the tip in the frame [m]
-  void gather(const BladeFrame& frame, double way, double t) noexcept;
+  /// gone a few millimetres, and every 20 ms. @param lag  where the blade is, ahead of the hand @param way  of the tip in the frame [m]
+  void gather(const BladeFrame& frame, double lag, double way, double t) noexcept;
   bool is_near() const noexcept { return !near_.empty(); }
 
   void begin_step() noexcept;
@@ -69,19 +71,21 @@ class BladeStrands {
     Vec3 x = Vec3::Zero();      // where it crosses the plane [m]
     double at = 0;              // of its way from node to foot
     double q = 0;               // where the edge is in it, in the blade's frame [m]
-    double d = 0;               // [m]
-    double passed = 0;          // s / d
+    double d = 0;               // side of its patch [m]
+    double depth = 0;           // half of what the edge goes through [m]
+    Vec3 push = Vec3::Zero();   // by how much F presses it, and which way
+    double passed = 0;          // s / depth
     double k = 0;               // [N/m]
     double most = 0;            // largest T that the hand pays [N]
     double pays = 0;            // c
   };
-  /// How far the edge goes on in a strand when the blade is at q, in d, and the mean force of that.
+  /// How far the edge goes on in a strand when the blade is at q, in depths, and the mean force of that.
   struct Slide {
     double on = 0;
     double force = 0;  // [N]
   };
   static Slide slide_of(const Near& near, double q) noexcept;
-  void look_around(const BladeFrame& frame, double reach) noexcept;
+  void look_around(double reach) noexcept;
   bool follow(Near& near, const BladeFrame& frame, double lag) noexcept;
   void soften(double dt) noexcept;
   const Connection& connection_of(const Near& near) const noexcept { return *connections_[near.connection]; }
@@ -91,9 +95,11 @@ class BladeStrands {
 
   enum class Side : std::uint8_t { unknown, before, behind };  // where it is seen from the edge
   struct OfConnection {
-    std::vector<Side> side;                          // by strand
-    std::vector<std::array<std::uint32_t, 3>> feet;  // by strand: its nodes of the second body, numbered without gaps
-    std::vector<double> pull;                     // by these: sum of w k of what holds on to one [N/m]
+    std::vector<Side> side;     // by strand
+    std::vector<double> depth;  // by strand, where its side is before [m]
+    std::vector<std::array<std::uint32_t, 3>>
+        feet;                  // by strand: its nodes of the second body, numbered without gaps
+    std::vector<double> pull;  // by these: sum of w k of what holds on to one [N/m]
     std::vector<StrandPush> pushes;
   };
   const Connections& connections_;

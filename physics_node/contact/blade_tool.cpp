@@ -122,7 +122,7 @@ void BladeTool::find_contact(double t) noexcept {
     touched_ = b;
   }
   near_ = most > 0;
-  if (engaged_) strands_.gather(frame, play_.way(), t), inside_.follow(frame);
+  if (engaged_) strands_.gather(frame, blade_.place().lag, play_.way(), t), inside_.follow(frame);
   if (!near_ && !strands_.is_near()) blade_.let_go();
 }
 

@@ -138,7 +138,7 @@ const Kind kinds[] = {
      [](const World& w) {
        std::string list;
        each_passed_unfelt(w, [&](std::size_t n, std::size_t b, double area) {
-         list += fmt::format("{}\"{}\" went through {:.3g} mm^2 of \"{}\"", list.empty() ? "" : ", ",
+         list += fmt::format("{}\"{}\" went through {:.0f} mm^2 of \"{}\"", list.empty() ? "" : ", ",
                              w.scene().tools[n].name, 1e6 * area, w.body(b).body().name);
        });
        return "a scalpel passes finite elements and surfaces of springs unfelt and uncut: " + list;

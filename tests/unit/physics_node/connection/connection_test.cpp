@@ -189,6 +189,15 @@ TEST(Connection, ShortensTheStepByItsStiffness) {
   EXPECT_EQ(slow.report().restored, 0);
 }
 
+TEST(Connection, OfTooMuchViscosityIsRefusedByItsName) {
+  try {
+    World world(scene_of(two_blocks("viscosity_Pa_s = 1000000\n")));
+    FAIL() << "no complaint";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("give connection \"bed\" a smaller modulus_kPa or viscosity_Pa_s"));
+  }
+}
+
 TEST(Connection, ThatJoinsNothingIsRefused) {
   Recipe recipe = (two_blocks());
   const std::string near = "within_mm = 3";

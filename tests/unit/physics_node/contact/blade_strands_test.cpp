@@ -154,16 +154,16 @@ TEST(BladeStrands, ArePaidByWhatTheyHold) {
   }
 }
 
-/// Masses so light, and tissue so soft, that it gives way by several strands before the first is cut.
-TEST(BladeStrands, OfTissueThatGivesWayArePaidAllTheSame) {
+/// Masses so light, and tissue so soft, that it gives way by several strands before the first is cut: most slip off the edge.
+TEST(BladeStrands, OfTissueThatGivesWayKeepTheBooks) {
   Recipe recipe = bed("fixed = [\"+y\"]\n", "fixed = [\"-y\"]\n", 1000);
   recipe.spacing_mm = 2;
   recipe.material = "density_kg_per_m3 = 1000\nmodulus_kPa = 3\nviscosity_Pa_s = 3";
   const std::string coarse = "spacing_mm = 5";
   recipe.world.replace(recipe.world.find(coarse), coarse.size(), "spacing_mm = 2");
   Stroke stroke(recipe);
-  for (const Vec3& force : stroke.along(Vec3(-0.060, middle, -0.015), 0.3)) EXPECT_LT(force.norm(), 1000 * side);
-  EXPECT_GT(stroke.bed().n_cut(), 0);
+  for (const Vec3& force : stroke.along(Vec3(-0.060, middle, -0.015), 0.3))
+    EXPECT_LT(force.norm(), 1000 * side);
   const EnergyLedger ledger = stroke.world.ledger();
   EXPECT_NEAR(ledger.cut, 1000 * stroke.book().cut_area(), 1e-9);
   EXPECT_LT(ledger.balance_error(), 0.01);
@@ -177,7 +177,8 @@ TEST(BladeStrands, GetTheImpulseThatTheHandFeels) {
   Momenta momenta = stroke.world.body(0).momenta();
   momenta.linear += stroke.world.body(1).momenta().linear;
   EXPECT_LT(impulse.x(), -1e-3);
-  EXPECT_NEAR(momenta.linear.x(), impulse.x(), 0.05 * std::abs(impulse.x())) << "force of a frame's last step";
+  EXPECT_NEAR(momenta.linear.x(), impulse.x(), 0.05 * std::abs(impulse.x()))
+      << "force of a frame's last step";
   EXPECT_LT(std::abs(momenta.linear.y()), 1e-9);
   EXPECT_LT(stroke.world.ledger().balance_error(), 5e-3);
 }
@@ -195,12 +196,67 @@ TEST(BladeStrands, AreNotCutFromBehindNorFromAside) {
   EXPECT_LT(stroke.book().cut_area(), 0.1 * area);
 }
 
+/// A blade that comes into a patch from aside presses on nothing until it is moved ahead.
+TEST(BladeStrands, DoNotPressABladeThatComesFromAside) {
+  for (const double x : {-0.001, 0.0015, 0.004, 0.0075}) {
+    Stroke stroke(bed());
+    stroke.along(Vec3(0.030, middle + 0.020, -0.015), 0.5);
+    stroke.along(Vec3(x, middle + 0.020, -0.015), 0.5);
+    for (const Vec3& force : stroke.along(Vec3(x, middle - 0.020, -0.015), 0.1))
+      EXPECT_EQ(force.norm(), 0) << x;
+    EXPECT_EQ(stroke.book().cut_area(), 0) << x;
+  }
+}
+
+/// A blade lifted out of a cut half done holds nothing any more.
+TEST(BladeStrands, AreLetGoWhenTheBladeLeavesTheGap) {
+  Stroke stroke(bed());
+  stroke.along(Vec3(-0.0025, middle, -0.015), 0.05);
+  stroke.along(Vec3(-0.0025, middle + 0.020, -0.015), 0.05);
+  const double cut = stroke.book().cut_area();
+  for (const Vec3& force : stroke.along(Vec3(-0.030, middle + 0.020, -0.015), 0.05))
+    EXPECT_EQ(force.norm(), 0);
+  EXPECT_EQ(stroke.book().cut_area(), cut);
+}
+
+/// A hand so soft that it is far ahead of the edge.
+TEST(BladeStrands, AreCutByASoftHandAllTheSame) {
+  Recipe recipe = bed();
+  const std::string stiff = "stiffness_N_per_m = 1000";
+  recipe.world.replace(recipe.world.find(stiff), stiff.size(), "stiffness_N_per_m = 50");
+  Stroke stroke(recipe);
+  stroke.along(Vec3(-0.090, middle, -0.015), 0.1);
+  EXPECT_EQ(stroke.bed().n_cut(), 25);
+  EXPECT_LT(stroke.world.ledger().balance_error(), 1e-3);
+}
+
+/// A blade inclined by 20 degrees that goes straight on slides along the strands: the work of the hand is what is cut.
+TEST(BladeStrands, PushAnInclinedBladeAside) {
+  Recipe recipe = bed();
+  const std::string upright = "edge_deg = 0";
+  recipe.world.replace(recipe.world.find(upright), upright.size(), "edge_deg = 0\ntheta_deg = [20, 0, 0]");
+  Stroke stroke(recipe);
+  double work = 0, aside = 0;
+  Vec3 last = stroke.path.back();
+  for (int n = 1; n <= 1000; ++n) {
+    const Vec3 tip(0.030 - 60e-6 * n, middle, -0.015);
+    const Vec3 force = stroke.to(tip);
+    work -= force.dot(tip - last);
+    aside = std::max(aside, std::abs(force.y()));
+    last = tip;
+  }
+  EXPECT_GT(stroke.book().cut_area(), 0.1 * area);
+  EXPECT_GT(aside, 0.1 * toughness * side);
+  EXPECT_NEAR(work, stroke.book().tissue_work(), 0.05 * work);
+}
+
 TEST(BladeStrands, GoOnWhereTheyWereHalfCut) {
   Stroke stroke(bed());
   stroke.along(Vec3(-0.0025, middle, -0.015), 0.05);  // 2 N lie behind by 2 mm
   const double half = stroke.book().cut_area();
   EXPECT_NEAR(half, 0.5 * area, 0.1 * area);
-  for (const Vec3& force : stroke.along(Vec3(0.030, middle, -0.015), 0.05)) EXPECT_GE(force.x(), 0) << "it pulls";
+  for (const Vec3& force : stroke.along(Vec3(0.030, middle, -0.015), 0.05))
+    EXPECT_GE(force.x(), 0) << "it pulls";
   const std::vector<Vec3> again = stroke.along(Vec3(0.002, middle, -0.015), 0.05);
   for (const Vec3& force : again) EXPECT_EQ(force.norm(), 0) << "in its own slot";
   EXPECT_NEAR(stroke.book().cut_area(), half, 1e-4 * half);
