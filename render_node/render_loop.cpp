@@ -178,12 +178,14 @@ std::string keep(const Image& picture, const std::string& out) {
   }
 }
 
-void pass_on(const PanelWishes& wishes, bool paused, double frame_Hz, ThresholdControl& threshold, Wire& wire) {
+void pass_on(const PanelWishes& wishes, bool paused, double frame_Hz, ThresholdControl& threshold,
+             Wire& wire) {
   const double hundredth = std::max(1.0, std::round(0.01 * frame_Hz));
   const double frames = wishes.frames_on + hundredth * wishes.hundredths_on;
   if (frames > 0)
     wire.command(CommandKind::pause, frames);
-  else if (wishes.paused != paused) wire.command(wishes.paused ? CommandKind::pause : CommandKind::resume);
+  else if (wishes.paused != paused)
+    wire.command(wishes.paused ? CommandKind::pause : CommandKind::resume);
   if (const auto value = threshold.due(seconds_from_ns(now_ns()), wishes.threshold_released)) {
     wire.command(CommandKind::threshold, *value);
   }

@@ -16,7 +16,8 @@ inline constexpr std::uint32_t n_command_kinds = 8;
 struct Command {
   std::uint64_t id = 0;  // grows per writer; a repeated id is ignored
   CommandKind kind = CommandKind::pause;
-  double value = 0;             // pause: frames to go on by first, 0 or more; threshold: intensity; record: 0 or 1; device: 1 ends a fault
+  double value =
+      0;  // pause: frames to go on by first, 0 or more; threshold: intensity; record: 0 or 1; device: 1 ends a fault
   std::array<char, 64> name{};  // material, or tool whose device it is about
 
   template <class Visit>

@@ -1,6 +1,7 @@
 #pragma once
 // [[connection]]: tissue that joins two bodies.
 
+#include <optional>
 #include <string>
 
 #include "common/scene/place.h"
@@ -15,7 +16,7 @@ struct ConnectionSpec {
   double modulus = 0;    // Young's, along the strands [Pa]
   double viscosity = 0;  // of dampers beside them; 0: none [Pa s]
   double toughness = 0;  // what it takes to tear, by area of the first surface; 0: it does not [J/m^2]
-  double cut_toughness = 0;  // and what it takes to cut; 0: nobody has said [J/m^2]
+  std::optional<double> cut_toughness;  // and what it takes to cut [J/m^2]
   Place place;
 };
 

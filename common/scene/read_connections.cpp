@@ -38,8 +38,7 @@ ConnectionSpec read_connection(TableReader& reader, ReadContext& context) {
     spec.modulus = Pa_from_kPa(*kPa);
   set_if(spec.viscosity, reader.read_number("viscosity_Pa_s", {.lo = 0, .hi = 1e6}));
   set_if(spec.toughness, reader.read_number("toughness_J_per_m2", not_negative));
-  set_if(spec.cut_toughness,
-         reader.read_number("cut_toughness_J_per_m2", positive));
+  spec.cut_toughness = reader.read_number("cut_toughness_J_per_m2", positive);
   if (context.scene.physics->integrator == Integrator::backward_euler)
     reader.complain("name",
                     fmt::format("{} is not among what \"backward_euler\" solves for; leave \"integrator\" in "

@@ -35,7 +35,8 @@ void read_render(TableReader& root, ReadContext& context) {
     render.size_px = {(*size)[0], (*size)[1]};
   read_camera(reader, context);
   render.threshold = reader.read_number("threshold");
-  if (const auto shown = reader.read_words("show", {"tool", "force", "panels", "wire", "fragments", "displacement"})) {
+  if (const auto shown =
+          reader.read_words("show", {"tool", "force", "panels", "wire", "fragments", "displacement"})) {
     render.show_tool = (*shown)[0];
     render.show_force = (*shown)[1];
     render.show_panels = (*shown)[2];

@@ -19,9 +19,9 @@ struct RenderSpec {
   CameraSpec camera;
   std::optional<double> threshold;  // intensity shown from; absent: each volume's keep_min
   bool show_tool = true, show_force = true, show_panels = true, show_wire = false;
-  bool show_fragments = false;  // every fragment but the largest in a colour of its own
+  bool show_fragments = false;     // every fragment but the largest in a colour of its own
   bool show_displacement = false;  // coloured by how far it is from where it lies at rest
-  double rate_Hz = 10;          // frames per simulated second when headless
+  double rate_Hz = 10;             // frames per simulated second when headless
   // What the frames of one run may take on the disk. Where that is reached, every second one goes and half
   // as many come.
   int most_frames = 400;

@@ -25,7 +25,8 @@ void MovedBlocks::begin(std::size_t n_vertices) {
 }
 
 void MovedBlocks::grow(const NumberedSurface& surface) {
-  for (std::size_t n = sent_.size(); n < surface.n_vertices(); ++n) sent_.push_back(float_of(surface.rest(n)));
+  for (std::size_t n = sent_.size(); n < surface.n_vertices(); ++n)
+    sent_.push_back(float_of(surface.rest(n)));
   sent_flags_.resize(surface.n_vertices(), 0);
 }
 

@@ -13,7 +13,8 @@ namespace palpate::physics {
 namespace {
 
 constexpr std::size_t vertices_a_strand = 6;
-constexpr double thin = 0.12;  // Why: of the side of its patch; a bed of strands lets the tissue behind it be seen
+constexpr double thin =
+    0.12;  // Why: of the side of its patch; a bed of strands lets the tissue behind it be seen
 constexpr Array3f not_sent{std::numeric_limits<float>::quiet_NaN(), 0, 0};
 
 /// A unit vector across another.
@@ -77,7 +78,8 @@ int StrandPicture::write(BodySurface& chunk, const std::function<void(const Body
   chunk.body = body_;
   chunk.revision = revision_;
   chunk.facets_hidden = chunk.rigid = 0;
-  write_chunks(chunk, now_.size(), facets_, rgba_, [this](std::size_t n) { return now_[n]; }, sink);
+  write_chunks(
+      chunk, now_.size(), facets_, rgba_, [this](std::size_t n) { return now_[n]; }, sink);
   return static_cast<int>(chunk.n_chunks);
 }
 

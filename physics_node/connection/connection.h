@@ -82,7 +82,7 @@ class Connection {
   Now now(const Strand& strand) const noexcept;
   double power(const Strand& strand, const Vec3& force) const noexcept;
   double energy(const Strand& strand) const noexcept;  // of a whole one
-  double due() const noexcept;                         // the half of the last step's dampers that is still to be booked [J]
+  double due() const noexcept;  // the half of the last step's dampers that is still to be booked [J]
   Vec3 damp(const Strand& strand, const Now& at) const noexcept;
   void put(const Strand& strand, const Vec3& on_node, const Vec3& on_foot) noexcept;
 

@@ -129,7 +129,7 @@ std::vector<Strand> make_strands(const ConnectionSpec& spec, const Surface& from
     strand.c = spec.viscosity * strand.area / strand.length;
     strand.most_longer = spec.toughness > 0 ? std::sqrt(2 * spec.toughness * strand.area / strand.k)
                                             : std::numeric_limits<double>::infinity();
-    strand.cut_work = spec.cut_toughness * strand.area;
+    strand.cut_work = spec.cut_toughness.value_or(0) * strand.area;
     strands.push_back(strand);
   }
   return strands;

@@ -52,11 +52,11 @@ class BladeInside {
   Points point_, before_;                           // of this look and of the last [m]
   Vec3 along_ = Vec3::UnitZ();
   std::array<double, n_points> angle_{};
-  Eigen::AlignedBox3d box_;            // of the body that is looked at, as far as that has come
+  Eigen::AlignedBox3d box_;  // of the body that is looked at, as far as that has come
   bool seen_ = false, looking_ = false;
-  std::size_t at_ = 0;                 // of passed_
+  std::size_t at_ = 0;  // of passed_
   enum class Part { box, angles } part_ = Part::box;
-  std::uint32_t facet_ = 0;            // the next of that
+  std::uint32_t facet_ = 0;  // the next of that
 };
 
 }  // namespace palpate::physics

@@ -20,11 +20,11 @@ bool is_lattice_of_springs(const Body& body) { return !body.solid && !body.mesh;
 
 void refuse_uncut(const ToolSpec& tool, const Body& body) {
   if (!is_lattice_of_springs(body))
-    throw InputError(
-        fmt::format("{}: shape = \"scalpel\" cuts lattices of springs and what a [[connection]] joins, and \"{}\" "
-                    "is {}; write model = \"springs\" there",
-                    tool.place.text(), body.name,
-                    is_surface_of_springs(body) ? "a surface of springs" : "of finite elements"));
+    throw InputError(fmt::format(
+        "{}: shape = \"scalpel\" cuts lattices of springs and what a [[connection]] joins, and \"{}\" "
+        "is {}; write model = \"springs\" there",
+        tool.place.text(), body.name,
+        is_surface_of_springs(body) ? "a surface of springs" : "of finite elements"));
   if (std::ranges::any_of(body.laws, [](const ElementLaw& law) { return law.cut_toughness <= 0; }))
     throw InputError(
         fmt::format("{}: shape = \"scalpel\" needs to know how tough \"{}\" is; give each of its materials "
@@ -123,6 +123,7 @@ void BladeTool::find_contact(double t) noexcept {
   }
   near_ = most > 0;
   if (engaged_) strands_.gather(frame, blade_.place().lag, play_.way(), t), inside_.follow(frame);
+  book().passed_unfelt(inside_.areas());
   if (!near_ && !strands_.is_near()) blade_.let_go();
 }
 

@@ -40,7 +40,6 @@ class BladeTool final : public PressingTool {
     return strands_.pushes(connection);
   }
   CutWork cut_work() const noexcept override { return {done_.work, done_.released}; }
-  std::span<const double> passed_unfelt() const noexcept override { return inside_.areas(); }
   void take_released(double energy) noexcept override { blade_.take_released(energy); }
 
   void write_patch(ContactPatch& patch, std::uint64_t frame, std::int64_t now_ns) noexcept override {
@@ -77,7 +76,7 @@ class BladeTool final : public PressingTool {
   bool engaged_ = false, near_ = false;
   double keep_ = 1;                    // of the spring, after silence
   double frame_dt_ = 0, elapsed_ = 0;  // of it [s]
-  std::size_t touched_ = 0;  // of bodies_
+  std::size_t touched_ = 0;            // of bodies_
   Vec3 hand_ = Vec3::Zero();
   BladeFrame frame_;
   BladeOutcome done_;  // of the last step

@@ -24,7 +24,6 @@ class LedTool : public Tool {
   virtual void end_frame(Collisions* collisions, double frame_seconds) noexcept = 0;
   /// In every step it is where the hand has it: its contacts of the frame are what is borne.
   Vec3 borne() const noexcept final { return raw_wrench().force; }
-  std::span<const double> passed_unfelt() const noexcept final { return {}; }
   /// Something may be touched in this frame by the tool itself, which then wants velocities remembered.
   virtual bool is_near() const noexcept = 0;
 

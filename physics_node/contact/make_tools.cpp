@@ -57,12 +57,13 @@ void add_scalpel(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
   const ToolSpec& spec = scene.tools[n];
   refuse_implicit(scene, spec, "a scalpel cuts step by step");
   for (const ConnectionSpec& joint : scene.connections)
-    if (joint.cut_toughness <= 0)
-      throw InputError(fmt::format(
-          "{}: shape = \"scalpel\" needs to know how tough connection \"{}\" is; give that "
-          "cut_toughness_J_per_m2, such as 100",
-          spec.place.text(), joint.name));
-  auto blade = std::make_unique<BladeTool>(spec, n, bodies, touchable, connections, 1 / scene.device(spec.device).rate_Hz);
+    if (!joint.cut_toughness)
+      throw InputError(
+          fmt::format("{}: shape = \"scalpel\" needs to know how tough connection \"{}\" is; give that "
+                      "cut_toughness_J_per_m2, such as 100",
+                      spec.place.text(), joint.name));
+  auto blade = std::make_unique<BladeTool>(spec, n, bodies, touchable, connections,
+                                           1 / scene.device(spec.device).rate_Hz);
   add_pressing(std::move(blade), bodies, box);
 }
 
@@ -96,8 +97,8 @@ void add_body(const ToolSpec& spec, std::uint32_t n, const BodyModels& bodies, T
 
 }  // namespace
 
-Toolbox make_tools(const Scene& scene, const BodyModels& bodies,
-                   const std::vector<TouchableBody>& touchable, const Connections& connections) {
+Toolbox make_tools(const Scene& scene, const BodyModels& bodies, const std::vector<TouchableBody>& touchable,
+                   const Connections& connections) {
   Toolbox box;
   for (std::uint32_t n = 0; n < scene.tools.size(); ++n) {
     const ToolSpec& spec = scene.tools[n];

@@ -36,7 +36,6 @@ class PressingTool : public Tool {
   virtual std::span<const StrandPush> pushes([[maybe_unused]] std::size_t connection) const noexcept {
     return {};
   }
-  std::span<const double> passed_unfelt() const noexcept override { return {}; }
   /// What that step's way through tissue took: toughness times area.
   virtual CutWork cut_work() const noexcept { return {}; }
   /// What the elements of cuts() held [J].

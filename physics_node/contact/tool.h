@@ -2,8 +2,6 @@
 // What the frame, the wire and the record ask of every tool. How it acts on tissue is asked of one that presses it with
 // forces (pressing_tool.h) or of one that leads masses itself (led_tool.h): nothing here has a default.
 
-#include <span>
-
 #include "common/message/messages.h"
 #include "physics_node/contact/low_pass.h"
 #include "physics_node/contact/touch_book.h"
@@ -54,9 +52,6 @@ class Tool {
   virtual Vec3 borne() const noexcept = 0;
   /// Can its work on tissue be told from that on its own elements?
   virtual bool knows_tissue_work() const noexcept = 0;
-
-  /// Area that it has swept inside bodies that it neither cuts nor feels, by body of the scene; EMPTY: there are none [m^2]
-  virtual std::span<const double> passed_unfelt() const noexcept = 0;
 
   TouchBook& book() noexcept { return book_; }
   const TouchBook& book() const noexcept { return book_; }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "common/message/messages.h"
 #include "physics_node/contact/handle.h"
@@ -23,12 +24,15 @@ class TouchBook {
   }
   /// A step of a blade. @param area  that it has opened [m^2] @param work  that this took [J]
   void cut(double area, double work) noexcept { cut_area_ += area, cut_work_ += work; }
+  /// Area that its edge has swept inside each body of the scene that it neither cuts nor feels; outlives this [m^2]
+  void passed_unfelt(std::span<const double> areas) noexcept { passed_ = areas; }
   /// A frame in which tissue bore this force [N].
   void frame(const Vec3& borne) noexcept;
 
   double hand_work() const noexcept { return hand_work_; }      // by the hand on what it felt [J]
   double tissue_work() const noexcept { return tissue_work_; }  // by the tool on tissue [J]
-  double cut_area() const noexcept { return cut_area_; }        // opened by a blade [m^2]
+  std::span<const double> passed_unfelt() const noexcept { return passed_; }  // by body; EMPTY: none ever
+  double cut_area() const noexcept { return cut_area_; }                      // opened by a blade [m^2]
   double cut_work() const noexcept { return cut_work_; }  // that this took, of the hand or of the tissue [J]
   /// Root mean square of the force on the hand over that of the force that tissue bore, of all frames; none:
   /// tissue bore nothing.
@@ -45,9 +49,10 @@ class TouchBook {
 
  private:
   bool seen_ = false;
-  Pose at_;                                   // of the hand
-  Vec6 load_ = Vec6::Zero();                  // that it pressed with [N], [N m]
-  double hand_work_ = 0, tissue_work_ = 0;    // [J]
+  Pose at_;                                 // of the hand
+  Vec6 load_ = Vec6::Zero();                // that it pressed with [N], [N m]
+  double hand_work_ = 0, tissue_work_ = 0;  // [J]
+  std::span<const double> passed_;
   double cut_area_ = 0, cut_work_ = 0;        // [m^2], [J]
   double felt2_ = 0, borne2_ = 0, off2_ = 0;  // sums over frames [N^2]
 };

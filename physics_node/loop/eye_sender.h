@@ -60,8 +60,8 @@ class EyeSender {
   Due<BodySurface> surfaces_due_;
   Due<SurfaceChange> changes_due_;
   Due<VertexBlock> blocks_due_;
-  std::set<Key> ahead_;  // blocks that went before the surface or the changes that are due
-  Due<VertexBlock> sent_;                            // of the newest revision; empty unless repeat
+  std::set<Key> ahead_;    // blocks that went before the surface or the changes that are due
+  Due<VertexBlock> sent_;  // of the newest revision; empty unless repeat
   std::map<std::uint32_t, std::uint32_t> revision_;  // newest of each body
   std::set<std::uint32_t> incomplete_;
   Key last_again_{0, 0};

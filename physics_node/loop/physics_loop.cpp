@@ -29,7 +29,7 @@
 namespace palpate::physics {
 namespace {
 
-constexpr int most_steps = 10000;   // that physics goes on by while it is paused
+constexpr int most_steps = 10000;  // that physics goes on by while it is paused
 constexpr int most_commands = 64;  // a frame; what is more waits
 // Where frames and hand have one rate, frames are led to begin just after the hand has spoken, so that nothing waits for a
 // frame: a little earlier each time it had, later when it had not. One frame in 21 then begins too early.
@@ -128,7 +128,8 @@ void PhysicsLoop::take_commands() {
     }
   }
   if (steps > 0)
-    frames_to_go_ = static_cast<int>(std::min(frames_to_go_ + std::floor(steps), static_cast<double>(most_steps)));
+    frames_to_go_ =
+        static_cast<int>(std::min(frames_to_go_ + std::floor(steps), static_cast<double>(most_steps)));
   if (reset) world_->reset();
   if (threshold) appearance_->set_threshold(*threshold);
 }

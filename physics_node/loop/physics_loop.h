@@ -45,7 +45,7 @@ class PhysicsLoop {
   ContactPatch patch_{};
   ToolWrench wrench_{};
   bool paused_ = false;
-  int frames_to_go_ = 0;  // before it stands still, while paused
+  int frames_to_go_ = 0;   // before it stands still, while paused
   bool unheeded_ = false;  // a command that cannot be carried out has been named
   bool stop_ = false;
   bool unwelcome_ = false;           // in a session of another scene or version

@@ -7,9 +7,9 @@
 #include "common/math/hash.h"
 #include "common/report/commit.h"
 #include "common/report/warnings.h"
+#include "common/scene/body_spec.h"
 #include "common/scene/connection_spec.h"
 #include "common/scene/physics_spec.h"
-#include "common/scene/body_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/surroundings_spec.h"
 #include "common/scene/tool_spec.h"
@@ -111,7 +111,7 @@ nlohmann::json touch_part(const Tool& tool, const Scene& scene) {
     part["cut_area_mm2"] = 1e6 * tool.book().cut_area();
     part["cut_work"] = tool.book().cut_work();
   }
-  const auto passed = tool.passed_unfelt();
+  const auto passed = tool.book().passed_unfelt();
   for (std::size_t b = 0; b < passed.size(); ++b)
     if (passed[b] > 0) part["passed_unfelt_mm2"][scene.bodies[b].name] = 1e6 * passed[b];
   if (const auto ratio = tool.book().felt_over_true_rms()) part["felt_over_true_rms"] = *ratio;

@@ -47,10 +47,11 @@ std::string remedy(const World& world) {
 /// Calls visit(tool, body, area) for each that has passed a body unfelt. @return none has
 template <class Visit>
 bool each_passed_unfelt(const World& world, const Visit& visit) {
-  constexpr double least = 1e-6;  // Why: an edge that grazes a body; looks are a quarter of a millimetre apart [m^2]
+  constexpr double least =
+      1e-6;  // Why: an edge that grazes a body; looks are a quarter of a millimetre apart [m^2]
   bool none = true;
   for (std::size_t n = 0; n < world.n_tools(); ++n) {
-    const auto passed = world.tool(n).passed_unfelt();
+    const auto passed = world.tool(n).book().passed_unfelt();
     for (std::size_t b = 0; b < passed.size(); ++b)
       if (passed[b] > least) visit(n, b, passed[b]), none = false;
   }

@@ -38,7 +38,7 @@ class Painter {
   double arrow_metres_per_newton() const noexcept { return metres_per_newton_; }  // 0: nothing seen yet
   /// What its colours say, where they were asked for.
   const WayScale& way_scale() const noexcept { return way_scale_; }
-  std::size_t bytes_uploaded() const noexcept { return bytes_uploaded_; }         // by the last draw()
+  std::size_t bytes_uploaded() const noexcept { return bytes_uploaded_; }  // by the last draw()
 
  private:
   struct Tool {

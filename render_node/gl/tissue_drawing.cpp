@@ -47,7 +47,8 @@ TissueDrawing::TissueDrawing() {
   glVertexAttribPointer(at_colour, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(std::uint32_t), nullptr);
   rest_.bind();
   glVertexAttribPointer(at_rest, 3, GL_FLOAT, GL_FALSE, sizeof(Array3f), nullptr);
-  for (const auto place : {at_position, at_normal, at_flags, at_colour, at_rest}) glEnableVertexAttribArray(place);
+  for (const auto place : {at_position, at_normal, at_flags, at_colour, at_rest})
+    glEnableVertexAttribArray(place);
 }
 
 std::size_t TissueDrawing::upload(BodyPicture& body) {

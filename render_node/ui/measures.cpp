@@ -72,7 +72,8 @@ void lay_out_legend(const WayScale& ways, float scale) {
   const std::string most = ways.words();
   const float line = ImGui::GetTextLineHeight();
   list.AddText({low.x, low.y - line - 2 * scale}, ink, "0");
-  list.AddText({low.x + width - ImGui::CalcTextSize(most.c_str()).x, low.y - line - 2 * scale}, ink, most.c_str());
+  list.AddText({low.x + width - ImGui::CalcTextSize(most.c_str()).x, low.y - line - 2 * scale}, ink,
+               most.c_str());
   list.AddText({low.x, low.y - 2 * line - 2 * scale}, ink, "from rest");
 }
 

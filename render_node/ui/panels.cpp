@@ -120,8 +120,8 @@ PanelWishes controls(const PanelFacts& facts, ThresholdControl& threshold) {
   if (facts.interactive)
     buttons({{facts.paused ? "Go on" : "Pause", Action::pause},
              {"Step", Action::hundredth_on},
-             {"Reset", Action::reset},
              {"Help", Action::help},
+             {"Reset", Action::reset},
              {"Picture", Action::picture},
              {"Fold", Action::fold}},
             3, wishes);

@@ -34,7 +34,7 @@ struct PanelWishes {
   bool threshold_released = false;
   std::vector<Action> actions;  // by buttons, as if by keys
   // What of buttons and keys is not the window's own.
-  bool paused = false;  // it should be
+  bool paused = false;                   // it should be
   int frames_on = 0, hundredths_on = 0;  // to stand still after: of the tissue; of a second
   bool reset = false;
   std::optional<Image> picture;  // to be saved: of the window as it is

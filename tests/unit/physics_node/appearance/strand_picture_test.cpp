@@ -56,8 +56,8 @@ struct Seen {
     });
   }
   double extent(std::size_t axis) const {
-    const auto [lo, hi] = std::ranges::minmax_element(
-        position, {}, [axis](const Array3f& p) { return p[axis]; });
+    const auto [lo, hi] =
+        std::ranges::minmax_element(position, {}, [axis](const Array3f& p) { return p[axis]; });
     return static_cast<double>((*hi)[axis] - (*lo)[axis]);
   }
   double thickness(std::size_t strand) const {
@@ -123,10 +123,14 @@ TEST(StrandPicture, OfAHalfCutStrandIsAsMuchThinner) {
   Seen seen;
   StrandPicture picture(connection, 2, 0xFFFFFFFF);
   BodySurface chunk;
-  picture.write(chunk, [&](const BodySurface& all) { seen.position.assign(all.position.begin(), all.position.begin() + 150); });
+  picture.write(chunk, [&](const BodySurface& all) {
+    seen.position.assign(all.position.begin(), all.position.begin() + 150);
+  });
   StrandPicture uncut(world.connection(0), 2, 0xFFFFFFFF);
   Seen before;
-  uncut.write(chunk, [&](const BodySurface& all) { before.position.assign(all.position.begin(), all.position.begin() + 150); });
+  uncut.write(chunk, [&](const BodySurface& all) {
+    before.position.assign(all.position.begin(), all.position.begin() + 150);
+  });
   EXPECT_NEAR(seen.thickness(3), std::sqrt(0.5) * before.thickness(3), 1e-7);
   EXPECT_NEAR(seen.thickness(4), before.thickness(4), 1e-9);
 }

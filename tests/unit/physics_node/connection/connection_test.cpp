@@ -194,7 +194,8 @@ TEST(Connection, OfTooMuchViscosityIsRefusedByItsName) {
     World world(scene_of(two_blocks("viscosity_Pa_s = 1000000\n")));
     FAIL() << "no complaint";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("give connection \"bed\" a smaller modulus_kPa or viscosity_Pa_s"));
+    EXPECT_THAT(error.what(),
+                testing::HasSubstr("give connection \"bed\" a smaller modulus_kPa or viscosity_Pa_s"));
   }
 }
 

@@ -86,7 +86,8 @@ TEST(BladeInside, FollowsABodyThatHasMoved) {
 TEST(BladeInside, IsSaidInAWarning) {
   Recipe recipe = sphere_of_elements(10);
   recipe.world =
-      "[[body]]\nname = \"other\"\nlattice = \"voxel\"\nmodel = \"fem\"\nshape = \"box\"\nsize_mm = [20, 20, 4]\n"
+      "[[body]]\nname = \"other\"\nlattice = \"voxel\"\nmodel = \"fem\"\nshape = \"box\"\nsize_mm = [20, 20, "
+      "4]\n"
       "spacing_mm = 2\nmaterial = \"m\"\nat_mm = [0, 0, 13]\n"
       "[[connection]]\nname = \"bed\"\nfrom = \"body\"\nto = \"other\"\nwithin_mm = 3\nmodulus_kPa = 1\n"
       "cut_toughness_J_per_m2 = 1\n"

@@ -98,7 +98,8 @@ void add_joined(Keys& keys) {
   recipe.material = "density_kg_per_m3 = 1000\nmodulus_kPa = 10";
   recipe.body = "model = \"fem\"";
   recipe.world =
-      "[[body]]\nname = \"other\"\nlattice = \"voxel\"\nmodel = \"fem\"\nshape = \"box\"\nsize_mm = [40, 40, 40]\n"
+      "[[body]]\nname = \"other\"\nlattice = \"voxel\"\nmodel = \"fem\"\nshape = \"box\"\nsize_mm = [40, 40, "
+      "40]\n"
       "spacing_mm = 10\nmaterial = \"m\"\nat_mm = [0, 0, 45]\n"
       "[[connection]]\nname = \"bed\"\nfrom = \"body\"\nto = \"other\"\nwithin_mm = 20\nmodulus_kPa = 1\n"
       "cut_toughness_J_per_m2 = 1\n"
@@ -106,7 +107,8 @@ void add_joined(Keys& keys) {
       "[device.hand]\ndriver = \"simulated\"\nwaypoints = [[0, 30, 0, -5], [1, -30, 0, -5]]\n";
   World world(scene_of(recipe));
   for (std::uint64_t n = 1; n < 60; ++n) {
-    const std::optional<ToolState> hand = recorded_hand([](double t) { return Vec3(0.03 - t, 0, -0.005); }, n);
+    const std::optional<ToolState> hand =
+        recorded_hand([](double t) { return Vec3(0.03 - t, 0, -0.005); }, n);
     world.frame(std::span(&hand, 1));
   }
   add_keys(keys, world, nullptr);
