@@ -14,7 +14,7 @@
 #include "common/error/error.h"
 #include "common/scene/scene.h"
 #include "physics_node/world.h"
-#include "tests/support/physics/recorded_hand.h"
+#include "tests/support/physics/led_blade.h"
 #include "tests/support/physics/small_worlds.h"
 
 namespace palpate::physics::test {
@@ -45,32 +45,9 @@ Recipe bed(const std::string& held = "fixed = [\"+y\"]\n", const std::string& ow
   return recipe;
 }
 
-struct Stroke {
-  explicit Stroke(const Recipe& recipe) : world(scene_of(recipe)) {}
-  /// A frame after which the hand is there. @return force on the tool
-  Vec3 to(const Vec3& tip) {
-    path.push_back(tip);
-    std::optional<ToolState> hand = recorded_hand(
-        [this](double t) { return path[static_cast<std::size_t>(std::llround(1e3 * t))]; }, path.size() - 1);
-    hand->stiffness = 1000;
-    world.frame(std::span(&hand, 1));
-    return world.tool(0).borne();
-  }
-  std::vector<Vec3> along(const Vec3& end, double speed) {
-    std::vector<Vec3> forces;
-    const Vec3 begin = path.back();
-    const auto n = static_cast<int>(std::ceil((end - begin).norm() / speed * 1e3));
-    for (int i = 1; i <= n; ++i) forces.push_back(to(begin + (end - begin) * i / n));
-    return forces;
-  }
-  void wait(int frames) {
-    for (int n = 0; n < frames; ++n) to(path.back());
-  }
-  const TouchBook& book() { return world.tool(0).book(); }
+struct Stroke : LedBlade {
+  explicit Stroke(const Recipe& recipe) : LedBlade(recipe, Vec3(0.030, middle, -0.015)) {}
   const Connection& bed() const { return world.connection(0); }
-
-  World world;
-  std::vector<Vec3> path{Vec3(0.030, middle, -0.015), Vec3(0.030, middle, -0.015)};
 };
 
 /// Between blocks of springs a blade may cut them, too, and here it passes between them.

@@ -13,7 +13,7 @@
 #include "common/error/error.h"
 #include "common/scene/scene.h"
 #include "physics_node/world.h"
-#include "tests/support/physics/recorded_hand.h"
+#include "tests/support/physics/led_blade.h"
 #include "tests/support/physics/small_worlds.h"
 
 namespace palpate::physics::test {
@@ -45,26 +45,8 @@ Recipe block(const Case& c, const std::string& keys = "edge_deg = 0", double sti
   return recipe;
 }
 
-struct Cut {
-  explicit Cut(const Recipe& recipe) : world(scene_of(recipe)) {}
-  /// A frame after which the hand is there. @return force on the tool
-  Vec3 to(const Vec3& tip) {
-    path.push_back(tip);
-    std::optional<ToolState> hand = recorded_hand(
-        [this](double t) { return path[static_cast<std::size_t>(std::llround(1e3 * t))]; }, path.size() - 1);
-    hand->stiffness = 1000;
-    world.frame(std::span(&hand, 1));
-    return world.tool(0).borne();
-  }
-  /// Straight on at a speed. @return forces of all frames
-  std::vector<Vec3> along(const Vec3& end, double speed) {
-    std::vector<Vec3> forces;
-    const Vec3 begin = path.back();
-    const auto n = static_cast<int>(std::ceil((end - begin).norm() / speed * 1e3));
-    for (int i = 1; i <= n; ++i) forces.push_back(to(begin + (end - begin) * i / n));
-    return forces;
-  }
-  const TouchBook& book() { return world.tool(0).book(); }
+struct Cut : LedBlade {
+  explicit Cut(const Recipe& recipe) : LedBlade(recipe, Vec3(0.020, plane, -0.010)) {}
   Eigen::AlignedBox3d masses() const {
     Eigen::AlignedBox3d box;
     for (const Index node : world.body(0).body().nodes())
@@ -106,9 +88,6 @@ struct Cut {
     std::ranges::sort(sizes, std::greater());
     return sizes;
   }
-
-  World world;
-  std::vector<Vec3> path{Vec3(0.020, plane, -0.010), Vec3(0.020, plane, -0.010)};
 };
 
 class Scalpel : public testing::TestWithParam<Case> {};
