@@ -9,9 +9,10 @@
 
 namespace palpate {
 
-/// physics -> render. One chunk of what is visible of a body: vertices where they lie at rest, and four-cornered facets; where they
-/// are, VertexBlocks say. A set is complete when all n_chunks of one revision have come. A triangle repeats its last
-/// corner; a facet without an area is an element (a, b, b, b) or a mass (a, a, a, a) that belongs to no other facet.
+/// physics -> render. One chunk of what is visible of a body: vertices where they lie at rest, and four-cornered
+/// facets; where they are, VertexBlocks say. A set is complete when all n_chunks of one revision have come. A
+/// triangle repeats its last corner; a facet without an area is an element (a, b, b, b) or a mass (a, a, a, a) that
+/// belongs to no other facet.
 struct BodySurface {
   std::uint32_t body = 0;
   std::uint32_t revision =

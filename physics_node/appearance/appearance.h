@@ -1,6 +1,6 @@
 #pragma once
-// What physics sends to the eye: the visible surface of every body and the strands between them, then only what changes in it and the blocks of vertices
-// that moved. Free of DDS: the messages go to whoever asks.
+// What physics sends to the eye: the visible surface of every body and the strands between them, then only what
+// changes in it and the blocks of vertices that moved. Free of DDS: the messages go to whoever asks.
 
 #include <functional>
 #include <future>

@@ -2,9 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "physics_node/appearance/moved_blocks.h"
 #include "physics_node/appearance/surface_chunks.h"
@@ -17,12 +17,10 @@ constexpr double thin =
     0.12;  // Why: of the side of its patch; a bed of strands lets the tissue behind it be seen
 constexpr Array3f not_sent{std::numeric_limits<float>::quiet_NaN(), 0, 0};
 
-/// A unit vector across another.
-Vec3 across(const Vec3& u) {
-  Eigen::Index least = 0;
-  u.cwiseAbs().minCoeff(&least);
-  return u.cross(Vec3::Unit(least)).normalized();
-}
+/// Of an equilateral triangle about the middle: cosine and sine.
+constexpr double half_root_three = 0.8660254037844386;
+constexpr std::array<std::array<double, 2>, 3> corners{
+    {{1, 0}, {-0.5, half_root_three}, {-0.5, -half_root_three}}};
 
 }  // namespace
 
@@ -60,10 +58,9 @@ void StrandPicture::place() {
     const bool seen = connection_.holds(s) && length > 0;
     const double r = seen ? thin * std::sqrt(strands[s].area * connection_.left(s)) : 0.0;
     const Vec3 u = length > 0 ? Vec3(way / length) : Vec3(Vec3::UnitX());
-    const Vec3 e = across(u), f = u.cross(e);
+    const Vec3 e = u.unitOrthogonal(), f = u.cross(e);
     for (std::size_t k = 0; k < 3; ++k) {
-      const double turn = 2 * std::numbers::pi / 3 * static_cast<double>(k);
-      const Vec3 corner = r * (std::cos(turn) * e + std::sin(turn) * f);
+      const Vec3 corner = r * (corners[k][0] * e + corners[k][1] * f);
       now_[vertices_a_strand * s + k] = float_of(ends.node + corner);
       now_[vertices_a_strand * s + 3 + k] = float_of(seen ? Vec3(ends.foot + corner) : ends.node);
     }

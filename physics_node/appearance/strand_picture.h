@@ -1,6 +1,7 @@
 #pragma once
-// The strands of a connection as the eye sees them: a three-sided prism each, which is thinner the more of it has been cut, and
-// a point once it no longer holds. To the eye a connection is one more body, numbered on behind those of the scene.
+// The strands of a connection as the eye sees them: a three-sided prism each, which is thinner the more of it has
+// been cut, and a point once it no longer holds. To the eye a connection is one more body, numbered on behind those
+// of the scene. It has no place at rest: its surface says where strands are when it is written.
 
 #include <cstdint>
 #include <functional>

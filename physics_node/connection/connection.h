@@ -1,8 +1,9 @@
 #pragma once
-// Strands that join two bodies while a scene runs: they pull where they are longer than at rest, tear, and are cut. What
-// has been cut of one pulls no longer: k is as much less.
+// Strands that join two bodies while a scene runs: they pull where they are longer than at rest, tear, and are cut.
+// What has been cut of one pulls no longer: k is as much less.
 //
-// A damper's work is that of its force, half with the velocities before a step and half with those after it, as of a tool's.
+// A damper's work is that of its force, half with the velocities before a step and half with those after it, as of a
+// tool's.
 //
 // They act in the step whose elements have just moved the nodes, by where the nodes were when it began, as elements
 // do. Their energy is that of the leapfrog, U + dt / 2 times the power of their forces with the velocities before:

@@ -120,7 +120,7 @@ void BladeEdge::find_blade(const BladeStrands& strands) noexcept {
 }
 
 /// The force of a strip, and how far it has to go on for that.
-void BladeEdge::slide(BladeStrip& strip, Outcome& done) const noexcept {
+void BladeEdge::slide(BladeStrip& strip, BladeOutcome& done) const noexcept {
   strip.ahead = strip.across = 0;
   if (!strip.bites) return;
   if (strip.cover == 0) {
@@ -143,7 +143,7 @@ void BladeEdge::slide(BladeStrip& strip, Outcome& done) const noexcept {
 }
 
 /// Puts the forces of the strips on the nodes that they hold.
-void BladeEdge::press(BladeLinks& links, const BladeFrame& frame, double dt, Outcome& done) noexcept {
+void BladeEdge::press(BladeLinks& links, const BladeFrame& frame, double dt, BladeOutcome& done) noexcept {
   const std::span<BladeLinks::Node> nodes = links.nodes();
   strips_.each_held(
       links, &BladeLinks::Link::now,
@@ -175,7 +175,7 @@ void BladeEdge::press(BladeLinks& links, const BladeFrame& frame, double dt, Out
 
 BladeOutcome BladeEdge::step(BladeLinks& links, BladeStrands& strands, const BladeFrame& frame, double dt,
                              std::vector<EdgeGone>& cuts) noexcept {
-  Outcome done;
+  BladeOutcome done;
   links.update(frame, place());
   strips_.follow(links, frame);
   touch(links, frame);

@@ -27,17 +27,15 @@ namespace palpate::physics {
 
 class BladeEdge {
  public:
-  using Outcome = BladeOutcome;
-
   /// @param n_strips  of equal length @param stiffness  of the hand's spring, all of it [N/m]
   BladeEdge(double length, std::size_t n_strips, double stiffness);
 
   /// How stiff the hand's spring is now [N/m].
   void set_stiffness(double stiffness) noexcept { stiffness_ = stiffness; }
-  /// After a step of dt: slides, finds forces on the nodes of `links` and on `strands`, and lists in `cuts` the elements that it
-  /// has passed.
-  Outcome step(BladeLinks& links, BladeStrands& strands, const BladeFrame& frame, double dt,
-               std::vector<EdgeGone>& cuts) noexcept;
+  /// After a step of dt: slides, finds forces on the nodes of `links` and on `strands`, and lists in `cuts` the
+  /// elements that it has passed.
+  BladeOutcome step(BladeLinks& links, BladeStrands& strands, const BladeFrame& frame, double dt,
+                    std::vector<EdgeGone>& cuts) noexcept;
   /// What the elements held that the last step's list names [J].
   void take_released(double energy) noexcept { coming_ += energy; }
   void let_go() noexcept;
@@ -71,8 +69,8 @@ class BladeEdge {
   double held() const noexcept;  // how stiffly all strips hold it [N/m]
   double felt(double held) const noexcept { return held > 0 ? stiffness_ * held / (stiffness_ + held) : 0.0; }
   void find_blade(const BladeStrands& strands) noexcept;
-  void slide(BladeStrip& strip, Outcome& done) const noexcept;
-  void press(BladeLinks& links, const BladeFrame& frame, double dt, Outcome& done) noexcept;
+  void slide(BladeStrip& strip, BladeOutcome& done) const noexcept;
+  void press(BladeLinks& links, const BladeFrame& frame, double dt, BladeOutcome& done) noexcept;
   void cut(BladeLinks& links, std::vector<EdgeGone>& cuts) noexcept;
 
   static constexpr double held_by =

@@ -1,8 +1,9 @@
 #pragma once
-// What an edge sweeps inside bodies that it neither cuts nor feels: for who has to know that it went where it should not.
+// What an edge sweeps inside bodies that it neither cuts nor feels: for who has to know that it went where it should
+// not.
 //
-// A place is inside where the surface takes up more than half of all directions as seen from it, with its sign: solid angles
-// add up to 4 pi inside of what is closed, and to 0 outside. Source: Van Oosterom & Strackee 1983.
+// A place is inside where the surface takes up more than half of all directions as seen from it, with its sign: solid
+// angles add up to 4 pi inside of what is closed, and to 0 outside. Source: Van Oosterom & Strackee 1983.
 
 #include <Eigen/Geometry>
 #include <array>
@@ -20,8 +21,8 @@ class BladeInside {
   /// @param bodies  which outlive this @param passed  those of them that it does not cut @param length  of the edge [m]
   BladeInside(const std::vector<TouchableBody>& bodies, std::vector<std::size_t> passed, double length);
 
-  /// After a frame. Allocates nothing. Cost: none where it cuts all bodies or stands still, else a look at so many facets a frame
-  /// that it is some 0.1 ms; a look at bodies with many takes several frames, in which they move little.
+  /// After a frame. Allocates nothing. Cost: none where it cuts all bodies or stands still, else a look at so many
+  /// facets a frame that it is some 0.1 ms; a look at bodies with many takes several frames, in which they move little.
   void follow(const BladeFrame& frame) noexcept;
   /// What comes next is somewhere else.
   void let_go() noexcept { looking_ = seen_ = false; }

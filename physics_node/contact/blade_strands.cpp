@@ -13,7 +13,7 @@ constexpr double strands_again_s = 0.020;      // Why: tissue may come by itself
 constexpr double strand_held_by =
     20;  // Why: as in springs (blade_edge.h): much stiffer than the hand's spring, however little of the edge is held
 constexpr double least_hold =
-    4;  // Why: times by how fast T falls behind a strand; with a softer hold the edge would jump in what does not give way
+    4;  // Why: times by how fast T falls behind a strand; with a softer hold the edge would jump in firm tissue
 
 constexpr double held_by_edge =
     0.25;  // Why: of d; no more may tissue move a strand out of its cut or beyond an end of the edge
@@ -82,11 +82,13 @@ void BladeStrands::look_around(double reach) noexcept {
   for (std::size_t c = 0; c < connections_.size(); ++c) {
     const auto& strands = connections_[c]->strands();
     for (std::size_t s = 0; s < strands.size(); ++s) {
-      const Strand& strand = strands[s];
-      const double d = std::sqrt(strand.area);
-      const Connection::Ends at = connections_[c]->places(strand);
-      const double far = (at.foot - at.node).norm() + 3 * d + reach;
-      if (connections_[c]->holds(s) && distance_to_edge(at.node, tip_, end_) < far)
+      const double d = std::sqrt(strands[s].area);
+      bool is_near = connections_[c]->holds(s);
+      if (is_near) {
+        const Connection::Ends at = connections_[c]->places(strands[s]);
+        is_near = distance_to_edge(at.node, tip_, end_) < (at.foot - at.node).norm() + 3 * d + reach;
+      }
+      if (is_near)
         near_.push_back({.connection = c, .strand = s, .v_before = Connection::Ends{}, .d = d});
       else
         of_[c].side[s] = Side::unknown;
@@ -98,9 +100,9 @@ void BladeStrands::begin_step() noexcept {
   for (Near& near : near_) near.v_before = connection_of(near).velocities(strand_of(near));
 }
 
-/// A strand is the edge's once its patch has lain before the edge, in the plane; never what the edge comes to with its back. Of a
-/// patch that it comes into from aside it goes through what lies before it, which is as tough as the whole: nothing presses
-/// at once.
+/// A strand is the edge's once its patch has lain before the edge, in the plane; never what the edge comes to with
+/// its back. Of a patch that it comes into from aside it goes through what lies before it, which is as tough as the
+/// whole: nothing presses at once.
 bool BladeStrands::follow(Near& near, const BladeFrame& frame, double lag) noexcept {
   const Connection& connection = connection_of(near);
   Side& side = of_[near.connection].side[near.strand];
@@ -173,8 +175,8 @@ void BladeStrands::soften(double dt) noexcept {
   }
 }
 
-/// Within a step T is the mean of what s goes through, which makes an equation of the second degree of it where s passes
-/// the strand. Where the hold is softer than T falls, there is no answer behind the strand: it parts at once.
+/// Within a step T is the mean of what s goes through, which makes an equation of the second degree of it where s
+/// passes the strand. Where the hold is softer than T falls, there is no answer behind the strand: it parts at once.
 BladeStrands::Slide BladeStrands::slide_of(const Near& near, double q) noexcept {
   const double way = (q - near.q) / near.depth, k = near.k * near.depth, most = near.most, s = near.passed;
   if (!(way > 0)) return {};

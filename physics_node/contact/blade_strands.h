@@ -1,21 +1,22 @@
 #pragma once
 // The strands of connections that a sharp edge meets: each a slider that takes the strand's toughness times its area.
 //
-// A strand stands for a patch of tissue of area A, d = sqrt(A) wide and deep. The edge comes to it d before the strand and is
-// through d behind it; s is how far it has come, from 0 to 2 d:
+// A strand stands for a patch of tissue of area A, d = sqrt(A) wide and deep. The edge comes to it d before the
+// strand and is through d behind it; s is how far it has come, from 0 to 2 d:
 //
 //   T(s) = Gc min(s, 2 d - s),   integral of T ds = Gc A
 //
-// Neighbours stand about d apart, so their T sum up to Gc times the length of the edge, and none begins or ends with a jump.
-// The edge takes hold of a strand where it crosses the plane, and presses it with
+// Neighbours stand about d apart, so their T sum up to Gc times the length of the edge, and none begins or ends with
+// a jump. The edge takes hold of a strand where it crosses the plane, and presses it with
 //
 //   F (ahead - (ahead . w) / (side . w) side),   F = k (b - x),   0 <= F <= (1 - c) T
 //
-// where F would be more, s goes on until it is not. w is along the strand, and the force at right angles to it: the edge slides along
-// it, so that a blade that is inclined, or tissue that leans, is pushed aside, and what the hand pays is what is cut.
-// b is where the blade is, x where the edge is in the strand's tissue, c what the strand pays by the energy that it holds
-// (Griffith 1921). T is the mean of a step, so that the work is Gc A to rounding however fast the hand is. What has been cut of
-// a strand no longer pulls. Its ends carry F by how near they are. Nothing holds the blade across: it goes between two surfaces.
+// where F would be more, s goes on until it is not. w is along the strand, and the force at right angles to it: the
+// edge slides along it, so that a blade that is inclined, or tissue that leans, is pushed aside, and what the hand
+// pays is what is cut. b is where the blade is, x where the edge is in the strand's tissue, c what the strand pays by
+// the energy that it holds (Griffith 1921). T is the mean of a step, so that the work is Gc A to rounding however
+// fast the hand is. What has been cut of a strand no longer pulls. Its ends carry F by how near they are. Nothing
+// holds the blade across: it goes between two surfaces.
 
 #include <array>
 #include <cstdint>
@@ -42,8 +43,9 @@ class BladeStrands {
   /// @param connections  which outlive this @param length  of the edge [m]
   BladeStrands(const Connections& connections, double length);
 
-  /// Before the steps of a frame: what the edge may come to in it. Cost: nothing; a pass over all strands once the blade has
-  /// gone a few millimetres, and every 20 ms. @param lag  where the blade is, ahead of the hand @param way  of the tip in the frame [m]
+  /// Before the steps of a frame: what the edge may come to in it. Cost: nothing; a pass over all strands once the
+  /// blade has gone a few millimetres, and every 20 ms.
+  /// @param lag  where the blade is, ahead of the hand [m] @param way  of the tip in the frame [m]
   void gather(const BladeFrame& frame, double lag, double way, double t) noexcept;
   bool is_near() const noexcept { return !near_.empty(); }
 

@@ -1,12 +1,12 @@
 #pragma once
-// A scalpel: a rigid edge that the hand leads through bodies of springs and through the strands of connections, and what it
-// passes is cut (blade_edge.h, blade_strands.h). No mass is lost.
+// A scalpel: a rigid edge that the hand leads through bodies of springs and through the strands of connections, and
+// what it passes is cut (blade_edge.h, blade_strands.h). No mass is lost.
 // What the hand pays is the tissue's toughness times the area that has been opened.
 //
 // The hand is told the force of the frame's last step and how its spring would change that: of two ways, as the edge slides along itself.
 // While physics hears nothing the blade stands, and after Hands::silence its spring lets go, within 200 ms.
-// Limits: it touches one body of springs at a time, that which most of its edge is near; flanks do not rub, what lies beside the blade
-// does not press on it, and finite elements and surfaces of springs it passes unfelt, and counts that.
+// Limits: it touches one body of springs at a time, that which most of its edge is near; flanks do not rub, what lies
+// beside the blade does not press on it, and finite elements and surfaces of springs it passes unfelt, and counts that.
 
 #include <memory>
 #include <vector>
@@ -20,8 +20,10 @@ namespace palpate::physics {
 
 class BladeTool final : public PressingTool {
  public:
-  /// @param bodies, touchable, connections  all of a scene, which outlive this  @param period  of the hand's samples [s]
-  /// @throws InputError  bodies of which it can cut none, and nothing that joins them; or a material that does not say how tough it is
+  /// @param bodies, touchable, connections  all of a scene, which outlive this
+  /// @param period  of the hand's samples [s]
+  /// @throws InputError  bodies of which it can cut none, and nothing that joins them; or a material that does not say
+  /// how tough it is
   BladeTool(const ToolSpec& tool, std::uint32_t index, const BodyModels& bodies,
             const std::vector<TouchableBody>& touchable, const Connections& connections, double period);
 

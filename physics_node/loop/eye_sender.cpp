@@ -106,8 +106,8 @@ void EyeSender::begin_ahead(std::uint32_t body) {
   std::erase_if(ahead_, [body](const Key& key) { return key.first == body; });
 }
 
-/// A surface says where vertices lie at rest: a reader that knows already where they are never shows them there. Each block goes
-/// ahead once, so that a slow network still takes surfaces. @return false: there is none to be sent ahead
+/// A surface says where vertices lie at rest: a reader that knows already where they are never shows them there. Each
+/// block goes ahead once, so that a slow network still takes surfaces. @return false: there is none to be sent ahead
 bool EyeSender::send_ahead(std::uint32_t body, std::unique_lock<std::mutex>& lock) {
   for (auto due = blocks_due_.lower_bound({body, 0}); due != blocks_due_.end() && due->first.first == body;
        ++due) {

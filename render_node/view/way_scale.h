@@ -1,6 +1,7 @@
 #pragma once
-// What the colours say that show how far tissue is from where it lies at rest: from its own colour at 0 through yellow, orange and
-// red to violet at `most`, a round length that only grows, so that a colour keeps its meaning while one looks.
+// What the colours say that show how far tissue is from where it lies at rest: from its own colour at 0 through
+// yellow, orange and red to violet at `most`, a round length that only grows, so that a colour keeps its meaning
+// while one looks.
 
 #include <array>
 #include <cstdint>

@@ -118,8 +118,8 @@ TEST(Connection, TakesItsToughnessHoweverStiffAndFast) {
   }
 }
 
-/// Two masses of 8 g that part, k = 200 N/m and c = 0.2 N s/m between them, until nothing pulls any more: x = v / w exp(-D t) sin(w t)
-/// up to where its second derivative is 0 again.
+/// Two masses of 8 g that part, k = 200 N/m and c = 0.2 N s/m between them, until nothing pulls any more: x = v / w
+/// exp(-D t) sin(w t) up to where its second derivative is 0 again.
 TEST(Connection, DampsASwingAsTheClosedFormSays) {
   World world(scene_of(two_blocks("viscosity_Pa_s = 1\n", "velocity_m_per_s = [0, 0, 0.1]\n", "")));
   const Vec3 start = world.body(1).momenta().linear + world.body(0).momenta().linear;

@@ -1,5 +1,5 @@
-// A scalpel in the bed between two bodies: what it feels is toughness times the length of its edge, what it takes toughness times the
-// area of what it has cut, and what the bed holds helps.
+// A scalpel in the bed between two bodies: what it feels is toughness times the length of its edge, what it takes
+// toughness times the area of what it has cut, and what the bed holds helps.
 
 #include "physics_node/contact/blade_strands.h"
 
@@ -23,7 +23,8 @@ namespace {
 constexpr double toughness = 100, side = 0.020, area = side * side;  // of the bed
 constexpr double middle = 0.011;                                     // y between the blocks [m]
 
-/// Two blocks of 20 x 20 x 20 mm beside each other in y with a gap of 2 mm, and a blade whose edge is along z and goes to -x.
+/// Two blocks of 20 x 20 x 20 mm beside each other in y with a gap of 2 mm, and a blade whose edge is along z and
+/// goes to -x.
 Recipe bed(const std::string& held = "fixed = [\"+y\"]\n", const std::string& own = "fixed = [\"-y\"]\n",
            double toughness_of_cut = toughness) {
   Recipe recipe;
@@ -131,7 +132,8 @@ TEST(BladeStrands, ArePaidByWhatTheyHold) {
   }
 }
 
-/// Masses so light, and tissue so soft, that it gives way by several strands before the first is cut: most slip off the edge.
+/// Masses so light, and tissue so soft, that it gives way by several strands before the first is cut: most slip off
+/// the edge.
 TEST(BladeStrands, OfTissueThatGivesWayKeepTheBooks) {
   Recipe recipe = bed("fixed = [\"+y\"]\n", "fixed = [\"-y\"]\n", 1000);
   recipe.spacing_mm = 2;
