@@ -187,14 +187,15 @@ class OpenedSlab : public CommandRun, public testing::WithParamInterface<const c
               0)
         << log;
   }
-  /// Did physics see each tool go by less than half a cell from frame to frame?
-  bool kept_up() const {
+  /// By how much a tool went on at most from one frame of physics to the next, since its hand was heard first [m].
+  double largest_jump() const {
+    double most = 0;
     for (const char* tool : {"knife", "tip", "stick"}) {
       const std::vector<Sample> samples = trace(tool);
       for (std::size_t n = 1; n < samples.size(); ++n)
-        if ((samples[n].p - samples[n - 1].p).norm() > half_a_cell) return false;
+        if (!samples[n - 1].p.isZero(0)) most = std::max(most, (samples[n].p - samples[n - 1].p).norm());
     }
-    return true;
+    return most;
   }
   void probe() {
     SlabRecord record(out(), GetParam());
@@ -255,14 +256,19 @@ TEST_P(OpenedSlab, IsFeltWhereItIsInSimulatedTime) {
 }
 
 /// Hands go by the clock of the wall. On a busy machine physics makes too few frames of what they do in a
-/// third of a second, and then nothing can be said of where they feel the slab: they go again, half as fast.
+/// third of a second, and then nothing can be said of where they feel the slab: they go again, half as fast. On a machine that
+/// does not keep up with hands that are 24 times slower either, nothing can be said at all.
 TEST_P(OpenedSlab, IsFeltWhereItIsByTheThreeNodes) {
-  constexpr double slowest = 12;
+  constexpr double slowest = 24;
+  double jump = 0;
   for (double slower = 3; slower <= slowest; slower *= 2) {
     open("run --headless --domain " + std::to_string(test::own_domain()) + at_pace_of(slower));
     if (HasFatalFailure()) return;
-    if (kept_up()) break;
+    jump = largest_jump();
+    if (jump <= half_a_cell) break;
   }
+  if (jump > half_a_cell)
+    GTEST_SKIP() << "physics does not keep up: a tool went " << 1e3 * jump << " mm in a frame";
   probe();
 }
 
