@@ -6,10 +6,6 @@
 namespace palpate::physics {
 namespace {
 
-/// Corners of the faces of a tetrahedron whose volume is positive, anticlockwise from outside.
-constexpr std::array<std::array<std::size_t, 3>, 4> tet_faces = {
-    {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
-
 /// Which of the middles lies between two corners.
 std::size_t edge_between(std::size_t a, std::size_t b) {
   for (std::size_t e = 0; e < tet_edges.size(); ++e)

@@ -23,6 +23,10 @@ struct TetMesh {
 inline constexpr std::array<std::array<std::size_t, 2>, 6> tet_edges = {
     {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
 
+/// Corners of the faces of a tetrahedron whose volume is positive, anticlockwise from outside.
+inline constexpr std::array<std::array<std::size_t, 3>, 4> tet_faces = {
+    {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
+
 /// det [x1 - x0, x2 - x0, x3 - x0] / 6: negative where the corners are in the other order [m^3]
 double signed_volume(const TetMesh& mesh, const std::array<Index, 4>& corners) noexcept;
 
