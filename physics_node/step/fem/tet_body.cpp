@@ -10,7 +10,7 @@ namespace {
 
 template <class Real>
 std::unique_ptr<BodyModel> make(Body body, std::vector<Vec3> start) {
-  Tetrahedra<Real> tets(body.mesh->model);
+  Tetrahedra<Real> tets(body.mesh->model, instruction_set(), body.mesh->most_copies());
   return std::make_unique<MeshBodyModel<Tetrahedra<Real>>>(std::move(body), std::move(start),
                                                            std::move(tets));
 }

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "physics_node/body/tet_model.h"
+#include "physics_node/mesh/tet_net.h"
 
 namespace palpate::physics {
 
@@ -15,6 +16,8 @@ inline constexpr std::size_t tet_lanes = 16;
 inline constexpr std::size_t most_block_tets = 1024;
 /// Why: with its copy and its part, 24 KiB in single precision. A good order needs 300.
 inline constexpr std::size_t most_block_nodes = 768;
+/// Of a body that may be cut. Why: so many have room in a block even if no two share a node any more.
+inline constexpr std::size_t most_cut_block_tets = most_block_nodes / 4;
 
 /// Of TetBatch::corner for each node of the block.
 template <class Real>
@@ -51,11 +54,31 @@ struct TetLayout {
   PartLists of_node, of_share;
   std::vector<Index> node_of_share;
   std::vector<std::size_t> material_of_share;
+  std::size_t most_shares = 0;  // there will ever be
 
   std::size_t n_batches() const noexcept { return tet.size() / tet_lanes; }
 };
 
 /// @param model  renumbered, or blocks have many nodes
-TetLayout lay_out(const TetModel& model);
+/// @param most_copies  of nodes that cuts may make, for which there is room then; of first order
+TetLayout lay_out(const TetModel& model, std::size_t most_copies = 0);
+
+/// Where the lanes of tetrahedra are in a layout that changes.
+class TetLanes {
+ public:
+  explicit TetLanes(const TetLayout& layout);
+  std::size_t lane(Index tet) const noexcept { return lane_[static_cast<std::size_t>(tet)]; }
+  std::size_t block(std::size_t lane) const noexcept { return block_[lane / tet_lanes]; }
+
+ private:
+  std::vector<std::size_t> lane_;   // by tetrahedron
+  std::vector<std::size_t> block_;  // by batch
+};
+
+/// The tetrahedra that have this copy in the net have it from now on; every copy once. Lists are of no use until
+/// list_anew(). Allocates nothing.
+void give_copy(TetLayout& layout, const TetLanes& lanes, const TetNet& net, Index copy) noexcept;
+/// Lists of the parts as they are now. Allocates nothing. @param n_nodes  now
+void list_anew(TetLayout& layout, std::size_t n_nodes) noexcept;
 
 }  // namespace palpate::physics

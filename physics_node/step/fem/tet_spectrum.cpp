@@ -95,4 +95,11 @@ StiffestMode stiffest_mode_of_tetrahedra(const TetModel& model) {
   return mode;
 }
 
+StiffestMode stiffest_mode_when_cut(const TetModel& model) {
+  StiffestMode mode;
+  mode.omega2 = fastest_element(model);
+  mode.gamma = model.beta * mode.omega2;
+  return mode;
+}
+
 }  // namespace palpate::physics

@@ -18,4 +18,7 @@ double fastest_element(const TetModel& model);
 /// Cost: at most 60 sweeps over the tetrahedra, in double.
 StiffestMode stiffest_mode_of_tetrahedra(const TetModel& model);
 
+/// The bound alone, which holds whatever faces are opened: parts of a body vibrate no faster than its fastest tetrahedron alone.
+StiffestMode stiffest_mode_when_cut(const TetModel& model);
+
 }  // namespace palpate::physics

@@ -33,7 +33,7 @@ void Tetrahedra<Real>::push(Index node, const Vec3& dv, double dt) noexcept {
 
 template <class Real>
 typename Tetrahedra<Real>::Saved Tetrahedra<Real>::saved() const {
-  return {.u = Four(4 * n_nodes())};
+  return {.u = Four(u_.size())};
 }
 
 template <class Real>
@@ -41,6 +41,12 @@ void Tetrahedra<Real>::save(Saved& to) const noexcept {
   std::copy_n(u_.data(), 4 * n_nodes(), to.u.data());
   to.viscous = viscous_, to.numerical = numerical_;
   to.watch = watch_;
+}
+
+template <class Real>
+void Tetrahedra<Real>::copy_saved(Saved& in, Index node, Index copy) const noexcept {
+  std::copy_n(in.u.data() + 4 * static_cast<std::size_t>(node), 4,
+              in.u.data() + 4 * static_cast<std::size_t>(copy));
 }
 
 template <class Real>
@@ -69,6 +75,7 @@ void Tetrahedra<Real>::forget() noexcept {
   template void Tetrahedra<Real>::push(Index, const Vec3&, double) noexcept;       \
   template Tetrahedra<Real>::Saved Tetrahedra<Real>::saved() const;                \
   template void Tetrahedra<Real>::save(Saved&) const noexcept;                     \
+  template void Tetrahedra<Real>::copy_saved(Saved&, Index, Index) const noexcept; \
   template void Tetrahedra<Real>::bring_back(const Saved&) noexcept;               \
   template void Tetrahedra<Real>::forget() noexcept;
 

@@ -31,8 +31,8 @@ void fill_batches(const TetModel& model, const TetLayout& layout, ZeroedArray<Te
 }
 
 /// V_n of each share [m^3].
-std::vector<double> volumes_of_shares(const TetModel& model, const TetLayout& layout) {
-  std::vector<double> volumes(layout.node_of_share.size());
+void volumes_of_shares(const TetModel& model, const TetLayout& layout, std::vector<double>& volumes) {
+  volumes.assign(layout.node_of_share.size(), 0.0);
   for (const TetBlock& block : layout.blocks)
     for (std::size_t at = block.first_batch * tet_lanes;
          at < (block.first_batch + block.n_batches) * tet_lanes; ++at) {
@@ -44,7 +44,6 @@ std::vector<double> volumes_of_shares(const TetModel& model, const TetLayout& la
         volumes[static_cast<std::size_t>(share)] += volume / 4;
       }
     }
-  return volumes;
 }
 
 TetKind kind_of(const TetModel& model) {
@@ -57,8 +56,10 @@ std::size_t chunks(std::size_t n) { return (n + tet_chunk - 1) / static_cast<std
 }  // namespace
 
 template <class Real>
-Tetrahedra<Real>::Tetrahedra(TetModel model, InstructionSet set)
-    : model_(std::move(model)), layout_(lay_out(model_)), kernel_(tet_kernel_of<Real>(set, kind_of(model_))) {
+Tetrahedra<Real>::Tetrahedra(TetModel model, InstructionSet set, std::size_t most_copies)
+    : model_(std::move(model)),
+      layout_(lay_out(model_, most_copies)),
+      kernel_(tet_kernel_of<Real>(set, kind_of(model_))) {
   if (model_.mesh.middles.empty())
     fill_batches(model_, layout_, batches_);
   else
@@ -69,27 +70,31 @@ Tetrahedra<Real>::Tetrahedra(TetModel model, InstructionSet set)
     stiffness_at_rest_.push_back(StableNeoHookean<Scalar<double>>{lame.mu, lame.lambda}.stiffness({}));
   }
   std::size_t colour = 0;
-  const std::size_t n = n_nodes(), parts = layout_.node.size();
-  const std::size_t shares = kernel_.elastic.swell != nullptr ? layout_.node_of_share.size() : 0;
+  const std::size_t n = n_nodes() + most_copies, parts = layout_.node.size();
+  const std::size_t shares = kernel_.elastic.swell != nullptr ? layout_.most_shares : 0;
   const bool damped = model_.beta > 0;
   inverse_mass_ = ZeroedArray<Real>(n, colour++);
   const auto masses = masses_of(model_);
-  for (std::size_t i = 0; i < n; ++i)
+  for (std::size_t i = 0; i < masses.size(); ++i)
     if (model_.held.empty() || !model_.held[i]) inverse_mass_[i] = static_cast<Real>(1 / masses[i]);
   for (auto* of_nodes : {&u_, &v_}) *of_nodes = Four(4 * n, colour++);
   force_ = Four(4 * parts, colour++);
   swelling_ = ZeroedArray<Real>(shares > 0 ? (damped ? 2 : 1) * parts : 0, colour++);
   mean_ = ZeroedArray<Real>(shares, colour++);
   share_volume_ = ZeroedArray<Real>(shares, colour++);
-  const auto volumes = shares > 0 ? volumes_of_shares(model_, layout_) : std::vector<double>();
-  for (std::size_t s = 0; s < shares; ++s) {
-    const TetMaterial& material = model_.materials[layout_.material_of_share[s]];
-    share_volume_[s] = static_cast<Real>(1 / volumes[s]);
-    share_energy_.push_back(0.5 * lame_of(material.modulus, material.poisson_ratio).lambda * volumes[s]);
-  }
+  share_energy_.resize(shares);
+  volumes_.reserve(shares);
+  if (shares > 0) find_share_volumes();
   for (auto* of_blocks : {&elastic_, &stiffest_, &least_J_}) of_blocks->resize(layout_.blocks.size());
   elastic_of_shares_.resize(chunks(shares));
   ledger_.resize(chunks(n));
+  if (most_copies > 0) {
+    model_.mesh.nodes.reserve(n);
+    if (!model_.held.empty()) model_.held.reserve(n);
+    loaded_ = layout_;
+    lanes_.emplace(layout_);
+    swollen_.reserve(TetNet::most_around);
+  }
   if (!damped) return;
   rate_force_ = Four(4 * parts, colour++);
   seen_rate_ = Four(4 * n, colour++);
@@ -99,6 +104,16 @@ Tetrahedra<Real>::Tetrahedra(TetModel model, InstructionSet set)
   lost_.resize(layout_.blocks.size() + chunks(shares));
   const double omega2 = model_.fastest_omega2 > 0 ? model_.fastest_omega2 : fastest_element(model_);
   z_ = 0.5 * model_.beta * std::sqrt(omega2);
+}
+
+template <class Real>
+void Tetrahedra<Real>::find_share_volumes() noexcept {
+  volumes_of_shares(model_, layout_, volumes_);
+  for (std::size_t s = 0; s < volumes_.size(); ++s) {
+    const TetMaterial& material = model_.materials[layout_.material_of_share[s]];
+    share_volume_[s] = volumes_[s] > 0 ? static_cast<Real>(1 / volumes_[s]) : Real(0);
+    share_energy_[s] = 0.5 * lame_of(material.modulus, material.poisson_ratio).lambda * volumes_[s];
+  }
 }
 
 template <class Real>

@@ -2,8 +2,11 @@
 // A body of tetrahedra that moves: its state, its step and its books. See tet_element.h and tet_layout.h.
 
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
+#include "physics_node/mesh/tet_net.h"
 #include "physics_node/step/books.h"
 #include "physics_node/step/explicit_step.h"
 #include "physics_node/step/fem/tet_kernel.h"
@@ -21,7 +24,8 @@ class Tetrahedra {
  public:
   /// @param model  renumbered; every tetrahedron has a volume and a material
   /// @param set    that this machine runs; avx2 and avx512 give the same bits, sse2 others
-  explicit Tetrahedra(TetModel model, InstructionSet set = instruction_set());
+  /// @param most_copies  of nodes that cuts may make; of first order
+  explicit Tetrahedra(TetModel model, InstructionSet set = instruction_set(), std::size_t most_copies = 0);
 
   /// A step. Of ExplicitStep: `verlet` and `exact` mean nothing here; struck ones book exactly. Allocates, locks and throws nothing.
   /// @return of what was watched: least J of the tetrahedra; and the largest stiffening of one, by which squared frequencies of the body
@@ -51,10 +55,23 @@ class Tetrahedra {
   };
   Saved saved() const;  // room for it
   void save(Saved& to) const noexcept;
+  /// A copy of a node was where that was.
+  void copy_saved(Saved& in, Index node, Index copy) const noexcept;
   /// At rest where it was.
   void bring_back(const Saved& from) noexcept;
   /// Begins the books anew: nothing is lost, and no step came before.
   void forget() noexcept;
+
+  /// Gives the net's copies to the tetrahedra that have them there: they begin where the nodes are that they split off from,
+  /// as fast, and masses are shared anew. Allocates nothing.
+  /// @param splits  since this was last called; all of them
+  /// @return by how much elastic energy grows [J]: the mean pressure at a node was of all that now have pressures of
+  ///   their own, and what varies more holds more; 0 without nodal pressure
+  double separate(std::span<const NodeSplit> splits, const TetNet& net) noexcept;
+  /// As loaded, whatever was separated; places and velocities of nodes as loaded stay.
+  void rejoin() noexcept;
+  /// Of a node, whatever holds it [kg].
+  double mass(Index node, const TetNet& net) const noexcept;
 
   /// Forces on all nodes as they are, at u without the damper, in the precision of the state [N]. (nodes)
   void forces(std::vector<Vec3>& out) noexcept;
@@ -81,17 +98,31 @@ class Tetrahedra {
   const TetSweep<Real>& sweep() const noexcept { return model_.beta > 0 ? kernel_.damped : kernel_.elastic; }
   void elements(const TetContext<Real>& m, const ExplicitStep& step, const TetSweep<Real>& sweep,
                 typename TetSweep<Real>::OfBlock kernel) noexcept;
+  void write_corner(std::size_t lane, std::size_t corner) noexcept;
+  double volume_change(std::size_t tet) const noexcept;
+  Real rate_before(Index node, std::size_t material) const noexcept;
+  void measure_again(Index node, const TetNet& net) noexcept;
+  void find_share_volumes() noexcept;
+  double swollen_energy(Index node, const TetNet& net, bool after) noexcept;
   double elastic() const noexcept;        // of what was last asked for [J]
   double lost_by_power() const noexcept;  // from the last step to what was last asked for [J]
 
   TetModel model_;
   TetLayout layout_;
+  std::optional<TetLayout> loaded_;  // what layout_ was, of a body that may be cut
+  std::optional<TetLanes> lanes_;
+  struct Swollen {
+    Index node = 0;
+    std::size_t material = 0;
+    double volume = 0, change = 0;  // [m^3]
+  };
+  std::vector<Swollen> swollen_;  // room for those at a node
   std::vector<TetConstants<Real>> constants_;
   ZeroedArray<TetBatch<Real>> batches_;        // of first order
   ZeroedArray<TetBatch<Real, 10>> batches10_;  // of second order
   std::vector<double> stiffness_at_rest_;      // see TetContext
   ZeroedArray<Real> inverse_mass_, share_volume_;
-  std::vector<double> share_energy_;
+  std::vector<double> share_energy_, volumes_;  // by share
   TetKernel<Real> kernel_;
 
   Four u_, v_, force_;
