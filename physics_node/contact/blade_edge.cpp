@@ -83,12 +83,12 @@ void BladeEdge::soften(BladeLinks& links, double dt) noexcept {
         nodes[link.a].pull += w / strip.weight * (1 - at.t) * k * strip.cover;
         nodes[link.b].pull += w / strip.weight * at.t * k * strip.cover;
       });
+  links.give_way_to_pulls();
   strips_.each_held(
       links, &BladeLinks::Link::now,
       [&](const BladeLinks::Link& link, const BladeLinks::Crossing& at, BladeStrip& strip, double w) {
         const BladeLinks::Node &a = nodes[link.a], &b = nodes[link.b];
-        strip.softness += dt * dt * w / strip.weight *
-                          ((1 - at.t) * a.inverse_mass * a.pull + at.t * b.inverse_mass * b.pull);
+        strip.softness += dt * dt * w / strip.weight * ((1 - at.t) * a.gives + at.t * b.gives);
       });
 }
 
@@ -152,13 +152,13 @@ void BladeEdge::press(BladeLinks& links, const BladeFrame& frame, double dt, Bla
         nodes[link.a].force += (1 - at.t) * force;
         nodes[link.b].force += at.t * force;
       });
+  links.give_way_to_forces();
   for (BladeStrip& strip : strips_) strip.way.setZero();
   strips_.each_held(
       links, &BladeLinks::Link::now,
       [&](const BladeLinks::Link& link, const BladeLinks::Crossing& at, BladeStrip& strip, double w) {
         const BladeLinks::Node &a = nodes[link.a], &b = nodes[link.b];
-        strip.way +=
-            dt * dt * w / strip.weight * at.between(a.inverse_mass * a.force, b.inverse_mass * b.force);
+        strip.way += dt * dt * w / strip.weight * at.between(a.gives_way, b.gives_way);
       });
   for (BladeStrip& strip : strips_) {
     if (!strip.bites) continue;
@@ -182,6 +182,7 @@ BladeOutcome BladeEdge::step(BladeLinks& links, BladeStrands& strands, const Bla
   lag_before_ = lag_;
   find_slot();
   links.cross(slot_);
+  links.measure_sections(frame, slot_);
   strips_.weigh(links);
   strips_.carry(links, frame);
   strips_.compare_with_rest(links, dt);
@@ -213,14 +214,13 @@ void BladeEdge::find_slot() noexcept {
 /// Elements that the edge has passed, and those that its body has come to lie in.
 void BladeEdge::cut(BladeLinks& links, std::vector<EdgeGone>& cuts) noexcept {
   const double passed = BladeStrips::passed_by * links.spacing(), behind = cut_behind * links.spacing();
-  std::span<BladeLinks::Node> nodes = links.nodes();
+  const std::span<const BladeLinks::Node> nodes = links.nodes();
   for (BladeLinks::Link& link : links.links()) {
     const BladeLinks::Crossing& at = link.now;
     if (!at.is || !strips_.is_along(at.p) || cuts.size() == cuts.capacity()) continue;
     const BladeStrip& strip = strips_.at(at.p);
     if (!strip.bites || at.q >= strip.q - passed || at.q < strip.q - behind) continue;
-    link.lives = link.now.is = false;
-    cuts.push_back({nodes[link.a].cell, nodes[link.b].cell});
+    if (links.sever(link)) cuts.push_back({nodes[link.a].cell, nodes[link.b].cell});
   }
 }
 

@@ -20,9 +20,9 @@ constexpr double look_again_s = 0.020;  // Why: tissue may come by itself
 }  // namespace
 
 BladeLinks::BladeLinks(const BodyModel& body, double length)
-    : body_(&body), length_(length), h_(body.body().spacing()) {
-  around_.reserve(body.body().nodes().size());
-  number_.assign(static_cast<std::size_t>(body.body().capacity()), -1);
+    : cells_(body), length_(length), h_(cells_.spacing()), response_(cells_.n_body_nodes()) {
+  around_.reserve(cells_.all().size());
+  number_.assign(cells_.capacity(), -1);
   side_.assign(number_.size(), 0);
   nodes_.reserve(most_nodes);
   links_.reserve(most_links);
@@ -31,8 +31,8 @@ BladeLinks::BladeLinks(const BodyModel& body, double length)
 void BladeLinks::look_around(const BladeFrame& frame, const EdgePlace& edge) noexcept {
   const double reach = around_reach * h_;
   around_.clear();
-  for (const Index cell : body_->body().nodes()) {
-    const Vec3 at = frame.coordinates(body_->position(cell));
+  for (const Index cell : cells_.all()) {
+    const Vec3 at = frame.coordinates(cells_.position(cell));
     const Vec3 edge_there(std::clamp(at.x(), 0.0, length_), std::clamp(at.y(), edge.last, edge.lag),
                           edge.slot);
     if ((at - edge_there).squaredNorm() <= reach * reach)
@@ -45,6 +45,7 @@ void BladeLinks::look_around(const BladeFrame& frame, const EdgePlace& edge) noe
 void BladeLinks::reset() noexcept {
   for (const Node& node : nodes_) number_[static_cast<std::size_t>(node.cell)] = -1;
   std::ranges::fill(side_, std::int8_t{0});
+  cells_.reset();
   when_ = -1e9;
   nodes_.clear();
   links_.clear();
@@ -69,24 +70,19 @@ void BladeLinks::gather(const BladeFrame& frame, const EdgePlace& edge, double t
   for (const Node& node : nodes_) number_[static_cast<std::size_t>(node.cell)] = -1;
   nodes_.clear();
   links_.clear();
-  const Body& body = body_->body();
   for (const Index cell : around_) {
-    const Vec3 x = body_->position(cell), at = frame.coordinates(x);
+    const Vec3 x = cells_.position(cell), at = frame.coordinates(x);
     if (at.x() < -across_reach * h_ || at.x() > length_ + across_reach * h_) continue;
     if (at.y() < first || at.y() > last || std::abs(at.z() - s) > across_reach * h_) continue;
     if (nodes_.size() == most_nodes) break;
     number_[static_cast<std::size_t>(cell)] = static_cast<std::int32_t>(nodes_.size());
-    nodes_.push_back({.cell = cell,
-                      .inverse_mass = body.inverse_mass[static_cast<std::size_t>(cell)],
-                      .toughness = law_at(body, cell).cut_toughness,
-                      .rest = body.rest_position(cell),
-                      .x = x,
-                      .at = at});
+    nodes_.push_back(
+        {.cell = cell, .toughness = cells_.toughness(cell), .rest = cells_.rest(cell), .x = x, .at = at});
     settle_side(nodes_.back(), edge);
   }
   const double margin = across_margin * h_;
   for (std::uint32_t a = 0; a < nodes_.size(); ++a)
-    body_->adjacency().each_neighbour(nodes_[a].cell, [&](Index other) {
+    cells_.each_joined(nodes_[a].cell, [&](Index other) {
       const std::int32_t b = number_[static_cast<std::size_t>(other)];
       if (b <= static_cast<std::int32_t>(a) || links_.size() == most_links) return;
       const Node& second = nodes_[static_cast<std::size_t>(b)];
@@ -104,14 +100,14 @@ void BladeLinks::remember() noexcept {
 
 void BladeLinks::begin_step() noexcept {
   for (Node& node : nodes_) {
-    node.x = body_->position(node.cell);
-    node.v_before = body_->velocity(node.cell);
+    node.x = cells_.position(node.cell);
+    node.v_before = cells_.velocity(node.cell);
   }
 }
 
 void BladeLinks::update(const BladeFrame& frame, const EdgePlace& edge) noexcept {
   for (Node& node : nodes_) {
-    const Vec3 x = body_->position(node.cell);
+    const Vec3 x = cells_.position(node.cell);
     node.way = x - node.x;
     node.x = x;
     node.at = frame.coordinates(x);
@@ -132,7 +128,83 @@ void BladeLinks::cross(double s) noexcept {
     now.t = std::abs(apart) > tiny * h_ ? std::clamp((s - a.z()) / apart, 0.0, 1.0) : 0.5;
     now.p = a.x() + now.t * (b.x() - a.x());
     now.q = a.y() + now.t * (b.y() - a.y());
+    now.low = now.high = now.p;
   }
+}
+
+BladeLinks::Section BladeLinks::section_of(Index cell) const noexcept {
+  Section section;
+  const BladeCells::Nodes of = cells_.nodes(cell);
+  std::array<Vec3, 4> at;
+  for (std::size_t c = 0; c < 4; ++c) at[c] = frame_.coordinates(cells_.corner(of.of[c]));
+  for (const auto& [i, j] : tet_edges) {
+    const double below = at[i].z() - plane_, above = at[j].z() - plane_;
+    if ((below < 0) == (above < 0)) continue;
+    const double p = at[i].x() + below / (below - above) * (at[j].x() - at[i].x());
+    const bool first = section.high < section.low;
+    section.low = first ? p : std::min(section.low, p);
+    section.high = first ? p : std::max(section.high, p);
+  }
+  return section;
+}
+
+void BladeLinks::measure_sections(const BladeFrame& frame, double s) noexcept {
+  frame_ = frame, plane_ = s;
+  for (Link& link : links_) {
+    if (!link.now.is) continue;
+    for (const std::uint32_t end : {link.a, link.b}) {
+      if (!cells_.has_section(nodes_[end].cell)) continue;
+      const Section section = section_of(nodes_[end].cell);
+      if (section.high < section.low) continue;
+      link.now.low = std::min(link.now.low, section.low),
+      link.now.high = std::max(link.now.high, section.high);
+    }
+  }
+}
+
+/// Over all that joined faces lead to, of what the plane has a section of and that is not far ahead or behind.
+double BladeLinks::skin_along(const Link& link, double end) const noexcept {
+  constexpr std::size_t most = 48;  // Why: a strip is half a spacing wide, and few tetrahedra lie beside it
+  const bool down = end < link.now.p;
+  double farthest = down ? -link.now.low : link.now.high;
+  std::array<Index, most> seen;
+  std::size_t n_seen = 0;
+  const auto reach = [&](Index cell) {
+    if (n_seen == most || !cells_.has_section(cell)) return;
+    if (std::find(seen.begin(), seen.begin() + n_seen, cell) != seen.begin() + n_seen) return;
+    const Vec3 at = frame_.coordinates(cells_.position(cell));
+    if (std::abs(at.y() - link.now.q) > h_) return;
+    const Section section = section_of(cell);
+    if (section.high < section.low) return;
+    seen[n_seen++] = cell;
+    farthest = std::max(farthest, down ? -section.low : section.high);
+  };
+  reach(nodes_[link.a].cell), reach(nodes_[link.b].cell);
+  for (std::size_t n = 0; n < n_seen && farthest < (down ? -end : end); ++n)
+    cells_.each_joined(seen[n], reach);
+  return down ? -farthest : farthest;
+}
+
+void BladeLinks::give_way_to_pulls() noexcept {
+  for (const Node& node : nodes_)
+    if (node.pull > 0) response_.add(cells_.nodes(node.cell), node.pull * Vec3::UnitX());
+  for (Node& node : nodes_) node.gives = response_.of(cells_.nodes(node.cell), cells_.inverse_mass()).x();
+  for (const Node& node : nodes_) response_.clear(cells_.nodes(node.cell));
+}
+
+void BladeLinks::give_way_to_forces() noexcept {
+  for (const Node& node : nodes_)
+    if (!node.force.isZero(0)) response_.add(cells_.nodes(node.cell), node.force);
+  for (Node& node : nodes_) node.gives_way = response_.of(cells_.nodes(node.cell), cells_.inverse_mass());
+  for (const Node& node : nodes_) response_.clear(cells_.nodes(node.cell));
+}
+
+bool BladeLinks::sever(Link& link) noexcept {
+  link.lives = link.now.is = false;
+  bool parts = true;
+  for (const std::uint32_t end : {link.a, link.b})
+    if (cells_.is_skin(nodes_[end].cell)) cells_.pass_skin(nodes_[end].cell), parts = false;
+  return parts;
 }
 
 }  // namespace palpate::physics

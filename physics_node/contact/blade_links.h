@@ -1,22 +1,23 @@
 #pragma once
-// The elements of a body of springs that the plane of a blade crosses, near its edge.
+// What joins cells of a body (blade_cells.h) across the plane of a blade, near its edge: elements of springs, or faces
+// between tetrahedra.
 //
-// In the blade's own coordinates (p, q, r): p along the edge from the tip, q ahead of it, r out of the plane to the side. An element whose ends lie on
-// both sides of r = s (r >= s counts as above) crosses the plane at
+// In the blade's own coordinates (p, q, r): p along the edge from the tip, q ahead of it, r out of the plane to the
+// side. A link whose ends lie on both sides of r = s (r >= s counts as above) crosses the plane at
 //
 //   t = (s - r_a) / (r_b - r_a),   p = (1 - t) p_a + t p_b,   q alike
 //
-// so that whether an edge that lies at q(p) has passed it is a question of two numbers. Every element has one answer however
-// the edge is divided and whichever way steps are: no element slips between two strips or two steps.
+// so that whether an edge that lies at q(p) has passed it is a question of two numbers. Every link has one answer however
+// the edge is divided and whichever way steps are: none slips between two strips or two steps.
 //
-// On which side a mass lies is settled once, before the edge comes to it: one that lies in the plane, and is moved to and fro,
+// On which side a cell lies is settled once, before the edge comes to it: one that lies in the plane, and is moved to and fro,
 // stays with the lip that it belongs to.
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "physics_node/step/body_model.h"
+#include "physics_node/contact/blade_cells.h"
 
 namespace palpate::physics {
 
@@ -43,21 +44,23 @@ class BladeLinks {
 
   struct Node {
     Index cell = 0;
-    double inverse_mass = 0;       // 0: held [1/kg]
-    double toughness = 0;          // of its material [J/m^2]
-    Vec3 rest = Vec3::Zero();      // [m]
-    Vec3 x = Vec3::Zero();         // now [m]
-    Vec3 way = Vec3::Zero();       // of the step that has just moved it [m]
-    Vec3 v_before = Vec3::Zero();  // when it began [m/s]
-    Vec3 at = Vec3::Zero();        // p, q, r
-    Vec3 force = Vec3::Zero();     // of the blade in this step [N]
-    std::int8_t side = 0;          // 1: above
-    double pull = 0;               // sum of w k of what holds on to it [N/m]
+    double toughness = 0;           // of its material [J/m^2]
+    Vec3 rest = Vec3::Zero();       // [m]
+    Vec3 x = Vec3::Zero();          // now [m]
+    Vec3 way = Vec3::Zero();        // of the step that has just moved it [m]
+    Vec3 v_before = Vec3::Zero();   // when it began [m/s]
+    Vec3 at = Vec3::Zero();         // p, q, r
+    Vec3 force = Vec3::Zero();      // of the blade in this step [N]
+    std::int8_t side = 0;           // 1: above
+    double pull = 0;                // sum of w k of what holds on to it [N/m]
+    double gives = 0;               // by how much all these pulls move it: sum of pull / m [1/s^2]
+    Vec3 gives_way = Vec3::Zero();  // and all forces [m/s^2]
   };
   /// Where an element crosses the plane, if it does.
   struct Crossing {
     bool is = false;
     double t = 0, p = 0, q = 0;
+    double low = 0, high = 0;  // p of what the plane has of its two ends, where these have a volume
     /// Of what its ends have.
     Vec3 between(const Vec3& a, const Vec3& b) const noexcept { return (1 - t) * a + t * b; }
   };
@@ -69,7 +72,7 @@ class BladeLinks {
 
   /// Of no body: nothing is near.
   BladeLinks() = default;
-  /// @param body  of springs; outlives this  @param length  of the edge [m]
+  /// @param body  of springs, or of tetrahedra that may be cut; outlives this  @param length  of the edge [m]
   BladeLinks(const BodyModel& body, double length);
 
   /// Before the steps of a frame: what may come to cross the plane in it. Cost: a pass over the nodes around; over all of the body once
@@ -80,6 +83,15 @@ class BladeLinks {
   void update(const BladeFrame& frame, const EdgePlace& edge) noexcept;
   /// Anew the crossings alone, of a plane at r = s.
   void cross(double s) noexcept;
+  /// How far what crosses a plane at r = s reaches along the edge.
+  void measure_sections(const BladeFrame& frame, double s) noexcept;
+  /// The same of all that hangs together with a link along the edge, as far as `end`: p of the tissue's skin, or beyond `end`.
+  double skin_along(const Link& link, double end) const noexcept;
+  /// From the pulls or the forces of all nodes, by how much these give way.
+  void give_way_to_pulls() noexcept;
+  void give_way_to_forces() noexcept;
+  /// The edge has gone through a link. @return is that something of the body that comes apart?
+  bool sever(Link& link) noexcept;
   /// The crossings as they are become those of the step before.
   void remember() noexcept;
   void reset() noexcept;
@@ -90,14 +102,24 @@ class BladeLinks {
   std::span<const Node> nodes() const noexcept { return nodes_; }
   /// How far neighbours lie apart [m].
   double spacing() const noexcept { return h_; }
+  const BladeCells& cells() const noexcept { return cells_; }
+  bool has_sections() const noexcept { return cells_.have_volumes(); }
 
  private:
   void look_around(const BladeFrame& frame, const EdgePlace& edge) noexcept;
+  /// What a plane at r = s has of a cell along the edge; none: high < low.
+  struct Section {
+    double low = 1, high = -1;
+  };
+  Section section_of(Index cell) const noexcept;
   void settle_side(Node& node, const EdgePlace& edge) noexcept;
 
-  const BodyModel* body_ = nullptr;
+  BladeCells cells_;
+  BladeFrame frame_;  // when sections were measured last, and s
+  double plane_ = 0;
   double length_ = 0, h_ = 1;
-  std::vector<Index> around_;         // nodes of the body within a margin
+  BladeCells::Response response_;
+  std::vector<Index> around_;         // cells within a margin
   std::vector<std::int32_t> number_;  // of a node in nodes_, by cell; -1: none
   std::vector<std::int8_t> side_;     // of what is around, by cell; 0: not settled
   std::vector<Node> nodes_;

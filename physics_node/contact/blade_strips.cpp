@@ -61,10 +61,13 @@ void BladeStrips::weigh(const BladeLinks& links) noexcept {
     strip.weight = strip.toughness = strip.cover = 0;
     strip.low = 2 * length_, strip.high = -2 * length_;
   }
+  std::array<const BladeLinks::Link*, most> lowest{}, highest{};
   each_held(links, &BladeLinks::Link::now,
             [&](const BladeLinks::Link& link, const BladeLinks::Crossing& at, BladeStrip& strip, double w) {
               strip.weight += w;
-              strip.low = std::min(strip.low, at.p), strip.high = std::max(strip.high, at.p);
+              const auto i = static_cast<std::size_t>(&strip - strips_.data());
+              if (at.low < strip.low) strip.low = at.low, lowest[i] = &link;
+              if (at.high > strip.high) strip.high = at.high, highest[i] = &link;
               strip.toughness += w * 0.5 * (nodes[link.a].toughness + nodes[link.b].toughness);
             });
   for (std::size_t i = 0; i < strips_.size(); ++i) {
@@ -72,8 +75,12 @@ void BladeStrips::weigh(const BladeLinks& links) noexcept {
     strip.bites = strip.bites && strip.weight > 0;
     if (!strip.bites) continue;
     strip.toughness /= strip.weight;
-    const double begin = static_cast<double>(i) * width_;
-    const double low = std::max(strip.low, begin), high = std::min(strip.high, begin + width_);
+    const double begin = static_cast<double>(i) * width_, end = begin + width_;
+    if (links.has_sections()) {
+      if (strip.low > begin) strip.low = std::min(strip.low, links.skin_along(*lowest[i], begin));
+      if (strip.high < end) strip.high = std::max(strip.high, links.skin_along(*highest[i], end));
+    }
+    const double low = std::max(strip.low, begin), high = std::min(strip.high, end);
     strip.cover = std::max(0.0, high - low) / width_;
   }
 }

@@ -17,12 +17,19 @@ constexpr double strips_a_spacing =
 constexpr std::size_t most_cuts = 4096;  // in a step
 
 bool is_lattice_of_springs(const Body& body) { return !body.solid && !body.mesh; }
+/// Where their materials say how tough they are.
+bool is_of_a_kind_to_cut(const Body& body) {
+  return is_lattice_of_springs(body) ||
+         (body.mesh && !body.mesh->springs && body.mesh->model.mesh.middles.empty());
+}
+bool is_cut(const Body& body) { return is_lattice_of_springs(body) || (body.mesh && body.mesh->net); }
 
 void refuse_uncut(const ToolSpec& tool, const Body& body) {
-  if (!is_lattice_of_springs(body))
+  if (!is_of_a_kind_to_cut(body))
     throw InputError(fmt::format(
-        "{}: shape = \"scalpel\" cuts lattices of springs and what a [[connection]] joins, and \"{}\" "
-        "is {}; write model = \"springs\" there",
+        "{}: shape = \"scalpel\" cuts lattices of springs, tetrahedra of first order and what a "
+        "[[connection]] "
+        "joins, and \"{}\" is {}; write model = \"springs\" there, or give it a mesh of tetrahedra",
         tool.place.text(), body.name,
         is_surface_of_springs(body) ? "a surface of springs" : "of finite elements"));
   if (std::ranges::any_of(body.laws, [](const ElementLaw& law) { return law.cut_toughness <= 0; }))
@@ -35,13 +42,14 @@ void refuse_uncut(const ToolSpec& tool, const Body& body) {
 std::vector<std::size_t> passed_bodies(const BodyModels& bodies) {
   std::vector<std::size_t> passed;
   for (std::size_t b = 0; b < bodies.size(); ++b)
-    if (!is_lattice_of_springs(bodies[b]->body())) passed.push_back(b);
+    if (!is_cut(bodies[b]->body())) passed.push_back(b);
   return passed;
 }
 
 std::size_t strips_of(const ToolSpec& tool, const BodyModels& bodies) {
   double finest = tool.length;
-  for (const auto& body : bodies) finest = std::min(finest, body->body().spacing());
+  for (const auto& body : bodies)
+    finest = std::min(finest, is_cut(body->body()) ? BladeCells(*body).spacing() : body->body().spacing());
   return static_cast<std::size_t>(std::clamp(std::ceil(strips_a_spacing * tool.length / finest), 1.0,
                                              static_cast<double>(BladeStrips::most)));
 }
@@ -62,9 +70,9 @@ BladeTool::BladeTool(const ToolSpec& tool, std::uint32_t index, const BodyModels
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const Body& body = bodies[b]->body();
     if (connections.empty() || is_lattice_of_springs(body)) refuse_uncut(tool, body);
-    if (is_lattice_of_springs(body)) bodies_.push_back({b, BladeLinks(*bodies[b], tool.length)});
+    if (is_cut(body)) bodies_.push_back({b, BladeLinks(*bodies[b], tool.length)});
   }
-  forces_.reserve(BladeLinks::most_nodes);
+  forces_.reserve(4 * BladeLinks::most_nodes);
   cuts_.reserve(most_cuts);
 }
 
@@ -144,8 +152,11 @@ double BladeTool::press(double dt) noexcept {
   blade_.set_stiffness(keep_ * stiffness_);
   BladeLinks& links = near_ ? bodies_[touched_].links : nothing_;
   done_ = blade_.step(links, strands_, frame_, dt, cuts_);
-  for (const BladeLinks::Node& node : links.nodes())
-    if (!node.force.isZero(0)) forces_.push_back({node.cell, node.force});
+  for (const BladeLinks::Node& node : links.nodes()) {
+    if (node.force.isZero(0)) continue;
+    const BladeCells::Nodes of = links.cells().nodes(node.cell);
+    for (const Index at : of.list()) forces_.push_back({at, node.force / static_cast<double>(of.n)});
+  }
   book().cut(done_.area, done_.work + done_.released);
   return done_.power;
 }

@@ -1,12 +1,12 @@
 #pragma once
-// A scalpel: a rigid edge that the hand leads through bodies of springs and through the strands of connections, and
-// what it passes is cut (blade_edge.h, blade_strands.h). No mass is lost.
+// A scalpel: a rigid edge that the hand leads through bodies of springs or tetrahedra and through the strands of
+// connections, and what it passes is cut (blade_edge.h, blade_strands.h). No mass is lost.
 // What the hand pays is the tissue's toughness times the area that has been opened.
 //
 // The hand is told the force of the frame's last step and how its spring would change that: of two ways, as the edge slides along itself.
 // While physics hears nothing the blade stands, and after Hands::silence its spring lets go, within 200 ms.
-// Limits: it touches one body of springs at a time, that which most of its edge is near; flanks do not rub, what lies
-// beside the blade does not press on it, and finite elements and surfaces of springs it passes unfelt, and counts that.
+// Limits: it cuts one body at a time, that which most of its edge is near; flanks do not rub, what lies
+// beside the blade does not press on it, and bodies that it cannot cut it passes unfelt, and counts that.
 
 #include <memory>
 #include <vector>
@@ -70,7 +70,7 @@ class BladeTool final : public PressingTool {
   Eigen::Matrix3d attitude_;
   double edge_, stiffness_;
   HandPlay play_;
-  std::vector<OfBody> bodies_;  // of springs
+  std::vector<OfBody> bodies_;  // that it cuts
   BladeLinks nothing_;          // where none of them is near
   BladeStrands strands_;
   BladeInside inside_;

@@ -194,10 +194,10 @@ std::string refusal(const Recipe& recipe) {
 TEST(BladeTool, SaysWhatItCannotCut) {
   Recipe solid = block({"voxel", 2, 0});
   solid.body += "\nmodel = \"fem\"";
-  EXPECT_NE(
-      refusal(solid).find(
-          "cuts lattices of springs and what a [[connection]] joins, and \"body\" is of finite elements"),
-      std::string::npos)
+  EXPECT_NE(refusal(solid).find("cuts lattices of springs, tetrahedra of first order and what a "
+                                "[[connection]] joins, and \"body\" is of "
+                                "finite elements"),
+            std::string::npos)
       << refusal(solid);
   Recipe untold = block({"voxel", 2, 0});
   untold.material.resize(untold.material.find("\ncut_toughness"));

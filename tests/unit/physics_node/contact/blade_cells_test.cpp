@@ -1,0 +1,172 @@
+// What an edge goes between in tetrahedra, and a scalpel that goes through them: it feels toughness times length whatever
+// the mesh, what it passes parts, and nothing is lost.
+
+#include "physics_node/contact/blade_cells.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/scene/scene.h"
+#include "physics_node/world.h"
+#include "tests/support/physics/led_blade.h"
+#include "tests/support/physics/mesh_worlds.h"
+
+namespace palpate::physics::test {
+namespace {
+
+constexpr double toughness = 190;
+const Vec3 size(0.030, 0.016, 0.010);  // of the block; the edge is along z, the cut along x
+constexpr double plane = 0.0003;       // of the blade: y [m]
+
+struct Case {
+  double edge_mm, speed;  // [m/s]
+  const char* elements = "nodal_pressure";
+  bool damped = true;
+};
+
+Recipe block(const Case& c, const std::string& body = "fixed = [\"-y\", \"+y\"]") {
+  std::array<int, 3> cells{};
+  for (std::size_t a = 0; a < 3; ++a)
+    cells[a] = static_cast<int>(std::lround(1e3 * size[static_cast<Eigen::Index>(a)] / c.edge_mm));
+  Recipe recipe = mesh_box(cells, 1e-3 * c.edge_mm, c.elements);
+  recipe.material =
+      "density_kg_per_m3 = 1000\nmodulus_kPa = 200\npoisson_ratio = 0.45\ncut_toughness_J_per_m2 = 190\n" +
+      (c.damped ? std::string("viscosity_Pa_s = 0.2") : std::string());
+  recipe.body = "at_mm = [0, 0, 0]\n" + body;
+  recipe.physics = "frame_Hz = 1000";
+  recipe.world =
+      "[[tool]]\nname = \"blade\"\nshape = \"scalpel\"\nlength_mm = 20\ndevice = \"hand\"\n"
+      "stiffness_N_per_m = 1000\nedge_deg = 0\n"
+      "[device.hand]\ndriver = \"simulated\"\nwaypoints = [[0, 30, 0, 0], [1, 20, 0, 0]]\n";
+  return recipe;
+}
+
+const TetNet& net_of(const World& world) { return *world.body(0).body().mesh->net; }
+
+/// Between the first piece and the others, as seen along the normal [m^2].
+double parted_across(const World& world, const Vec3& normal) {
+  const Body& body = world.body(0).body();
+  const TetNet& net = net_of(world);
+  const auto piece = [&](Index t) { return world.fragments(0)->label(net.corners(t)[0]); };
+  double area = 0;
+  for (Index t = 0; t < net.n_tets(); ++t)
+    for (std::size_t f = 0; f < 4; ++f) {
+      if (!net.is_open(t, f) || piece(t) != 0 || piece(net.beyond(t, f)) == 0) continue;
+      const MeshTriangle face = net.face(t, f);
+      const Vec3 a = body.rest_position(face[0]);
+      area += 0.5 * (body.rest_position(face[1]) - a).cross(body.rest_position(face[2]) - a).dot(normal);
+    }
+  return std::abs(area);
+}
+
+struct Cut : LedBlade {
+  explicit Cut(const Recipe& recipe, double y = plane) : LedBlade(recipe, Vec3(0.020, y, -0.010)) {}
+};
+
+class ScalpelInTetrahedra : public testing::TestWithParam<Case> {};
+
+TEST_P(ScalpelInTetrahedra, FeelsToughnessTimesLengthAndPaysForTheAreaThatItOpens) {
+  const Case c = GetParam();
+  Cut cut(block(c));
+  const double begin = 0.020, end = -0.035, from = begin + 0.45 * (end - begin),
+               to = begin + 0.65 * (end - begin);
+  cut.along(Vec3(from, plane, -0.010), c.speed);
+  const EnergyLedger at_from = cut.world.ledger();
+  const double opened = cut.book().cut_area();
+  const std::vector<Vec3> steady = cut.along(Vec3(to, plane, -0.010), c.speed);
+  const EnergyLedger at_to = cut.world.ledger();
+  double mean = 0, jump = 0;
+  for (std::size_t i = 0; i < steady.size(); ++i) {
+    mean += steady[i].x() / static_cast<double>(steady.size());
+    if (i > 0) jump = std::max(jump, (steady[i] - steady[i - 1]).norm());
+  }
+  EXPECT_NEAR((cut.book().cut_area() - opened) / (from - to), size.z(), 0.03 * size.z());
+  const double viscous = (at_to.dissipated - at_from.dissipated) / (from - to);
+  EXPECT_NEAR(mean - viscous, toughness * size.z(), 0.05 * toughness * size.z());
+  EXPECT_LT(jump, 0.03 * toughness * size.z()) << "of a frame";
+
+  cut.along(Vec3(end, plane, -0.010), c.speed);
+  const double area = size.x() * size.z();
+  EXPECT_EQ(cut.world.fragments(0)->count(), 2);
+  EXPECT_NEAR(cut.book().cut_area(), area, 0.04 * area);
+  EXPECT_NEAR(parted_across(cut.world, Vec3::UnitY()), area, 1e-9 * area) << "all of the section";
+  const EnergyLedger ledger = cut.world.ledger();
+  EXPECT_NEAR(ledger.cut, toughness * cut.book().cut_area(), 1e-9);
+  EXPECT_LT(ledger.balance_error(), 1e-3);
+  EXPECT_EQ(cut.world.report().restored, 0);
+  EXPECT_GT(cut.world.report().least_corner_J, 0.2);
+}
+
+INSTANTIATE_TEST_SUITE_P(Meshes, ScalpelInTetrahedra,
+                         testing::Values(Case{2.5, 0.05}, Case{2, 0.2}, Case{2, 0.1}, Case{2, 0.2, "plain"}),
+                         [](const testing::TestParamInfo<Case>& one) { return std::to_string(one.index); });
+
+/// The mass of every piece is that of its tetrahedra, and in all what it was.
+TEST(BladeCells, LosesNoMassAndMovesNothingByParting) {
+  Cut cut(block({.edge_mm = 2, .speed = 0, .damped = false}, ""));
+  const Body& body = cut.world.body(0).body();
+  const auto mass = [&] {
+    double sum = 0;
+    body.each_node([&](Index node) { sum += node_mass(body, node); });
+    return sum;
+  };
+  const double before = mass();
+  EXPECT_NEAR(before, 1000 * size.prod(), 1e-9 * before);
+  cut.along(Vec3(-0.010, plane, -0.010), 3);
+  EXPECT_GT(net_of(cut.world).n_copies(), 10);
+  EXPECT_NEAR(mass(), before, 1e-14 * before);
+  const MomentumBalance balance = cut.world.body(0).momentum_balance();
+  EXPECT_LT(balance.missing.linear.norm(), 1e-11 * balance.linear);
+  EXPECT_LT(balance.missing.angular.norm(), 1e-11 * balance.angular);
+}
+
+TEST(BladeCells, FeelsNothingInItsOwnSlot) {
+  Cut cut(block({2, 0.05}));
+  cut.along(Vec3(0, plane, -0.010), 0.2);
+  const double opened = cut.book().cut_area();
+  EXPECT_GT(opened, 0.3 * size.x() * size.z());
+  for (const Vec3& force : cut.along(Vec3(0.020, plane, -0.010), 0.2)) EXPECT_GT(force.x(), -0.02);
+  for (const Vec3& force : cut.along(Vec3(0.008, plane, -0.010), 0.2)) EXPECT_LT(force.norm(), 0.1);
+  EXPECT_NEAR(cut.book().cut_area(), opened, 0.02 * size.x() * size.z());
+}
+
+TEST(BladeCells, CutsTheSameOnAnyNumberOfThreadsAndAgainAfterAReset) {
+  std::vector<std::uint64_t> hashes;
+  for (const int threads : {1, 2, 3}) {
+    Recipe recipe = block({2, 0.2});
+    recipe.physics += fmt::format("\nthreads = {}", threads);
+    Cut cut(recipe);
+    const std::uint64_t whole = cut.world.state_hash();
+    cut.along(Vec3(0.005, plane, -0.010), 0.2);
+    EXPECT_GT(net_of(cut.world).n_copies(), 0);
+    hashes.push_back(cut.world.state_hash());
+    if (threads > 1) continue;
+    cut.world.reset();
+    EXPECT_EQ(net_of(cut.world).n_copies(), 0);
+    EXPECT_EQ(cut.world.state_hash(), whole);
+    EXPECT_EQ(cut.world.fragments(0)->count(), 1);
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+  EXPECT_EQ(hashes[0], hashes[2]);
+}
+
+TEST(BladeCells, LieNoFartherApartThanTheEdgeReaches) {
+  const World world(scene_of(block({2, 0})));
+  const BladeCells cells(world.body(0));
+  const TetNet& net = net_of(world);
+  std::size_t joined = 0;
+  for (const Index cell : cells.all())
+    cells.each_joined(cell, [&](Index other) {
+      ++joined;
+      EXPECT_LE((cells.rest(cell) - cells.rest(other)).norm(), cells.spacing());
+    });
+  const std::size_t skin = cells.all().size() - static_cast<std::size_t>(net.n_tets());
+  EXPECT_EQ(joined, 4 * static_cast<std::size_t>(net.n_tets()) + skin)
+      << "each face has two sides, and a skin";
+}
+
+}  // namespace
+}  // namespace palpate::physics::test
