@@ -88,6 +88,7 @@ void World::follow_breaks() noexcept {
   for (std::size_t b = 0; b < bodies_.size(); ++b)
     if (fragments_[b]) fragments_[b]->update(*bodies_[b]);
   for (auto& body : touchable_) body.surface->follow();
+  for (auto& connection : connections_) connection->follow();
   if (collisions_) collisions_->follow_breaks();
 }
 

@@ -49,6 +49,20 @@ TeamChoice choose_threads(const Scene& scene, int spare_cores, Index n_masses, s
   return TeamChoice::up_to(std::clamp(cores, 1, std::max(1, static_cast<int>(n_pieces))));
 }
 
+/// By node, as large as they may become when a body is cut: of its lightest tetrahedron alone [1/kg].
+std::vector<double> inverse_masses_when_cut(const Body& body) {
+  std::vector<double> inverse = body.inverse_mass;
+  if (!body.mesh || !body.mesh->net) return inverse;
+  const TetModel& model = body.mesh->model;
+  for (std::size_t t = 0; t < model.mesh.tets.size(); ++t) {
+    const TetMaterial& material = model.materials[static_cast<std::size_t>(model.mesh.region[t])];
+    const double quarter = material.density * signed_volume(model.mesh, model.mesh.tets[t]) / 4;
+    for (const Index node : model.mesh.tets[t])
+      if (double& w = inverse[static_cast<std::size_t>(node)]; w > 0) w = std::max(w, 1 / quarter);
+  }
+  return inverse;
+}
+
 /// Refuses what would take more memory than there is before it takes it. @throws InputError
 std::vector<Body> build_bodies(const Scene& scene) {
   const double memory = usable_memory();
@@ -71,7 +85,8 @@ std::vector<Body> build_bodies(const Scene& scene) {
 
 World::World(const Scene& scene, int spare_cores) : scene_(scene) {
   std::vector<Body> built = build_bodies(scene);
-  for (Body& body : built) body.may_be_cut = std::ranges::any_of(scene.tools, cuts);
+  if (std::ranges::any_of(scene.tools, cuts))
+    for (std::size_t b = 0; b < built.size(); ++b) make_ready_for_cuts(scene.bodies[b], built[b]);
   const Integrator integrator = settle_steps(built);
   Index n_masses = 0;
   std::size_t n_pieces = 0;
@@ -134,10 +149,10 @@ void World::join_bodies() {
                       "of \"{}\"; write a "
                       "larger within_mm, or bring them nearer",
                       spec.place.text(), spec.name, spec.from, 1e3 * spec.within, spec.to));
-    added += std::max(added_omega2(strands, 0, bodies_[from]->body().inverse_mass),
-                      added_omega2(strands, 1, bodies_[to]->body().inverse_mass));
-    rate += std::max(added_rate(strands, 0, bodies_[from]->body().inverse_mass),
-                     added_rate(strands, 1, bodies_[to]->body().inverse_mass));
+    const auto of_from = inverse_masses_when_cut(bodies_[from]->body());
+    const auto of_to = inverse_masses_when_cut(bodies_[to]->body());
+    added += std::max(added_omega2(strands, 0, of_from), added_omega2(strands, 1, of_to));
+    rate += std::max(added_rate(strands, 0, of_from), added_rate(strands, 1, of_to));
     connections_.push_back(std::make_unique<Connection>(std::move(strands), *bodies_[from], *bodies_[to]));
   }
   if (connections_.empty()) return;

@@ -32,7 +32,7 @@ void Appearance::copy(std::size_t body) {
     view.live->copy(moving);
   const Fragments* fragments = world_.fragments(body);
   if (fragments != nullptr && world_.scene().render->show_fragments)
-    view.colours = std::make_unique<FragmentColours>(*fragments, moving.body().lattice);
+    view.colours = std::make_unique<FragmentColours>(*fragments, moving.body());
 }
 
 /// From copies and what is constant: safe in another thread.

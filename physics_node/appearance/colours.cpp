@@ -40,9 +40,9 @@ std::uint32_t fragment_colour(std::int32_t label) {
   return packed(channel(0), channel(2.0 / 3), channel(1.0 / 3));
 }
 
-FragmentColours::FragmentColours(const Fragments& fragments, const Lattice& lattice)
-    : label_(static_cast<std::size_t>(lattice.n_cells()), -1) {
-  for (const Index mass : lattice.masses) label_[static_cast<std::size_t>(mass)] = fragments.label(mass);
+FragmentColours::FragmentColours(const Fragments& fragments, const Body& body)
+    : label_(static_cast<std::size_t>(body.capacity()), -1) {
+  body.each_node([&](Index mass) { label_[static_cast<std::size_t>(mass)] = fragments.label(mass); });
   const auto& masses = fragments.masses();
   largest_ = static_cast<Index>(std::max_element(masses.begin(), masses.end()) - masses.begin());
 }

@@ -23,13 +23,13 @@ std::uint32_t fragment_colour(std::int32_t label);
 class FragmentColours {
  public:
   /// Cost: a copy of the label of every mass.
-  FragmentColours(const Fragments& fragments, const Lattice& lattice);
+  FragmentColours(const Fragments& fragments, const Body& body);
 
   /// Gives every fragment its colour but the one with most masses, which keeps the body's.
   void paint(Surface& surface) const;
 
  private:
-  std::vector<Index> label_;  // (n_cells)
+  std::vector<Index> label_;  // (capacity of the body)
   Index largest_ = 0;
 };
 

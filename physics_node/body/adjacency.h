@@ -7,7 +7,7 @@
 #include <span>
 
 #include "physics_node/lattice/lattice.h"
-#include "physics_node/mesh/mesh_parts.h"
+#include "physics_node/mesh/tet_net.h"
 
 namespace palpate::physics {
 
@@ -22,10 +22,20 @@ class Adjacency {
   Adjacency(const Lattice& lattice, std::span<const Mask> live) : lattice_(&lattice), live_(live) {}
   /// Of a mesh, in which nothing breaks. @param lists  outlives this
   explicit Adjacency(const NodeLists& lists) : lists_(&lists) {}
+  /// Of a mesh that may be cut. @param lists, net  of it; outlive this
+  Adjacency(const NodeLists& lists, const TetNet& net) : lists_(&lists), net_(&net) {}
 
-  /// Calls visit(neighbour) for each node that a live element joins to this one, in an order that depends on the body alone.
+  /// Calls visit(neighbour) for each node that a live element joins to this one, in an order that depends on the body
+  /// alone; where a mesh may be cut for some of them more than once.
   template <class Visit>
   void each_neighbour(Index node, const Visit& visit) const noexcept {
+    if (net_ != nullptr) {
+      net_->each_corner(node, [&](Index tet, std::size_t) {
+        for (const Index other : net_->corners(tet))
+          if (other != node) visit(other);
+      });
+      return;
+    }
     if (lists_ != nullptr) {
       for (const Index other : lists_->of(node)) visit(other);
       return;
@@ -35,19 +45,28 @@ class Adjacency {
       visit(node + offset[static_cast<std::size_t>(std::countr_zero(left))]);
   }
   bool are_joined(Index a, Index b) const noexcept {
+    if (net_ != nullptr) {
+      bool joined = false;
+      net_->each_corner(a, [&](Index tet, std::size_t) {
+        joined = joined || std::ranges::find(net_->corners(tet), b) != net_->corners(tet).end();
+      });
+      return joined;
+    }
     if (lists_ != nullptr) return std::ranges::binary_search(lists_->of(a), b);
     const auto& offset = lattice_->offset[static_cast<std::size_t>(lattice_->row_kind(a))];
     for (Mask left = live_elements(a) & element_bits; left != 0; left &= left - 1)
       if (a + offset[static_cast<std::size_t>(std::countr_zero(left))] == b) return true;
     return false;
   }
-  /// How many it is joined to.
+  /// How many it is joined to; of a mesh as loaded.
   int degree(Index node) const noexcept {
     if (lists_ != nullptr) return static_cast<int>(lists_->of(node).size());
     return std::popcount(live_elements(node) & element_bits);
   }
-  /// Is an element gone that joined it to another when the body was loaded, or a cell that it was a corner of?
+  /// Is an element gone that joined it to another when the body was loaded, or a cell that it was a corner of? Or has the
+  /// node of a mesh split?
   bool has_lost(Index node) const noexcept {
+    if (net_ != nullptr) return net_->has_split(node);
     return lists_ == nullptr && live_elements(node) != lattice_->mask[static_cast<std::size_t>(node)];
   }
   /// The live elements of a node as a record keeps them: a bit for each, which means the same in every body built from the
@@ -61,7 +80,8 @@ class Adjacency {
  private:
   const Lattice* lattice_ = nullptr;
   std::span<const Mask> live_;
-  const NodeLists* lists_ = nullptr;  // of a mesh; else null
+  const NodeLists* lists_ = nullptr;  // of a mesh, as loaded; else null
+  const TetNet* net_ = nullptr;       // of a mesh that may be cut; else null
 };
 
 }  // namespace palpate::physics

@@ -31,24 +31,34 @@ struct Body {
   std::vector<std::uint8_t>
       law_of;  // of each storage cell, an index of laws (n_cells); EMPTY: all masses have `law`
   std::optional<SolidElements>
-      solid;                         // of a body of finite elements; else its elements are springs of `laws`
-  std::optional<Cells> cells;        // of a voxel body; an fcc body has none
-  std::vector<float> intensity;      // of each storage cell, of an fcc body in an image; else EMPTY (n_cells)
-  std::vector<double> inverse_mass;  // of each storage cell, 0: held or empty [1/kg]  (n_cells)
-  Vec3 velocity = Vec3::Zero();      // at the start [m/s]
-  Index n_held = 0;                  // masses that do not move
-  bool may_be_cut = false;           // a tool of the scene cuts
+      solid;                     // of a body of finite elements; else its elements are springs of `laws`
+  std::optional<Cells> cells;    // of a voxel body; an fcc body has none
+  std::vector<float> intensity;  // of each storage cell, of an fcc body in an image; else EMPTY (n_cells)
+  std::vector<double>
+      inverse_mass;  // of each storage cell or node of a mesh, 0: held or empty [1/kg]  (capacity)
+  Vec3 velocity = Vec3::Zero();  // at the start [m/s]
+  Index n_held = 0;              // masses that do not move
+  bool may_be_cut = false;       // a tool of the scene cuts
   std::vector<Index>
       handle;               // storage cells of the masses that a hand drives, in storage order; of tools only
   Vec3 tip = Vec3::Zero();  // where the hand's tip is while the body is at rest: at_mm of the scene [m]
 
-  /// All nodes, in a fixed order.
+  /// All nodes as loaded, in a fixed order.
   std::span<const Index> nodes() const noexcept { return mesh ? mesh->nodes : lattice.masses; }
   Index n_nodes() const noexcept { return static_cast<Index>(nodes().size()); }
-  /// The number of every node is below this.
-  Index capacity() const noexcept { return mesh ? n_nodes() : lattice.n_cells(); }
+  /// The number of every node is below this, and of every copy of one.
+  Index capacity() const noexcept {
+    return mesh ? n_nodes() + static_cast<Index>(mesh->most_copies()) : lattice.n_cells();
+  }
+  /// Calls visit(node) for all nodes that there are now: those as loaded, then the copies that cuts have made.
+  template <class Visit>
+  void each_node(const Visit& visit) const noexcept {
+    for (const Index node : nodes()) visit(node);
+    if (!mesh || !mesh->net) return;
+    for (Index node = mesh->net->n_loaded(); node < mesh->net->n_nodes(); ++node) visit(node);
+  }
   Vec3 rest_position(Index node) const noexcept {  // [m]
-    return mesh ? mesh->model.mesh.nodes[static_cast<std::size_t>(node)] : lattice.rest_position(node);
+    return mesh ? mesh->rest(node) : lattice.rest_position(node);
   }
   /// How far neighbours lie apart, by which distances of contact go: of a mesh those on its faces, in the mean [m].
   double spacing() const noexcept { return mesh ? mesh->spacing : lattice.spacing(); }
@@ -98,8 +108,10 @@ inline bool any_yields(const Body& body) {
   return !body.solid &&
          std::any_of(body.laws.begin(), body.laws.end(), [](const ElementLaw& law) { return law.yields; });
 }
-/// Are there springs that a tool may cut?
-inline bool any_cut(const Body& body) { return body.may_be_cut && !body.solid && !body.mesh; }
+/// Are there springs that a tool may cut, or tetrahedra that it may part?
+inline bool any_cut(const Body& body) {
+  return body.may_be_cut && !body.solid && (!body.mesh || body.mesh->net);
+}
 /// May springs or finite elements go, of themselves or because a tool cuts them?
 inline bool any_breaks(const Body& body) {
   return body.solid ? !body.solid->failures.empty() : any_yields(body) || any_cut(body);
@@ -111,6 +123,10 @@ inline bool may_change_for_good(const Body& body) { return any_breaks(body) || a
 inline bool any_damped(const Body& body) {
   return std::any_of(body.laws.begin(), body.laws.end(), [](const ElementLaw& law) { return law.damped; });
 }
+
+/// For a body that a tool of the scene cuts: of a mesh of tetrahedra of first order all of whose materials say how tough they
+/// are, room for the copies of its nodes. @throws InputError  more tetrahedra at a node than TetNet has room for
+void make_ready_for_cuts(const BodySpec& spec, Body& body);
 
 /// Builds a body's lattice or mesh, its laws, held masses and handle. Held are the masses within a quarter of a grid step of a face; where
 /// those are a single row, which would be a hinge, and for a handle, the masses within three quarters of the spacing: on fcc the two

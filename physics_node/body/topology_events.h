@@ -6,6 +6,7 @@
 #include <span>
 
 #include "physics_node/lattice/lattice_types.h"
+#include "physics_node/mesh/tet_net.h"
 
 namespace palpate::physics {
 
@@ -26,11 +27,14 @@ struct TopologyEvents {
   /// the next step.
   std::span<const EdgeGone> edges_gone;
   std::span<const CellGone> cells_gone;
+  std::span<const NodeSplit> nodes_split;  // of tetrahedra; a copy is listed before what splits off from it
   /// The list is not all: anything may have changed. After a reset and a restore at once and still after the next step, and
   /// after a step in which more broke than the list holds. Never where nothing breaks.
   bool overflow = false;
 
-  bool none() const noexcept { return edges_gone.empty() && cells_gone.empty() && !overflow; }
+  bool none() const noexcept {
+    return edges_gone.empty() && cells_gone.empty() && nodes_split.empty() && !overflow;
+  }
 };
 
 }  // namespace palpate::physics

@@ -57,8 +57,8 @@ void Boundary::prepare_to_follow() {
   first_.resize(n);
   waits_.resize(n);
   queue_.resize(n);
-  // Why: a body that is half crumbs has about as many open facets as masses.
-  open_.resize(body_.body().nodes().size() + 4096);
+  // Why: a body that is half crumbs has about as many open facets as masses. And a tetrahedron has four.
+  open_.resize(body_.body().mesh ? 4 * n : body_.body().nodes().size() + 4096);
   restart();
 }
 

@@ -6,7 +6,7 @@
 
 namespace palpate::physics {
 
-/// Of a mesh a corner of an outer face; else a node that is joined to fewer others than deep inside (EQUATIONS C-12), or that was a corner of a cell that broke.
+/// Of a mesh a corner of an outer face, or of one that a cut has opened; else a node that is joined to fewer others than deep inside (EQUATIONS C-12), or that was a corner of a cell that broke.
 class ExposedNodes {
  public:
   /// @param open_ones  also nodes that lack nothing but that space reaches, as at the bottom of a pit of the fcc surface or in
@@ -15,6 +15,7 @@ class ExposedNodes {
       : lattice_(&body.lattice), mesh_(body.mesh.get()), open_ones_(open_ones) {}
 
   bool contains(Index node, const Adjacency& now) const noexcept {
+    if (mesh_ != nullptr && mesh_->net) return mesh_->net->is_exposed(node);
     if (mesh_ != nullptr) return mesh_->is_outer[static_cast<std::size_t>(node)] != 0;
     if (lattice_->is_beyond(node)) return false;
     return now.degree(node) < complete_degree(node) || (open_ones_ && lies_open(node)) || now.has_lost(node);

@@ -16,18 +16,16 @@ class ExposedTriangles {
     if (mesh_ == nullptr) patterns_ = triangle_patterns(body.lattice);
   }
 
-  /// No node is the first corner of more.
-  std::size_t most_of_a_node() const noexcept {
-    std::size_t most = 0;
-    if (mesh_ != nullptr)
-      for (const Index node : mesh_->nodes) most = std::max(most, mesh_->faces_of_first.of(node).size());
-    for (const auto& patterns : patterns_) most = std::max(most, patterns.size());
-    return most;
+  /// There are never more on so many nodes.
+  std::size_t most(std::size_t n_nodes) const noexcept {
+    if (mesh_ != nullptr && mesh_->net) return 4 * static_cast<std::size_t>(mesh_->net->n_tets());
+    return n_nodes * most_of_a_node();
   }
   /// Calls take(b, c) for each whose first corner is `a`; every triangle has one first corner.
   /// @param wanted  called with another corner: false leaves the triangle out
   template <class Wanted, class Take>
   void each(Index a, const Adjacency& now, const Wanted& wanted, const Take& take) const noexcept {
+    if (mesh_ != nullptr && mesh_->net) return each_of_net(a, wanted, take);
     if (mesh_ != nullptr) return each_of_mesh(a, wanted, take);
     const auto live = [&](Index node) { return now.live_elements(node); };
     for (const TrianglePattern& triangle : patterns_[static_cast<std::size_t>(lattice_->row_kind(a))]) {
@@ -40,6 +38,26 @@ class ExposedTriangles {
   }
 
  private:
+  std::size_t most_of_a_node() const noexcept {
+    std::size_t most = 0;
+    if (mesh_ != nullptr)
+      for (const Index node : mesh_->nodes) most = std::max(most, mesh_->faces_of_first.of(node).size());
+    for (const auto& patterns : patterns_) most = std::max(most, patterns.size());
+    return most;
+  }
+  /// The first corner is that with the smallest number.
+  template <class Wanted, class Take>
+  void each_of_net(Index a, const Wanted& wanted, const Take& take) const noexcept {
+    const TetNet& net = *mesh_->net;
+    net.each_corner(a, [&](Index tet, std::size_t) {
+      for (std::size_t f = 0; f < 4; ++f) {
+        MeshTriangle face = net.face(tet, f);
+        std::ranges::rotate(face, std::ranges::min_element(face));
+        if (face[0] == a && net.is_exposed(tet, f) && wanted(face[1]) && wanted(face[2]))
+          take(face[1], face[2]);
+      }
+    });
+  }
   template <class Wanted, class Take>
   void each_of_mesh(Index a, const Wanted& wanted, const Take& take) const noexcept {
     for (const Index f : mesh_->faces_of_first.of(a)) {

@@ -19,10 +19,20 @@ class FilledVolumes {
     if (body.cells) shift_ = lattice_corner(*body.cells, body.lattice);
   }
 
-  /// Calls take(corners) for each tetrahedron of the volumes whose first corner is this node: where its corners are now.
+  /// Calls take(corners) for each tetrahedron of the volumes whose first corner is this node as loaded: where its corners are now.
   template <class Take>
   void each(Index node, const Take& take) const noexcept {
     const Body& body = moving_->body();
+    if (body.mesh && body.mesh->net) {
+      const TetNet& net = *body.mesh->net;
+      net.each_around(node, [&](Index tet, std::size_t corner) {
+        if (corner != 0) return;
+        const auto& corners = net.corners(tet);
+        take(std::array<Vec3, 4>{moving_->position(corners[0]), moving_->position(corners[1]),
+                                 moving_->position(corners[2]), moving_->position(corners[3])});
+      });
+      return;
+    }
     if (body.mesh) {
       for (const Index t : body.mesh->filled_of_first.of(node)) {
         const auto& corners = body.mesh->filled[static_cast<std::size_t>(t)];

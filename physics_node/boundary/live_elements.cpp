@@ -8,13 +8,28 @@ LiveElements::LiveElements(const Topology& moving) : LiveElements(moving.body())
 
 void LiveElements::copy(const Topology& moving) { copy(moving.body(), moving.adjacency()); }
 
+void LiveElements::copy_faces(const Body& body) {
+  faces_.clear();
+  if (!body.mesh->net) return;
+  const TetNet& net = *body.mesh->net;
+  for (Index tet = 0; tet < net.n_tets(); ++tet)
+    for (std::size_t f = 0; f < 4; ++f) {
+      if (!net.is_exposed(tet, f)) continue;
+      const MeshTriangle face = net.face(tet, f);
+      faces_.push_back({tet,
+                        net.beyond(tet, f) == TetNet::none,
+                        face,
+                        {net.origin(face[0]), net.origin(face[1]), net.origin(face[2])}});
+    }
+}
+
 void LiveElements::copy(const Body& body, const Adjacency& from) {
-  if (body.mesh) return;
+  if (body.mesh) return copy_faces(body);
   for (const Index node : body.nodes()) mask_[static_cast<std::size_t>(node)] = from.live_elements(node);
 }
 
 void LiveElements::copy(const Body& body, std::span<const Mask> recorded) {
-  if (body.mesh) return;
+  if (body.mesh) return copy_faces(body);
   for (std::size_t n = 0; n < body.nodes().size(); ++n)
     mask_[static_cast<std::size_t>(body.nodes()[n])] = recorded[n];
 }

@@ -12,7 +12,7 @@
 
 namespace palpate::physics {
 
-/// Of a mesh, in which nothing breaks, it holds nothing.
+/// Of a mesh that may be cut it holds the faces that can be touched; of another, in which nothing breaks, nothing.
 class LiveElements {
  public:
   /// Those alive now.
@@ -27,9 +27,18 @@ class LiveElements {
   /// Bit d: the element in direction d lives.
   Mask mask(Index cell) const { return mask_[static_cast<std::size_t>(cell)]; }
   std::span<const Mask> masks() const { return {mask_.data(), mask_.size()}; }  // (n_cells)
+  struct Face {
+    Index tet = 0;
+    bool is_skin = true;                // as loaded; else a cut has opened it
+    MeshTriangle corners{}, origins{};  // origins: the nodes as loaded that these are, or are copies of
+  };
+  std::span<const Face> faces() const { return faces_; }  // in the order of the tetrahedra
 
  private:
+  void copy_faces(const Body& body);
+
   ZeroedArray<Mask> mask_;  // (n_cells)
+  std::vector<Face> faces_;
 };
 
 /// Answers about masses and elements by grid coordinate.

@@ -13,6 +13,7 @@ void Boundary::follow() noexcept {
   for (const EdgeGone& gone : events.edges_gone) mark(gone.a), mark(gone.b);
   for (const CellGone& gone : events.cells_gone)
     for (const Index corner : gone.corners) mark(corner);
+  for (const NodeSplit& split : events.nodes_split) mark(split.node);
 }
 
 /// As loaded, and every mass that lacks an element is looked at anew.

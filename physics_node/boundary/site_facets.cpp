@@ -109,9 +109,38 @@ class FccSites final : public SiteFacets {
   SiteNumbers numbers_;
 };
 
+class MeshSites final : public SiteFacets {
+ public:
+  explicit MeshSites(const Topology& moving) : net_(*moving.body().mesh->net) {}
+
+  std::size_t n_sites() const noexcept override { return static_cast<std::size_t>(net_.n_tets()); }
+
+  std::size_t around(Index mass, std::span<std::uint32_t, most_around> sites) const noexcept override {
+    std::size_t n = 0;
+    net_.each_around(mass, [&](Index tet, std::size_t) { sites[n++] = static_cast<std::uint32_t>(tet); });
+    return n;
+  }
+
+  std::size_t facets_of(std::uint32_t site, std::span<Corners, most_facets> out) const noexcept override {
+    std::size_t n = 0;
+    for (std::size_t f = 0; f < 4; ++f) {
+      if (!net_.is_exposed(static_cast<Index>(site), f)) continue;
+      const MeshTriangle face = net_.face(static_cast<Index>(site), f);
+      out[n++] = {face[0], face[1], face[2], face[2]};
+    }
+    return n;
+  }
+
+  bool is_rigid(std::uint32_t) const noexcept override { return false; }
+
+ private:
+  const TetNet& net_;
+};
+
 }  // namespace
 
 std::unique_ptr<SiteFacets> make_site_facets(const Topology& moving) {
+  if (moving.body().mesh) return std::make_unique<MeshSites>(moving);
   if (moving.body().cells) return std::make_unique<VoxelSites>(moving);
   return std::make_unique<FccSites>(moving);
 }

@@ -1,6 +1,6 @@
 #pragma once
-// What bounds the tissue of a body, place by place, by the elements alive at that moment. A place is a voxel cell or an
-// octahedral site of the fcc lattice; a facet belongs to one of them, and depends on masses near it alone. So where an
+// What bounds the tissue of a body, place by place, by the elements alive at that moment. A place is a voxel cell, an
+// octahedral site of the fcc lattice or a tetrahedron of a mesh; a facet belongs to one of them, and depends on masses near it alone. So where an
 // element breaks, a few places are looked at again, and not the body.
 
 #include <array>
@@ -17,7 +17,7 @@ class SiteFacets {
   using Corners = std::array<Index, 4>;
   static constexpr std::size_t most_facets =
       16;  // of a site: two triangles on each face of a cell, four inside it
-  static constexpr std::size_t most_around = 32;  // a mass
+  static constexpr std::size_t most_around = TetNet::most_around;  // a mass
 
   virtual ~SiteFacets() = default;
   virtual std::size_t n_sites() const noexcept = 0;

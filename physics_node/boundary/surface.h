@@ -18,8 +18,9 @@ struct Surface {
   std::vector<std::array<std::uint32_t, 4>>
       facets;                       // corners, anticlockwise from outside; a triangle repeats its last
   std::vector<std::uint32_t> rgba;  // 0xAABBGGRR                      (n_facets)
-  std::vector<std::uint32_t> site;  // which voxel cell or octahedral site it is of; of a mesh 0 (n_facets)
-  std::uint64_t hidden = 0;         // facets between two filled cells
+  std::vector<std::uint32_t>
+      site;  // which voxel cell, octahedral site or tetrahedron it is of; of a mesh that is not cut 0 (n_facets)
+  std::uint64_t hidden = 0;  // facets between two filled cells
 
   std::size_t n_vertices() const { return rest.size(); }
   std::size_t n_moving() const { return cell.size(); }
@@ -42,8 +43,9 @@ Surface voxel_surface(const Body& body, const LiveElements& live, std::optional<
 /// masses hold together; a triangle that bounds nothing is a sheet and is shown too. Source: EQUATIONS C-8, C-12.
 Surface fcc_surface(const Body& body, const LiveElements& live, std::uint32_t rgba);
 
-/// The outer faces of a mesh as triangles; nothing of it breaks. hidden: the faces between two tetrahedra.
-Surface mesh_surface(const Body& body, std::uint32_t rgba);
+/// The faces of a mesh that can be touched, as triangles; those that a cut has opened darker and redder. hidden: the
+/// faces between two tetrahedra.
+Surface mesh_surface(const Body& body, const LiveElements& live, std::uint32_t rgba);
 
 /// The surface of any kind.
 Surface make_surface(const Body& body, const LiveElements& live, std::optional<double> threshold,

@@ -121,7 +121,7 @@ Surface voxel_surface(const Body& body, const LiveElements& live, std::optional<
 
 Surface make_surface(const Body& body, const LiveElements& live, std::optional<double> threshold,
                      std::uint32_t plain_rgba) {
-  if (body.mesh) return mesh_surface(body, plain_rgba);
+  if (body.mesh) return mesh_surface(body, live, plain_rgba);
   if (body.cells) return voxel_surface(body, live, threshold, plain_rgba);
   return fcc_surface(body, live, plain_rgba);
 }

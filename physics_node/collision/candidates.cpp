@@ -11,7 +11,7 @@ Candidates::Candidates(const BodyModel& moving, bool with_front)
   length_ = body.spacing();
   longest_element_ = 1.01 * body.longest_element();
   number_.assign(static_cast<std::size_t>(body.capacity()), -1);
-  most_ = body.nodes().size();
+  most_ = body.mesh ? static_cast<std::size_t>(body.capacity()) : body.nodes().size();
   if (!any_breaks(body))
     most_ = static_cast<std::size_t>(std::count_if(body.nodes().begin(), body.nodes().end(), [&](Index node) {
       return exposed_.contains(node, body.adjacency());
@@ -49,9 +49,10 @@ void Candidates::restart() noexcept {
   x_.clear(), last_x_.clear(), v_.clear(), v_move_.clear();
   const Adjacency& now = moving_->adjacency();
   const auto nodes = moving_->body().nodes();
-  for (const Index cell : nodes)
+  moving_->body().each_node([&](Index cell) {
     if (exposed_.contains(cell, now)) add(cell);
-  if (!with_front_ || moving_->breaks() == 0) return;
+  });
+  if (!with_front_ || moving_->breaks() == 0 || moving_->body().mesh) return;
   for (const Index cell : nodes)
     if (now.has_lost(cell)) add_front(cell);
 }
@@ -70,6 +71,20 @@ void Candidates::follow(const TopologyEvents& events) noexcept {
       add(corner);
       if (with_front_) add_front(corner);
     }
+  for (const NodeSplit& split : events.nodes_split)
+    for (const Index node : {split.node, split.copy}) add_sides(node);
+}
+
+/// Of a node that has split, and a copy: itself, and what it opens at the end of a cut. Both weigh less than before.
+void Candidates::add_sides(Index node) noexcept {
+  const Adjacency& now = moving_->adjacency();
+  const auto add_open = [&](Index one) {
+    if (exposed_.contains(one, now)) add(one);
+  };
+  add_open(node);
+  now.each_neighbour(node, add_open);
+  if (const std::int32_t n = at_cell(node); n >= 0)
+    inverse_mass_[static_cast<std::size_t>(n)] = moving_->body().inverse_mass[static_cast<std::size_t>(node)];
 }
 
 bool Candidates::refresh(double dt, std::span<const std::uint32_t> which, const Vec3& shift) noexcept {

@@ -52,6 +52,7 @@ class Candidates {
  private:
   void add(Index cell) noexcept;
   void add_front(Index cell) noexcept;
+  void add_sides(Index node) noexcept;
 
   const BodyModel* moving_;
   double length_ = 0;

@@ -47,8 +47,9 @@ class ContactBody {
   /// Can this candidate meet others of its own body? It can where it has lost an element, and everywhere on what has come
   /// off. What is whole folds through itself, as a body does that has not broken anywhere.
   bool may_meet_itself(std::size_t candidate) const noexcept;
-  /// Has any element broken? Then it touches itself too.
-  bool touches_itself() const { return moving().breaks() > 0; }
+  /// Has any element broken? Then it touches itself too. The sides of a cut through tetrahedra lie in one place when they
+  /// part, and are not held apart.
+  bool touches_itself() const { return moving().breaks() > 0 && !moving().body().mesh; }
 
   const Candidates& candidates() const { return candidates_; }
   const Facets* facets() const { return facets_.get(); }

@@ -3,7 +3,7 @@
 namespace palpate::physics {
 
 Facets::Facets(const Candidates& candidates) : triangles_(candidates.moving().body()) {
-  facets_.reserve(candidates.most() * (triangles_.most_of_a_node() + 1));
+  facets_.reserve(candidates.most() + triangles_.most(candidates.most()));
   in_facet_.reserve(candidates.most());
   restart(candidates);
 }

@@ -40,6 +40,34 @@ Connection::Connection(std::vector<Strand> strands, BodyModel& from, BodyModel& 
       saved_(Left{left_}, Left{left_}) {
   on_from_.reserve(strands_.size());
   on_to_.reserve(3 * strands_.size());
+  if (to_->body().mesh && to_->body().mesh->net) find_tets();
+}
+
+void Connection::find_tets() {
+  const TetNet& net = *to_->body().mesh->net;
+  on_tet_.resize(strands_.size());
+  for (std::size_t s = 0; s < strands_.size(); ++s)
+    net.each_corner(strands_[s].foot[0], [&](Index tet, std::size_t) {
+      OnTet on{.tet = tet};
+      const TetNet::Corners& corners = net.corners(tet);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const auto at = std::ranges::find(corners, strands_[s].foot[c]);
+        if (at == corners.end()) return;
+        on.corner[c] = static_cast<std::uint8_t>(at - corners.begin());
+      }
+      on_tet_[s] = on;
+    });
+}
+
+void Connection::take_feet() noexcept {
+  for (std::size_t s = 0; s < on_tet_.size(); ++s) {
+    const TetNet::Corners& corners = to_->body().mesh->net->corners(on_tet_[s].tet);
+    for (std::size_t c = 0; c < 3; ++c) strands_[s].foot[c] = corners[on_tet_[s].corner[c]];
+  }
+}
+
+void Connection::follow() noexcept {
+  if (!on_tet_.empty() && !to_->events().nodes_split.empty()) take_feet();
 }
 
 Connection::Ends Connection::places(const Strand& strand) const noexcept {
@@ -210,6 +238,7 @@ void Connection::reset() noexcept {
   std::ranges::fill(damping_, Vec3::Zero());
   watched_ = watched_viscous_ = broken_ = viscous_ = pull_ = dt_before_ = 0;
   n_torn_ = n_cut_ = 0;
+  take_feet();
   save(false);
   save(true);
 }

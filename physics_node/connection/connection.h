@@ -25,6 +25,10 @@ class Connection {
   /// @param from, to  which outlive this
   Connection(std::vector<Strand> strands, BodyModel& from, BodyModel& to);
 
+  /// After a step in which nodes of the second body may have split: strands stay on the tetrahedra that they end on.
+  /// Allocates nothing.
+  void follow() noexcept;
+
   /// Before the step of dt: what is torn now, and forces. Allocates nothing.
   void find_forces(double dt) noexcept;
   /// Gives them to both bodies, whose elements have moved the nodes on.
@@ -70,6 +74,14 @@ class Connection {
   std::uint64_t hash(std::uint64_t seed) const noexcept;
 
  private:
+  /// Where strands end on tetrahedra that may be cut.
+  struct OnTet {
+    Index tet = 0;
+    std::array<std::uint8_t, 3> corner{};
+  };
+  void find_tets();
+  void take_feet() noexcept;
+
   struct Left {
     std::vector<double> of;
     double broken = 0, viscous = 0;
@@ -90,6 +102,7 @@ class Connection {
   std::vector<Strand> strands_;
   BodyModel* from_;
   BodyModel* to_;
+  std::vector<OnTet> on_tet_;  // of each strand; EMPTY: of another body
   std::vector<double> left_;
   std::vector<Vec3> damping_;  // in the last step, on the first body [N]
   std::vector<NodalForce> on_from_, on_to_;

@@ -7,13 +7,16 @@ namespace palpate::physics {
 
 Fragments::Fragments(const Topology& moving) {
   const Body& body = moving.body();
-  const auto n = static_cast<std::size_t>(body.capacity());
+  if (body.mesh) shift_ = 1;
+  const auto n = static_cast<std::size_t>(body.capacity() + shift_);
   label_ = ZeroedArray<Index>(n);
   next_ = ZeroedArray<Index>(n, 1);
   front_of_ = ZeroedArray<Index>(n, 2);
-  const auto n_masses = static_cast<std::size_t>(body.n_nodes());
+  const auto n_masses = static_cast<std::size_t>(body.n_nodes()) + (body.mesh ? body.mesh->most_copies() : 0);
   masses_.reserve(n_masses);
-  const auto most_breaks = std::min(TopologyEvents::most, static_cast<std::size_t>(body.n_elements()));
+  const auto most_breaks = body.mesh
+                               ? body.mesh->most_copies()
+                               : std::min(TopologyEvents::most, static_cast<std::size_t>(body.n_elements()));
   fronts_.reserve(std::min(2 * most_breaks, n_masses));
   turns_.reserve(fronts_.capacity());
   links_.reserve(2 * most_breaks);
@@ -106,7 +109,8 @@ Index Fragments::grow(Index front, const Topology& moving) noexcept {
   const Index cell = waiting.head;
   waiting.head = next_[static_cast<std::size_t>(cell)];
   append(fronts_[static_cast<std::size_t>(front)].done, cell);
-  moving.adjacency().each_neighbour(cell, [&](Index other) {
+  moving.adjacency().each_neighbour(cell - shift_, [&](Index neighbour) {
+    const Index other = neighbour + shift_;
     const Index theirs = front_of_[static_cast<std::size_t>(other)];
     if (theirs == 0) {
       reach(front, other);
@@ -119,7 +123,7 @@ Index Fragments::grow(Index front, const Topology& moving) noexcept {
 
 void Fragments::close(Index front) noexcept {
   Front& f = fronts_[static_cast<std::size_t>(front)];
-  const Index old = label(f.done.head);
+  const Index old = label(f.done.head - shift_);
   masses_.push_back(f.masses);
   masses_[static_cast<std::size_t>(old)] -= f.masses;
   for (Index cell = f.done.head; cell != 0; cell = next_[static_cast<std::size_t>(cell)])
@@ -149,6 +153,16 @@ void Fragments::forget(const Chain& chain) noexcept {
     front_of_[static_cast<std::size_t>(cell)] = 0;
 }
 
+/// They were joined before, and must find each other.
+void Fragments::link(Index first, Index second) noexcept {
+  const Index a = front_at(first + shift_), b = front_at(second + shift_);
+  const auto half_link = static_cast<Index>(links_.size());
+  links_.push_back({b, none});
+  links_.push_back({a, none});
+  add_half_link(a, half_link);
+  add_half_link(b, half_link + 1);
+}
+
 void Fragments::update(const Topology& moving) noexcept {
   const TopologyEvents events = moving.events();
   if (events.overflow) return recompute(moving);
@@ -156,14 +170,12 @@ void Fragments::update(const Topology& moving) noexcept {
   fronts_.clear();
   links_.clear();
   turns_.clear();
-  for (const EdgeGone& gone : events.edges_gone) {
-    const Index a = front_at(gone.a), b = front_at(gone.b);
-    const auto half_link = static_cast<Index>(links_.size());
-    links_.push_back({b, none});
-    links_.push_back({a, none});
-    add_half_link(a, half_link);
-    add_half_link(b, half_link + 1);
+  for (const NodeSplit& split : events.nodes_split) {
+    label_[static_cast<std::size_t>(split.copy + shift_)] = label(split.node) + 1;
+    ++masses_[static_cast<std::size_t>(label(split.copy))];
   }
+  for (const EdgeGone& gone : events.edges_gone) link(gone.a, gone.b);
+  for (const NodeSplit& split : events.nodes_split) link(split.node, split.copy);
   for (std::size_t n = 0; !turns_.empty(); n = n + 1 < turns_.size() ? n + 1 : 0) {
     const Index mine = turns_[n];
     if (root(mine) == mine && !is_settled(mine)) {
@@ -185,9 +197,10 @@ void Fragments::update(const Topology& moving) noexcept {
 void Fragments::recompute(const Topology& moving) noexcept {
   const Body& body = moving.body();
   masses_.clear();
-  for (const Index cell : body.nodes()) label_[static_cast<std::size_t>(cell)] = 0;
-  for (const Index start : body.nodes()) {
-    if (label_[static_cast<std::size_t>(start)] != 0) continue;
+  body.each_node([this](Index cell) { label_[static_cast<std::size_t>(cell + shift_)] = 0; });
+  body.each_node([&](Index node) {
+    const Index start = node + shift_;
+    if (label_[static_cast<std::size_t>(start)] != 0) return;
     masses_.push_back(0);
     Chain reached;
     const auto take = [&](Index cell) {
@@ -197,10 +210,10 @@ void Fragments::recompute(const Topology& moving) noexcept {
     };
     take(start);
     for (Index cell = start; cell != 0; cell = next_[static_cast<std::size_t>(cell)])
-      moving.adjacency().each_neighbour(cell, [&](Index other) {
-        if (label_[static_cast<std::size_t>(other)] == 0) take(other);
+      moving.adjacency().each_neighbour(cell - shift_, [&](Index other) {
+        if (label_[static_cast<std::size_t>(other + shift_)] == 0) take(other + shift_);
       });
-  }
+  });
 }
 
 }  // namespace palpate::physics

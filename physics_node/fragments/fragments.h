@@ -9,7 +9,8 @@
 
 namespace palpate::physics {
 
-/// Connected components of the live elements; a mass without any is a fragment of its own (EQUATIONS C-8).
+/// Connected components of the live elements; a mass without any is a fragment of its own (EQUATIONS C-8). A node of
+/// tetrahedra that splits was joined to its copy before.
 ///
 /// After a step only the neighbourhood of what broke is looked at. The ends of the elements that broke begin fronts, which grow
 /// breadth-first, one mass each in turn; fronts that meet are one from then on (union-find). A front need not grow while each
@@ -30,12 +31,13 @@ class Fragments {
 
   Index count() const noexcept { return static_cast<Index>(masses_.size()); }
   /// Of the fragment that a mass belongs to, in [0, count()); -1 in an empty cell.
-  Index label(Index cell) const noexcept { return label_[static_cast<std::size_t>(cell)] - 1; }
+  Index label(Index cell) const noexcept { return label_[static_cast<std::size_t>(cell + shift_)] - 1; }
   /// Masses of each fragment  (count)
   const std::vector<Index>& masses() const noexcept { return masses_; }
 
  private:
-  /// A chain of storage cells through next_. Cell 0 is halo and never has a mass: it ends a chain.
+  /// A chain of storage cells through next_. Cell 0 is halo and never has a mass: it ends a chain. Of a mesh, whose first
+  /// node is 0, all are counted from 1 on inside.
   struct Chain {
     Index head = 0, tail = 0;
   };
@@ -59,6 +61,7 @@ class Fragments {
   void join(Chain& chain, const Chain& other) noexcept;
   Index front_at(Index cell) noexcept;  // begins one where there is none
   void reach(Index front, Index cell) noexcept;
+  void link(Index first, Index second) noexcept;
   void add_half_link(Index front, Index half_link) noexcept;
   void take_turns(Index front) noexcept;
   Index root(Index front) noexcept;
@@ -70,6 +73,7 @@ class Fragments {
   void close(Index front) noexcept;
   void forget(const Chain& chain) noexcept;
 
+  Index shift_ = 0;
   ZeroedArray<Index> label_;     // 1 + label; 0: empty          (n_cells)
   ZeroedArray<Index> next_;      // in a chain                   (n_cells)
   ZeroedArray<Index> front_of_;  // 1 + front; 0: not reached    (n_cells)

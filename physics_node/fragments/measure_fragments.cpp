@@ -9,7 +9,7 @@ namespace palpate::physics {
 std::vector<FragmentMeasure> measure_fragments(const NodeMotion& moving, const Fragments& fragments) {
   std::vector<FragmentMeasure> all(static_cast<std::size_t>(fragments.count()));
   for (std::size_t n = 0; n < all.size(); ++n) all[n].label = static_cast<Index>(n);
-  for (const Index cell : moving.body().nodes()) {
+  moving.body().each_node([&](Index cell) {
     FragmentMeasure& one = all[static_cast<std::size_t>(fragments.label(cell))];
     const double m = node_mass(moving.body(), cell);
     const Vec3 x = moving.position(cell);
@@ -19,7 +19,7 @@ std::vector<FragmentMeasure> measure_fragments(const NodeMotion& moving, const F
     one.center += m * x;
     one.momenta.linear += mv;
     one.momenta.angular += x.cross(mv);
-  }
+  });
   for (FragmentMeasure& one : all) one.center /= one.mass;
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.mass > b.mass; });
   return all;
@@ -30,11 +30,11 @@ double fragment_shape_rms(const NodeMotion& moving, const Fragments& fragments, 
   if (n < 3) return 0;
   Eigen::Matrix3Xd rest(3, n), now(3, n);
   Eigen::Index column = 0;
-  for (const Index cell : moving.body().nodes()) {
-    if (fragments.label(cell) != label) continue;
+  moving.body().each_node([&](Index cell) {
+    if (fragments.label(cell) != label) return;
     rest.col(column) = moving.body().rest_position(cell);
     now.col(column++) = moving.position(cell);
-  }
+  });
   return rigid_fit_rms(rest, now);
 }
 

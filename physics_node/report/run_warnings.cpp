@@ -44,6 +44,14 @@ std::string remedy(const World& world) {
          "materials";
 }
 
+/// For want of room, of all bodies.
+std::uint64_t faces_kept_joined(const World& world) noexcept {
+  std::uint64_t n = 0;
+  for (std::size_t b = 0; b < world.n_bodies(); ++b)
+    if (const auto& mesh = world.body(b).body().mesh; mesh && mesh->net) n += mesh->net->left_out();
+  return n;
+}
+
 /// Calls visit(tool, body, area) for each that has passed a body unfelt. @return none has
 template <class Visit>
 bool each_passed_unfelt(const World& world, const Visit& visit) {
@@ -135,6 +143,14 @@ const Kind kinds[] = {
            "that breaks later would do",
            w.facets_left_out());
      }},
+    {[](const World& w) noexcept { return faces_kept_joined(w) > 0; },
+     [](const World& w) {
+       return fmt::format(
+           "{} faces between tetrahedra that a blade went through stayed joined, as there was no room for "
+           "more "
+           "nodes; coarser tetrahedra or shorter cuts would do",
+           faces_kept_joined(w));
+     }},
     {[](const World& w) noexcept { return !each_passed_unfelt(w, [](std::size_t, std::size_t, double) {}); },
      [](const World& w) {
        std::string list;
@@ -142,7 +158,7 @@ const Kind kinds[] = {
          list += fmt::format("{}\"{}\" went through {:.0f} mm^2 of \"{}\"", list.empty() ? "" : ", ",
                              w.scene().tools[n].name, 1e6 * area, w.body(b).body().name);
        });
-       return "a scalpel passes finite elements and surfaces of springs unfelt and uncut: " + list;
+       return "a scalpel passes what it cannot cut unfelt: " + list;
      }},
 };
 static_assert(std::size(kinds) <= most_warning_kinds);

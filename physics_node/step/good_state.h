@@ -18,6 +18,11 @@ class GoodState {
     if (proved) good_ = 1 - good_;
     return of_[1 - good_];
   }
+  /// Calls change(state) for both.
+  template <class Change>
+  void each(const Change& change) noexcept {
+    for (State& state : of_) change(state);
+  }
   const State& good() const noexcept { return of_[good_]; }
 
  private:

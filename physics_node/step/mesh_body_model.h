@@ -1,6 +1,6 @@
 #pragma once
 // A body that is a mesh, as the others know it, whatever its elements are. It is stepped by symplectic Euler, never
-// sleeps, and nothing of it breaks.
+// sleeps, and nothing of it breaks; tetrahedra come apart along faces where a tool cuts (mesh/tet_net.h).
 
 #include <algorithm>
 #include <utility>
@@ -25,11 +25,13 @@ class MeshBodyModel final : public BodyModel {
         elements_(std::move(elements)),
         saved_(elements_.saved(), elements_.saved()) {
     NodeMotion::show(NodeField(elements_.displacements()), NodeField(elements_.velocities()));
-    Topology::show(body_.adjacency());
+    Topology::show(net() != nullptr ? Adjacency(body_.mesh->neighbours, *net()) : body_.adjacency());
     reset();
   }
 
   StepOutcome advance(const ExplicitStep& step, std::span<const NodalForce> forces) noexcept override {
+    if (net() != nullptr) net()->begin();
+    if (unknown_for_ > 0) --unknown_for_;
     momentum_.step(step.gravity, step.dt, step.dt);
     const StepOutcome outcome = elements_.step(step);
     kick(forces, step.dt);
@@ -38,26 +40,27 @@ class MeshBodyModel final : public BodyModel {
   PendingStep* pending() noexcept override { return nullptr; }
 
   void prepare_for(Disturbance from_outside) override {
-    if (from_outside == Disturbance::impulses) v_before_.resize(n_nodes(), Vec3::Zero());
+    if (from_outside == Disturbance::impulses) v_before_.resize(capacity(), Vec3::Zero());
   }
   void remember_velocities() noexcept override {
-    for (std::size_t n = 0; n < v_before_.size(); ++n) v_before_[n] = velocity(static_cast<Index>(n));
+    if (v_before_.empty()) return;
+    body_.each_node([this](Index node) { v_before_[static_cast<std::size_t>(node)] = velocity(node); });
   }
 
   /// As step/lattice/bounce.h.
   Bounces bounce_off(const Plane& plane, double e, double dt) noexcept override {
     Bounces sum;
-    for (const Index node : body_.nodes()) {
+    body_.each_node([&](Index node) {
       const double w = inverse_mass(node);
       const Vec3 v_move = velocity(node), x = position(node) - dt * v_move;
-      if (w == 0 || plane.n.dot(x) >= plane.height) continue;
+      if (w == 0 || plane.n.dot(x) >= plane.height) return;
       const double v_n = plane.n.dot(mean_velocity(node, v_move));
-      if (v_n >= 0) continue;
+      if (v_n >= 0) return;
       const double dv = rebound(e, v_n, plane.n.dot(v_move));
       push_one(node, dv * plane.n, dt);
       ++sum.masses;
       sum.lost -= (dv * v_n + 0.5 * dv * dv) / w;
-    }
+    });
     return sum;
   }
 
@@ -69,10 +72,12 @@ class MeshBodyModel final : public BodyModel {
   void save(bool good) noexcept override { elements_.save(saved_.next(good)); }
   void restore() noexcept override {
     elements_.bring_back(saved_.good());
+    if (net() != nullptr) net()->begin();  // what has parted stays so, and all know of it
     save(false);
   }
   void reset() noexcept override {
     elements_.forget();
+    rejoin();
     for (const Index node : body_.nodes()) {
       const auto n = static_cast<std::size_t>(node);
       elements_.place(node, start_.empty() ? Vec3(Vec3::Zero()) : start_[n],
@@ -114,9 +119,20 @@ class MeshBodyModel final : public BodyModel {
     if (inverse_mass(node) > 0) elements_.place(node, displacement, velocity);
   }
 
-  TopologyEvents events() const noexcept override { return {}; }
-  std::int64_t breaks() const noexcept override { return 0; }
-  std::int64_t cut(std::span<const EdgeGone>) noexcept override { return 0; }
+  TopologyEvents events() const noexcept override {
+    if (net() == nullptr) return {};
+    return {.edges_gone = {}, .cells_gone = {}, .nodes_split = net()->splits(), .overflow = unknown_for_ > 0};
+  }
+  std::int64_t breaks() const noexcept override { return net() != nullptr ? net()->n_open() : 0; }
+  std::int64_t cut(std::span<const EdgeGone> between) noexcept override {
+    if constexpr (!may_part) return 0;
+    if (net() == nullptr) return 0;
+    const std::size_t known = net()->splits().size();
+    std::int64_t opened = 0;
+    for (const EdgeGone& gone : between) opened += net()->open(gone.a, gone.b) ? 1 : 0;
+    take_copies(net()->splits().subspan(known));
+    return opened;
+  }
   void conditions(std::span<const Index> nodes, std::span<Condition> out) const noexcept override {
     std::fill_n(out.begin(), nodes.size(), Condition{});
   }
@@ -128,7 +144,11 @@ class MeshBodyModel final : public BodyModel {
     return now.kinetic + now.elastic;
   }
   Losses due() const override { return elements_.due(); }
-  Losses losses() const override { return elements_.losses(); }
+  Losses losses() const override {
+    Losses all = elements_.losses();
+    all.broken -= grown_, all.breaks = breaks();
+    return all;
+  }
   Momenta momenta() const override { return measured().momenta; }
   bool touched() const noexcept override { return momentum_.hits() > 0; }
   void restart_momentum() noexcept override { momentum_.restart(measured()); }
@@ -148,7 +168,10 @@ class MeshBodyModel final : public BodyModel {
   }
 
  private:
-  std::size_t n_nodes() const { return body_.mesh->nodes.size(); }
+  static constexpr bool may_part = requires(Elements & e, const TetNet& net) { e.separate({}, net); };
+
+  TetNet* net() const noexcept { return body_.mesh->net.get(); }
+  std::size_t capacity() const { return static_cast<std::size_t>(body_.capacity()); }
   double inverse_mass(Index node) const noexcept {
     return body_.inverse_mass[static_cast<std::size_t>(node)];
   }
@@ -165,9 +188,42 @@ class MeshBodyModel final : public BodyModel {
 
   MomentumAccount::Start measured() const noexcept {
     MomentumAccount::Start sum;
-    for (const Index node : body_.nodes())
+    body_.each_node([&](Index node) {
       sum.add(body_.mesh->mass[static_cast<std::size_t>(node)], position(node), velocity(node));
+    });
     return sum;
+  }
+
+  void give_mass(Index node) noexcept {
+    if constexpr (may_part) {
+      const auto n = static_cast<std::size_t>(node);
+      const double mass = elements_.mass(node, *net());
+      body_.mesh->mass[n] = mass;
+      const bool held = body_.inverse_mass[static_cast<std::size_t>(net()->origin(node))] == 0;
+      body_.inverse_mass[n] = held ? 0 : 1 / mass;
+    }
+  }
+  void take_copies(std::span<const NodeSplit> splits) noexcept {
+    if constexpr (may_part) {
+      grown_ += elements_.separate(splits, *net());
+      for (const NodeSplit& split : splits) {
+        for (const Index node : {split.node, split.copy}) give_mass(node);
+        saved_.each([&](auto& saved) { elements_.copy_saved(saved, split.node, split.copy); });
+        if (!v_before_.empty())
+          v_before_[static_cast<std::size_t>(split.copy)] = v_before_[static_cast<std::size_t>(split.node)];
+      }
+    }
+  }
+  /// As loaded.
+  void rejoin() noexcept {
+    if constexpr (may_part) {
+      if (net() == nullptr) return;
+      net()->reset();
+      elements_.rejoin();
+      for (const Index node : body_.nodes()) give_mass(node);
+      grown_ = 0;
+      unknown_for_ = 2;
+    }
   }
 
   Body body_;
@@ -176,6 +232,8 @@ class MeshBodyModel final : public BodyModel {
       elements_;  // what measures it writes forces and energies of its elements, which the next step makes anew
   std::vector<Vec3> v_before_;  // that moved its nodes in the step before the last; EMPTY: not for contact
   MomentumAccount momentum_;
+  double grown_ = 0;     // elastic energy that parting has made [J]
+  int unknown_for_ = 0;  // steps: after a reset, at once and after the next, events tell nothing
   GoodState<typename Elements::Saved> saved_;
 };
 

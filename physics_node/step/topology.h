@@ -27,15 +27,17 @@ class Topology {
   /// As it is now.
   const Adjacency& adjacency() const noexcept { return adjacency_; }
   virtual TopologyEvents events() const noexcept = 0;
-  /// Elements broken or cut since the start.
+  /// Elements broken or cut since the start, or faces opened.
   virtual std::int64_t breaks() const noexcept = 0;
   /// @param out  one for each of the nodes
   virtual void conditions(std::span<const Index> nodes, std::span<Condition> out) const noexcept = 0;
 
-  /// Elements that live are cut, at the end of the step just integrated: both ends forget them, their elastic energy is booked as
-  /// broken, and events() lists them behind what broke in that step. Those that do not live are passed over. Springs of a body
-  /// that Body::may_be_cut; finite elements come apart at their nodes and stay: 0. Contract: allocates and throws nothing.
-  /// @return how many were cut
+  /// Elements that live are cut, at the end of the step just integrated: both ends forget them, their elastic energy
+  /// is booked as broken, and events() lists them behind what broke in that step. Those that do not live are passed
+  /// over. Springs of a body that Body::may_be_cut. Of tetrahedra that may be cut the two of an EdgeGone are
+  /// tetrahedra with a common face, which is opened; what that makes elastic energy grow by is booked as broken,
+  /// below 0. Of others: 0. Contract: allocates and throws nothing.
+  /// @return how many were cut or opened
   virtual std::int64_t cut(std::span<const EdgeGone> elements) noexcept = 0;
 
  protected:

@@ -143,6 +143,23 @@ TEST_F(ShippedScenes, ALobeOfTetrahedraIsPressed) {
   EXPECT_EQ(read_json(again + "/summary.json")["state_hash"], summary["state_hash"]);
 }
 
+/// A scalpel opens it: what the hand pays is its toughness times what has opened, and no tetrahedron suffers.
+TEST_F(ShippedScenes, ALobeOfTetrahedraIsOpened) {
+  const std::string file = (folder / "lobe.msh").string();
+  ASSERT_EQ(palpate("import --phantom lobe --out " + test::quoted(file)), 0) << log;
+  const auto summary = simulate("scalpel_mesh", "--set body.lobe.file=" + test::quoted(file));
+  const auto &lobe = summary["bodies"]["lobe"], &scalpel = summary["tools"]["scalpel"];
+  const double area = 1e-6 * scalpel["cut_area_mm2"].get<double>();
+  EXPECT_GT(area, 600e-6) << "some 80 mm long, up to 12 mm deep";
+  EXPECT_LT(area, 1000e-6);
+  EXPECT_NEAR(summary["energy"]["cut"].get<double>(), 190 * area, 1e-6 * 190 * area);
+  EXPECT_EQ(lobe["fragments"], 1);
+  EXPECT_EQ(lobe["elements"], lobe["live_elements"]);
+  EXPECT_GT(lobe["min_corner_J"].get<double>(), 0.4);
+  EXPECT_LT(summary["energy"]["balance_error"].get<double>(), 1e-4);
+  EXPECT_TRUE(summary["warnings"].empty()) << summary["warnings"];
+}
+
 /// A patient's liver, from a labelled image to a force: what the hand feels is what the tissue bears.
 TEST_F(ShippedScenes, ALiverOfAnImageIsPalpated) {
   ASSERT_TRUE(fs::exists(LIVER)) << "fetch it with deploy/fetch_liver.sh";

@@ -203,7 +203,7 @@ class LatticeBody final : public BodyModel, private PendingStep {
     }
   }
   TopologyEvents events() const noexcept override {
-    return {state_.fresh.list, state_.fresh.cells, any_breaks(body_) && state_.fresh.overflow};
+    return {state_.fresh.list, state_.fresh.cells, {}, any_breaks(body_) && state_.fresh.overflow};
   }
   std::int64_t breaks() const noexcept override { return state_.breaks; }
   std::int64_t cut(std::span<const EdgeGone> elements) noexcept override {

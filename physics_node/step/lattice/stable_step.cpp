@@ -57,6 +57,7 @@ StiffestMode stiffest_mode(const Body& body) {
     SurfaceSprings<double> springs(*body.mesh->springs, body.inverse_mass);
     return {springs.omega2(), springs.gamma()};
   }
+  if (body.mesh && body.mesh->net) return stiffest_mode_when_cut(body.mesh->model);
   if (body.mesh) return stiffest_mode_of_tetrahedra(body.mesh->model);
   if (body.solid) return stiffest_mode_of_hexahedra(body);
   const StiffestMode anyhow = stiffest_mode_anyhow(body);

@@ -55,7 +55,7 @@ TEST_P(MeshSurface, IsMetAtTheSameNodesAndTriangles) {
     std::size_t of_node = 0;
     triangles.each(
         node, moving->adjacency(), [](Index) { return true; }, [&](Index, Index) { ++of_node; });
-    EXPECT_LE(of_node, triangles.most_of_a_node());
+    EXPECT_LE(of_node, triangles.most(1));
     n += of_node;
   }
   EXPECT_EQ(n, surface.facets.size());

@@ -1,0 +1,261 @@
+// A mesh that a tool parts: what can be touched, seen and met of it, and what hangs together, is what its tetrahedra say after
+// every cut, and all that others keep of it follows.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <random>
+#include <set>
+
+#include "common/scene/body_spec.h"
+#include "common/scene/scene.h"
+#include "physics_node/appearance/appearance.h"
+#include "physics_node/boundary/boundary.h"
+#include "physics_node/boundary/exposed_triangles.h"
+#include "physics_node/boundary/filled_volumes.h"
+#include "physics_node/collision/contact_body.h"
+#include "physics_node/fragments/fragments.h"
+#include "physics_node/fragments/measure_fragments.h"
+#include "tests/support/physics/led_blade.h"
+#include "tests/support/physics/mesh_worlds.h"
+
+namespace palpate::physics::test {
+namespace {
+
+Recipe tough_box(const std::array<int, 3>& cells = {5, 4, 3}, double edge = 0.005) {
+  Recipe recipe = mesh_box(cells, edge);
+  recipe.material += "\ncut_toughness_J_per_m2 = 190";
+  return recipe;
+}
+
+std::unique_ptr<BodyModel> model_to_part(const Recipe& recipe) {
+  const Scene scene = scene_of(recipe);
+  Body body = build_body(scene.bodies.at(0), scene.materials);
+  make_ready_for_cuts(scene.bodies.at(0), body);
+  return make_body_model(std::move(body), Precision::double_);
+}
+
+const TetNet& net_of(const BodyModel& body) { return *body.body().mesh->net; }
+
+/// In an order of its own.
+std::vector<EdgeGone> inner_faces(const TetNet& net, unsigned seed) {
+  std::vector<EdgeGone> all;
+  for (Index t = 0; t < net.n_tets(); ++t)
+    for (std::size_t f = 0; f < 4; ++f)
+      if (net.beyond(t, f) > t) all.push_back({t, net.beyond(t, f)});
+  std::shuffle(all.begin(), all.end(), std::mt19937(seed));
+  return all;
+}
+
+/// Lists so that its smallest is first.
+std::array<Index, 3> turned(std::array<Index, 3> face) {
+  std::ranges::rotate(face, std::ranges::min_element(face));
+  return face;
+}
+using Faces = std::multiset<std::array<Index, 3>>;
+
+Faces exposed_faces(const TetNet& net) {
+  Faces faces;
+  for (Index t = 0; t < net.n_tets(); ++t)
+    for (std::size_t f = 0; f < 4; ++f)
+      if (net.is_exposed(t, f)) faces.insert(turned(net.face(t, f)));
+  return faces;
+}
+Faces faces_of(const Surface& surface) {
+  Faces faces;
+  for (const auto& f : surface.facets)
+    faces.insert(turned({surface.cell[f[0]], surface.cell[f[1]], surface.cell[f[2]]}));
+  return faces;
+}
+Faces faces_of(const Boundary& boundary) {
+  Faces faces;
+  for (std::uint32_t f = 0; f < boundary.most_facets(); ++f)
+    if (boundary.exists(f))
+      faces.insert(turned({boundary.mass(f, 0), boundary.mass(f, 1), boundary.mass(f, 2)}));
+  return faces;
+}
+Faces faces_of(const ContactBody& contact) {
+  Faces faces;
+  for (const auto& k : contact.facets()->all()) {
+    const auto& cell = contact.candidates().cell();
+    if (k[0] != k[1]) faces.insert(turned({cell[k[0]], cell[k[1]], cell[k[2]]}));
+  }
+  return faces;
+}
+
+/// Cut by cut, at random, until it is in crumbs.
+class PartedMesh : public testing::Test {
+ protected:
+  /// Calls look() after each of `cuts` steps.
+  template <class Look>
+  void part(int cuts, const Look& look) {
+    const std::vector<EdgeGone> faces = inner_faces(net_of(*moving), 3);
+    const auto of = static_cast<std::size_t>(cuts);
+    for (std::size_t c = 0; c < of; ++c) {
+      moving->advance({.dt = 1e-5}, {});
+      const std::size_t first = c * faces.size() / of, last = (c + 1) * faces.size() / of;
+      moving->cut(std::span(faces).subspan(first, last - first));
+      look();
+    }
+  }
+  std::unique_ptr<BodyModel> moving = model_to_part(tough_box());
+};
+
+TEST_F(PartedMesh, IsTouchedSeenAndMetAtTheFacesThatItHas) {
+  Boundary boundary(*moving, 0.02, true);
+  ContactBody contact(*moving, true, true);
+  EXPECT_EQ(faces_of(boundary), exposed_faces(net_of(*moving)));
+  part(20, [&] {
+    boundary.follow();
+    while (true) {
+      const std::uint64_t before = boundary.revision();
+      boundary.update();
+      if (boundary.revision() == before) break;
+    }
+    contact.follow_breaks();
+    const Faces truth = exposed_faces(net_of(*moving));
+    ASSERT_EQ(faces_of(boundary), truth);
+    ASSERT_EQ(faces_of(contact), truth);
+    ASSERT_EQ(faces_of(make_surface(*moving, std::nullopt, 0)), truth);
+    ASSERT_EQ(boundary.left_out(), 0u);
+    for (std::size_t n = 0; n < contact.candidates().size(); ++n)
+      ASSERT_EQ(contact.candidates().inverse_mass(n),
+                moving->body().inverse_mass[static_cast<std::size_t>(contact.candidates().cell()[n])]);
+  });
+  moving->reset();
+  boundary.follow(), boundary.update();
+  contact.follow_breaks();
+  EXPECT_EQ(faces_of(boundary), exposed_faces(net_of(*moving)));
+  EXPECT_EQ(faces_of(contact), exposed_faces(net_of(*moving)));
+}
+
+TEST_F(PartedMesh, FillsWhatItFilled) {
+  const FilledVolumes volumes(*moving);
+  part(4, [&] {
+    double sum = 0;
+    for (const Index node : moving->body().nodes())
+      volumes.each(node, [&](const std::array<Vec3, 4>& x) {
+        sum += std::abs((x[1] - x[0]).dot((x[2] - x[0]).cross(x[3] - x[0]))) / 6;
+      });
+    EXPECT_NEAR(sum, 0.025 * 0.020 * 0.015, 1e-6 * sum);
+  });
+}
+
+/// Found from what splits alone, as from nothing; and each weighs what its tetrahedra do.
+TEST_F(PartedMesh, HangsTogetherAsAFloodOverAllSays) {
+  Fragments followed(*moving);
+  int most = 1;
+  part(60, [&] {
+    followed.update(*moving);
+    const Fragments anew(*moving);
+    ASSERT_EQ(followed.count(), anew.count());
+    std::map<Index, Index> names;
+    moving->body().each_node([&](Index node) {
+      ASSERT_EQ(names.try_emplace(followed.label(node), anew.label(node)).first->second, anew.label(node));
+    });
+    most = std::max(most, static_cast<int>(anew.count()));
+    double mass = 0, of_pieces = 0;
+    moving->body().each_node([&](Index node) { mass += node_mass(moving->body(), node); });
+    for (const FragmentMeasure& piece : measure_fragments(*moving, followed)) {
+      EXPECT_GT(piece.mass, 0);
+      of_pieces += piece.mass;
+    }
+    EXPECT_NEAR(of_pieces, mass, 1e-12 * mass);
+  });
+  EXPECT_EQ(most, net_of(*moving).n_tets()) << "crumbs in the end";
+}
+
+/// Places and velocities of the guard's good state are known of copies that are younger than it.
+TEST_F(PartedMesh, GoesBackToWhereItWasParted) {
+  const std::vector<EdgeGone> faces = inner_faces(net_of(*moving), 5);
+  moving->place(7, Vec3(0.001, 0, 0), Vec3(0.1, 0, 0));
+  moving->save(true), moving->save(true);
+  std::vector<Vec3> before;
+  for (const Index node : moving->body().nodes()) before.push_back(moving->displacement(node));
+  for (int n = 0; n < 5; ++n) moving->advance({.dt = 1e-5}, {});
+  moving->cut(std::span(faces).first(400));
+  ASSERT_GT(net_of(*moving).n_copies(), 10);
+  for (int n = 0; n < 5; ++n) moving->advance({.dt = 1e-5}, {});
+  moving->restore();
+  EXPECT_TRUE(moving->events().none());
+  moving->body().each_node([&](Index node) {
+    EXPECT_EQ(moving->displacement(node), before[static_cast<std::size_t>(net_of(*moving).origin(node))]);
+  });
+}
+
+Recipe with_scalpel(Recipe recipe, double length_mm = 40) {
+  recipe.physics = "frame_Hz = 1000";
+  recipe.world +=
+      "[[tool]]\nname = \"blade\"\nshape = \"scalpel\"\nlength_mm = " + std::to_string(length_mm) +
+      "\ndevice = \"hand\"\nstiffness_N_per_m = 1000\nedge_deg = 0\n"
+      "[device.hand]\ndriver = \"simulated\"\nwaypoints = [[0, 60, 0, 0], [1, 50, 0, 0]]\n";
+  return recipe;
+}
+
+/// What the eye is told piece by piece is what a new eye is told at once.
+TEST(PartedWorld, IsDrawnWhereItHasOpened) {
+  Recipe recipe = with_scalpel(tough_box());
+  recipe.material.replace(recipe.material.find("= 10\n"), 4, "= 200");
+  recipe.body += "fixed = [\"-y\", \"+y\"]";
+  LedBlade cut(recipe, Vec3(0.020, 0.0003, -0.020));
+  Appearance followed(cut.world, std::nullopt);
+  const SurfaceSinks nowhere{[](const BodySurface&) {}, [](const SurfaceChange&) {}};
+  followed.write_surfaces(nowhere);
+  const std::size_t before = followed.facets_visible();
+  for (const double x : {0.005, 0.0, -0.005, -0.030}) {
+    cut.along(Vec3(x, 0.0003, -0.020), 0.2);
+    followed.poll();
+    followed.write_surfaces(nowhere);
+    EXPECT_EQ(followed.facets_visible(), exposed_faces(net_of(cut.world.body(0))).size());
+  }
+  EXPECT_GT(followed.facets_visible(), before);
+  EXPECT_EQ(cut.world.fragments(0)->count(), 2);
+}
+
+/// Strands that end on what is cut stay on the tetrahedra that they end on, at the place where they did.
+TEST(PartedWorld, KeepsItsStrandsWhereTheyEnd) {
+  Recipe recipe = tough_box({6, 4, 4});
+  recipe.body += "fixed = [\"-z\"]";
+  recipe.material.replace(recipe.material.find("= 10\n"), 4, "= 200");
+  recipe.world =
+      "[contact]\nenabled = false\n[[body]]\nname = \"upper\"\nlattice = \"voxel\"\nmodel = "
+      "\"fem\"\nspacing_mm = "
+      "5\nmaterial = \"m\"\nshape = \"box\"\nsize_mm = [30, 20, 10]\nat_mm = [0, 0, 17]\n"
+      "[[connection]]\nname = \"bed\"\nfrom = \"upper\"\nto = \"body\"\nwithin_mm = 3\nmodulus_kPa = 1\n"
+      "cut_toughness_J_per_m2 = 0.01\n";
+  LedBlade cut(with_scalpel(recipe), Vec3(0.030, 0.0003, -0.005));
+  const Connection& bed = cut.world.connection(0);
+  std::vector<Vec3> rest;
+  const auto foot_at_rest = [&](const Strand& strand) {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t c = 0; c < 3; ++c)
+      sum += strand.share[c] * cut.world.body(0).body().rest_position(strand.foot[c]);
+    return sum;
+  };
+  for (const Strand& strand : bed.strands()) rest.push_back(foot_at_rest(strand));
+  const std::vector<Strand> loaded = bed.strands();
+  cut.along(Vec3(-0.040, 0.0003, -0.005), 0.3);
+  const TetNet& net = net_of(cut.world.body(0));
+  ASSERT_GT(net.n_copies(), 5);
+  int moved = 0;
+  for (std::size_t s = 0; s < rest.size(); ++s) {
+    const Strand& strand = bed.strands()[s];
+    EXPECT_LT((foot_at_rest(strand) - rest[s]).norm(), 1e-15);
+    moved += strand.foot != loaded[s].foot ? 1 : 0;
+    bool on_one = false;
+    net.each_corner(strand.foot[0], [&](Index tet, std::size_t) {
+      const auto& of = net.corners(tet);
+      on_one = on_one || (std::ranges::find(of, strand.foot[1]) != of.end() &&
+                          std::ranges::find(of, strand.foot[2]) != of.end());
+    });
+    EXPECT_TRUE(on_one);
+  }
+  EXPECT_GT(moved, 0);
+  cut.world.reset();
+  for (std::size_t s = 0; s < rest.size(); ++s) EXPECT_EQ(bed.strands()[s].foot, loaded[s].foot);
+}
+
+}  // namespace
+}  // namespace palpate::physics::test
