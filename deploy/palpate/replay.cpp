@@ -60,8 +60,7 @@ TraceSample seen(const ToolState& state, double t) {
 class Rerun {
  public:
   explicit Rerun(const ReplayOptions& options) : options_(options), record_(options.record) {
-    const ScratchFolder files;
-    auto [scene, source] = record_.lay_out(files.path().string());
+    auto [scene, source] = record_.lay_out(files_.path().string());
     if (options.threads >= 0) scene.physics->threads = options.threads;
     world_ = std::make_unique<physics::World>(scene);
     replay_ = std::make_unique<physics::Replay>(record_, *world_);
@@ -131,6 +130,7 @@ class Rerun {
   }
 
   const ReplayOptions& options_;
+  ScratchFolder files_;  // of the record, which the export reads again at the end
   std::optional<HeldFolder> held_;
   physics::SessionRecord record_;
   std::unique_ptr<physics::World> world_;

@@ -101,7 +101,7 @@ double BladeEdge::hold_ahead(double q) const noexcept {
 }
 
 /// Where the blade is in balance between strips, strands and hand. Ahead by halving, as the sum has a corner for each.
-void BladeEdge::find_blade(const BladeStrands& strands) noexcept {
+void BladeEdge::find_blade(const BladeStrands& strands, double dt) noexcept {
   lag_ = aside_ = 0;
   double low = strands.lowest(), across = 0, held = 0;
   for (const BladeStrip& strip : strips_) {
@@ -111,7 +111,8 @@ void BladeEdge::find_blade(const BladeStrands& strands) noexcept {
     across += k * strip.r, held += k;
   }
   if (held > 0) aside_ = across / (stiffness_ + held);
-  double high = 0;
+  // What tough tissue held lets go of at once. Deviation: the blade has no mass, and would be beyond what lies between.
+  double high = std::min(0.0, std::max(lag_before_, low) + fastest_ * dt);
   for (int n = 0; n < 50 && low < high; ++n) {
     const double middle = 0.5 * (low + high);
     (hold_ahead(middle) + strands.hold_ahead(middle) < -stiffness_ * middle ? low : high) = middle;
@@ -189,7 +190,7 @@ BladeOutcome BladeEdge::step(BladeLinks& links, BladeStrands& strands, const Bla
   share_released(links, dt);
   soften(links, dt);
   strands.meet(frame, lag_before_, stiffness_, dt);
-  find_blade(strands);
+  find_blade(strands, dt);
   for (BladeStrip& strip : strips_) slide(strip, done);
   purse_ -= done.released;
   press(links, frame, dt, done);
@@ -219,7 +220,9 @@ void BladeEdge::cut(BladeLinks& links, std::vector<EdgeGone>& cuts) noexcept {
     const BladeLinks::Crossing& at = link.now;
     if (!at.is || !strips_.is_along(at.p) || cuts.size() == cuts.capacity()) continue;
     const BladeStrip& strip = strips_.at(at.p);
-    if (!strip.bites || at.q >= strip.q - passed || at.q < strip.q - behind) continue;
+    const bool has_come =
+        strip.bites || strip.follows;  // or did before this step, and there is nothing ahead any more
+    if (!has_come || at.q >= strip.q - passed || at.q < strip.q - behind) continue;
     if (links.sever(link)) cuts.push_back({nodes[link.a].cell, nodes[link.b].cell});
   }
 }

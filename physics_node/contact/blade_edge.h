@@ -32,6 +32,8 @@ class BladeEdge {
 
   /// How stiff the hand's spring is now [N/m].
   void set_stiffness(double stiffness) noexcept { stiffness_ = stiffness; }
+  /// How fast it may go on at most through tissue that lets go of it, so that it passes by nothing that is not listed [m/s].
+  void set_fastest(double speed) noexcept { fastest_ = speed; }
   /// After a step of dt: slides, finds forces on the nodes of `links` and on `strands`, and lists in `cuts` the
   /// elements that it has passed.
   BladeOutcome step(BladeLinks& links, BladeStrands& strands, const BladeFrame& frame, double dt,
@@ -68,7 +70,7 @@ class BladeEdge {
   double hold_ahead(double q) const noexcept;
   double held() const noexcept;  // how stiffly all strips hold it [N/m]
   double felt(double held) const noexcept { return held > 0 ? stiffness_ * held / (stiffness_ + held) : 0.0; }
-  void find_blade(const BladeStrands& strands) noexcept;
+  void find_blade(const BladeStrands& strands, double dt) noexcept;
   void slide(BladeStrip& strip, BladeOutcome& done) const noexcept;
   void press(BladeLinks& links, const BladeFrame& frame, double dt, BladeOutcome& done) noexcept;
   void cut(BladeLinks& links, std::vector<EdgeGone>& cuts) noexcept;
@@ -76,7 +78,7 @@ class BladeEdge {
   static constexpr double held_by =
       20;  // Why: an edge of which a fifth is in tissue is still four times as stiff as the hand's spring
 
-  double stiffness_;
+  double stiffness_, fastest_ = 1e9;
   BladeStrips strips_;
   bool bites_ = false;
   double slot_ = 0, lag_ = 0, aside_ = 0;  // of the slot across; of the blade ahead and across

@@ -90,8 +90,29 @@ void BladeLinks::gather(const BladeFrame& frame, const EdgePlace& edge, double t
       if (nodes_[a].side == second.side && (low > s + margin || high < s - margin)) return;
       links_.push_back({.a = a, .b = static_cast<std::uint32_t>(b)});
     });
+  join_islands(edge);
   cross(s);
   remember();
+}
+
+/// A cell before the edge that lies on one side, and all that it hangs together with on the other, would come off as a
+/// crumb: it goes with them.
+void BladeLinks::join_islands(const EdgePlace& edge) noexcept {
+  if (!edge.bites || !cells_.have_volumes()) return;
+  for (Node& node : nodes_) {
+    if (!cells_.has_section(node.cell)) continue;
+    if (node.at.y() < edge.lag || node.at.y() > edge.lag + settled_ahead * h_) continue;
+    bool alone = true, any = false;
+    cells_.each_joined(node.cell, [&](Index other) {
+      if (!cells_.has_section(other)) return;
+      const std::int32_t n = number_[static_cast<std::size_t>(other)];
+      any = true;
+      alone = alone && n >= 0 && nodes_[static_cast<std::size_t>(n)].side != node.side;
+    });
+    if (!alone || !any) continue;
+    node.side = static_cast<std::int8_t>(-node.side);
+    side_[static_cast<std::size_t>(node.cell)] = node.side;
+  }
 }
 
 void BladeLinks::remember() noexcept {

@@ -112,6 +112,7 @@ class BladeLinks {
     double low = 1, high = -1;
   };
   Section section_of(Index cell) const noexcept;
+  void join_islands(const EdgePlace& edge) noexcept;
   void settle_side(Node& node, const EdgePlace& edge) noexcept;
 
   BladeCells cells_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/error/error.h"
 #include "common/message/vec3.h"
@@ -24,14 +25,21 @@ bool is_of_a_kind_to_cut(const Body& body) {
 }
 bool is_cut(const Body& body) { return is_lattice_of_springs(body) || (body.mesh && body.mesh->net); }
 
+/// What kind it is that a scalpel does not cut, and what would do.
+const char* kind_and_remedy(const Body& body) {
+  if (is_surface_of_springs(body))
+    return "a surface of springs; fill it with tetrahedra, or join it by a [[connection]]";
+  if (body.mesh) return "of second order; write elements = \"nodal_pressure\" there";
+  return "of cells of finite elements; write model = \"springs\" there, or give it a mesh of tetrahedra";
+}
+
 void refuse_uncut(const ToolSpec& tool, const Body& body) {
   if (!is_of_a_kind_to_cut(body))
-    throw InputError(fmt::format(
-        "{}: shape = \"scalpel\" cuts lattices of springs, tetrahedra of first order and what a "
-        "[[connection]] "
-        "joins, and \"{}\" is {}; write model = \"springs\" there, or give it a mesh of tetrahedra",
-        tool.place.text(), body.name,
-        is_surface_of_springs(body) ? "a surface of springs" : "of finite elements"));
+    throw InputError(
+        fmt::format("{}: shape = \"scalpel\" cuts lattices of springs, tetrahedra of first order and what a "
+                    "[[connection]] "
+                    "joins, and \"{}\" is {}",
+                    tool.place.text(), body.name, kind_and_remedy(body)));
   if (std::ranges::any_of(body.laws, [](const ElementLaw& law) { return law.cut_toughness <= 0; }))
     throw InputError(
         fmt::format("{}: shape = \"scalpel\" needs to know how tough \"{}\" is; give each of its materials "
@@ -151,6 +159,8 @@ double BladeTool::press(double dt) noexcept {
   if (!may_press() || keep_ == 0) return 0;
   blade_.set_stiffness(keep_ * stiffness_);
   BladeLinks& links = near_ ? bodies_[touched_].links : nothing_;
+  const bool limits = links.has_sections() && frame_dt_ > 0;
+  blade_.set_fastest(limits ? links.spacing() / frame_dt_ : std::numeric_limits<double>::max());
   done_ = blade_.step(links, strands_, frame_, dt, cuts_);
   for (const BladeLinks::Node& node : links.nodes()) {
     if (node.force.isZero(0)) continue;

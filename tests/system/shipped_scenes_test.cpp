@@ -141,6 +141,7 @@ TEST_F(ShippedScenes, ALobeOfTetrahedraIsPressed) {
   EXPECT_TRUE(fs::exists(folder / "fem_mesh" / "record.pvd"));
   ASSERT_EQ(palpate("replay " + test::quoted(record) + " --out " + test::quoted(again)), 0) << log;
   EXPECT_EQ(read_json(again + "/summary.json")["state_hash"], summary["state_hash"]);
+  EXPECT_TRUE(fs::exists(again + "/record.pvd")) << "read anew from the mesh that the record has";
 }
 
 /// A scalpel opens it: what the hand pays is its toughness times what has opened, and no tetrahedron suffers.

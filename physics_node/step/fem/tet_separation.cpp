@@ -123,6 +123,7 @@ double Tetrahedra<Real>::separate(std::span<const NodeSplit> splits, const TetNe
     inverse_mass_[to] = inverse_mass_[from];
     set_vector(u_, to, displacement(node));
     set_vector(v_, to, velocity(node));
+    if (damped) set_vector(seen_rate_, to, Vec3::Zero());  // its part is with the node, which is as fast
     const std::size_t first_new = layout_.node_of_share.size();
     give_copy(layout_, *lanes_, net, copy);
     for (std::size_t s = first_new; nodal && damped && s < layout_.node_of_share.size(); ++s)
@@ -134,7 +135,6 @@ double Tetrahedra<Real>::separate(std::span<const NodeSplit> splits, const TetNe
   }
   list_anew(layout_, n_nodes());
   for (const auto& [node, copy] : splits) measure_again(node, net), measure_again(copy, net);
-  rate_known_ = false;  // of nodes as they were
   return grown;
 }
 

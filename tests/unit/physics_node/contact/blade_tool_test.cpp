@@ -195,8 +195,7 @@ TEST(BladeTool, SaysWhatItCannotCut) {
   Recipe solid = block({"voxel", 2, 0});
   solid.body += "\nmodel = \"fem\"";
   EXPECT_NE(refusal(solid).find("cuts lattices of springs, tetrahedra of first order and what a "
-                                "[[connection]] joins, and \"body\" is of "
-                                "finite elements"),
+                                "[[connection]] joins, and \"body\" is of cells of finite elements"),
             std::string::npos)
       << refusal(solid);
   Recipe untold = block({"voxel", 2, 0});
