@@ -82,7 +82,8 @@ TEST(DeviceFault, BearsAThousandUnplugs) {
   EXPECT_EQ(world.file->closed, 1000u);
   EXPECT_EQ(world.file->opened, 1001u);
   EXPECT_EQ(world.file->after_lost, 0u);
-  EXPECT_LT(mallinfo2().uordblks, warm + 4096);
+  // Why: less than the smallest block a cycle, 32 bytes, and more than the buffer of a stream that is used late.
+  EXPECT_LT(mallinfo2().uordblks, warm + 16384);
 }
 
 TEST(DeviceFault, AnEmergencyStopIsLatchedInOneTick) {
