@@ -52,7 +52,7 @@ class ExposedTriangles {
     net.each_corner(a, [&](Index tet, std::size_t) {
       for (std::size_t f = 0; f < 4; ++f) {
         MeshTriangle face = net.face(tet, f);
-        std::ranges::rotate(face, std::ranges::min_element(face));
+        std::rotate(face.begin(), std::ranges::min_element(face), face.end());
         if (face[0] == a && net.is_exposed(tet, f) && wanted(face[1]) && wanted(face[2]))
           take(face[1], face[2]);
       }

@@ -51,7 +51,7 @@ std::vector<EdgeGone> inner_faces(const TetNet& net, unsigned seed) {
 
 /// Lists so that its smallest is first.
 std::array<Index, 3> turned(std::array<Index, 3> face) {
-  std::ranges::rotate(face, std::ranges::min_element(face));
+  std::rotate(face.begin(), std::ranges::min_element(face), face.end());
   return face;
 }
 using Faces = std::multiset<std::array<Index, 3>>;
