@@ -131,8 +131,8 @@ void build_mesh_body(Body& body, const BodySpec& spec, const std::vector<Materia
                                .nodal_pressure = spec.tet_elements == TetElements::nodal_pressure});
     ElementLaw& law = body.laws.emplace_back();
     law.modulus = *material->modulus;
-    // Forces act as if the body were somewhat further: what turns loses a little of its angular momentum.
     law.cut_toughness = material->cut_toughness.value_or(0.0);
+    // Forces act as if the body were somewhat further: what turns loses a little of its angular momentum.
     law.damped = model.beta > 0;
     law.damper = Damper::relative;
   }
