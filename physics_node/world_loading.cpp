@@ -142,7 +142,10 @@ void World::join_bodies() {
   double added = 0, rate = 0;  // to the largest squared frequency [1/s^2]; of their dampers [1/s]
   for (const ConnectionSpec& spec : scene_.connections) {
     const std::size_t from = number(spec.from), to = number(spec.to);
-    auto strands = make_strands(spec, touchable_[from].surface->surface(), touchable_[to].surface->surface());
+    const auto surface = [this](std::size_t b) {
+      return on_masses(bodies_[b]->body(), touchable_[b].surface->surface());
+    };
+    auto strands = make_strands(spec, surface(from), surface(to));
     if (strands.empty())
       throw InputError(
           fmt::format("{}: connection \"{}\" joins nothing: no moving place of \"{}\" lies within {:.4g} mm "

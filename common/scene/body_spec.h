@@ -57,6 +57,12 @@ struct CavitySpec {
   Place place;
 };
 
+/// Where the tissue of a body of cells ends.
+struct BorderSpec {
+  BorderCells cells = BorderCells::whole;  // of fem
+  SkinKind skin = SkinKind::bricks;        // of voxels
+};
+
 struct BodySpec {
   std::string name;
   LatticeKind lattice = LatticeKind::fcc;
@@ -65,7 +71,7 @@ struct BodySpec {
   TetElements tet_elements = TetElements::nodal_pressure;  // of a mesh
   std::optional<MembraneSpec> membrane;                    // of a surface
   StartKind start = StartKind::rest;                       // of fem
-  BorderCells border_cells = BorderCells::whole;           // likewise
+  BorderSpec border;
   std::optional<double> spacing;  // [m]; absent only for a volume of voxels and a mesh, which bring their own
   std::string material;
   std::vector<RegionSpec> regions;  // of other materials; later ones win

@@ -40,6 +40,18 @@ void read_lattice(TableReader& reader, bool is_known, BodySpec& spec) {
     reader.complain_lack("\"spacing_mm\"", "give the distance of neighbouring masses");
 }
 
+/// `skin`, once the lattice is known. What is made from an image has a smooth one.
+void read_skin(TableReader& reader, BodySpec& spec) {
+  if (std::holds_alternative<MeshShape>(spec.shape)) return;  // which has refused it
+  const bool voxel = spec.lattice == LatticeKind::voxel;
+  if (voxel && std::holds_alternative<VolumeShape>(spec.shape)) spec.border.skin = SkinKind::smooth;
+  const auto word = reader.read_word("skin", {"bricks", "smooth"});
+  if (!word) return;
+  spec.border.skin = static_cast<SkinKind>(*word);
+  if (!voxel)
+    reader.complain("skin", "\"skin\" is of cells; write lattice = \"voxel\", or leave \"skin\" out");
+}
+
 }  // namespace
 
 BodySpec read_body(TableReader& reader, ReadContext& context) {
@@ -50,6 +62,7 @@ BodySpec read_body(TableReader& reader, ReadContext& context) {
   refuse_known_name(reader, spec.name, names_of(context.scene.bodies));
   const bool is_known = read_shape(reader, context, spec);
   read_lattice(reader, is_known, spec);
+  read_skin(reader, spec);
   refuse_small_tool(reader, spec);
   reader.require("material", "name a [material.NAME] of this scene");
   if (const auto material = reader.read_text("material")) {

@@ -28,7 +28,7 @@ std::string hindrance(const MaterialSpec& material, const BodySpec& spec) {
     return "breaks beside law = \"green\"; only \"neo_hookean\" does";
   if (material.break_ratio && !material.relaxation.empty())
     return "breaks and relaxes; leave break_ratio or relaxation out";
-  if (material.break_ratio && spec.border_cells == BorderCells::filled)
+  if (material.break_ratio && spec.border.cells == BorderCells::filled)
     return "breaks, and border_cells = \"filled\" has cells that nobody sees; leave one of them out";
   if (material.viscosity) return "has viscosity_N_s_per_m, which is of one spring; give viscosity_Pa_s";
   if (material.drag > 0) return "has drag_N_s_per_m, which is of the papers' masses; give viscosity_Pa_s";
@@ -137,7 +137,7 @@ void refuse_balanced(TableReader& reader, const ReadContext& context, const Body
 
 /// Shares of cells are of bodies whose cells are more than a wall of so many layers, and what breaks has whole ones.
 void refuse_filled(TableReader& reader, const BodySpec& spec) {
-  if (spec.border_cells != BorderCells::filled) return;
+  if (spec.border.cells != BorderCells::filled) return;
   const auto* tube = std::get_if<TubeShape>(&spec.shape);
   if (tube != nullptr && tube->wall_layers)
     reader.complain("border_cells",
@@ -167,7 +167,7 @@ void read_elements(TableReader& reader, ReadContext& context, BodySpec& spec) {
   if (const auto word = reader.read_word("start", {"rest", "balanced"}))
     spec.start = static_cast<StartKind>(*word);
   if (const auto word = reader.read_word("border_cells", {"whole", "filled"}))
-    spec.border_cells = static_cast<BorderCells>(*word);
+    spec.border.cells = static_cast<BorderCells>(*word);
   if (spec.model == ElementModel::surface) return read_membrane(reader, context, spec);
   refuse_membrane_keys(reader);
   if (std::holds_alternative<MeshShape>(spec.shape)) return read_tetrahedra(reader, context, spec);
@@ -179,7 +179,7 @@ void read_elements(TableReader& reader, ReadContext& context, BodySpec& spec) {
   if (!fem && reader.has("hourglass"))
     reader.complain("hourglass",
                     "\"hourglass\" is of finite elements; write model = \"fem\", or leave it out");
-  if (!fem && spec.border_cells == BorderCells::filled)
+  if (!fem && spec.border.cells == BorderCells::filled)
     reader.complain("border_cells",
                     "\"filled\" is of finite elements; write model = \"fem\", or leave \"border_cells\" out");
   if (!fem && spec.start == StartKind::balanced)

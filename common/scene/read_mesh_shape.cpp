@@ -45,6 +45,7 @@ void refuse_beside_mesh(TableReader& body) {
       {"spacing_mm", "a mesh brings its own spacing; leave \"spacing_mm\" out"},
       {"hourglass", "\"hourglass\" is of cells; leave it out, or choose \"elements\""},
       {"border_cells", "\"border_cells\" is of cells, and a mesh has none; leave it out"},
+      {"skin", "\"skin\" is of cells, and a mesh has its own faces; leave it out"},
       {"cavity",
        "nothing can be cut out of a mesh; mesh the body with its cavity, or give a [[body]] of another "
        "shape"},

@@ -9,11 +9,16 @@ namespace {
 
 constexpr Index scenery = -1;
 
-/// Where a vertex of the scenery is, as its maker computes it each time.
-struct RestHash {
-  std::size_t operator()(const Vec3& p) const noexcept {
-    std::size_t hash = 0;
-    for (const double x : p) hash = 31 * hash + std::hash<double>()(x);
+/// What a vertex is known by: its mass and where it rests, as its maker computes it each time.
+struct Key {
+  Index cell;
+  Vec3 rest;
+  bool operator==(const Key&) const = default;
+};
+struct KeyHash {
+  std::size_t operator()(const Key& key) const noexcept {
+    auto hash = static_cast<std::size_t>(key.cell);
+    for (const double x : key.rest) hash = 31 * hash + std::hash<double>()(x);
     return hash;
   }
 };
@@ -74,6 +79,7 @@ FacetChange at_place(std::uint32_t place, const Placed& of) {
 NumberedSurface::NumberedSurface(Surface surface)
     : rest_(std::move(surface.rest)),
       cell_(std::move(surface.cell)),
+      bearers_(std::move(surface.bearers)),
       facets_(std::move(surface.facets)),
       rgba_(std::move(surface.rgba)),
       hidden_(surface.hidden),
@@ -81,42 +87,34 @@ NumberedSurface::NumberedSurface(Surface surface)
       n_first_(rest_.size()),
       is_rigid_(cell_.empty()) {
   cell_.resize(rest_.size(), scenery);
+  if (!bearers_.empty()) bearers_.resize(rest_.size());
 }
 
 /// @return number here of each vertex of `next`. Most come in the order of their numbers; what is looked for elsewhere is found by its
-/// mass, or scenery by where it rests.
-std::vector<std::uint32_t> NumberedSurface::numbers_of(const Surface& next,
-                                                       std::vector<SurfaceDelta::Vertex>& added) const {
-  std::unordered_map<Index, std::uint32_t> of_mass;
-  std::unordered_map<Vec3, std::uint32_t, RestHash> of_scenery;
-  const auto note_all = [&] {
-    for (std::size_t v = 0; v < rest_.size(); ++v) {
-      const auto number = static_cast<std::uint32_t>(v);
-      if (cell_[v] >= 0)
-        of_mass.emplace(cell_[v], number);
-      else
-        of_scenery.emplace(rest_[v], number);
-    }
-  };
-  const auto number_in = [&](auto& known, const auto& key, const SurfaceDelta::Vertex& vertex) {
-    if (of_mass.empty() && of_scenery.empty()) note_all();
-    const auto free = static_cast<std::uint32_t>(rest_.size() + added.size());
-    const auto [at, is_new] = known.try_emplace(key, free);
-    if (is_new) added.push_back(vertex);
+/// mass and where it rests.
+std::vector<std::uint32_t> NumberedSurface::numbers_of(const Surface& next, SurfaceDelta& delta) const {
+  std::unordered_map<Key, std::uint32_t, KeyHash> known;
+  const auto number_of = [&](const SurfaceDelta::Vertex& vertex) {
+    if (known.empty())
+      for (std::size_t v = 0; v < rest_.size(); ++v)
+        known.emplace(Key{cell_[v], rest_[v]}, static_cast<std::uint32_t>(v));
+    const auto free = static_cast<std::uint32_t>(rest_.size() + delta.vertices.size());
+    const auto [at, is_new] = known.try_emplace(Key{vertex.cell, vertex.rest}, free);
+    if (is_new) delta.vertices.push_back(vertex);
     return at->second;
   };
   std::vector<std::uint32_t> numbers(next.n_vertices());
   std::uint32_t follower = 0;  // number after that of the vertex before
   for (std::size_t v = 0; v < numbers.size(); ++v) {
-    const SurfaceDelta::Vertex vertex{next.rest[v], v < next.n_moving() ? next.cell[v] : scenery};
-    const bool follows = follower < rest_.size() && cell_[follower] == vertex.cell &&
-                         (vertex.cell >= 0 || rest_[follower] == vertex.rest);
-    if (follows)
-      numbers[v] = follower;
-    else
-      numbers[v] = vertex.cell >= 0 ? number_in(of_mass, vertex.cell, vertex)
-                                    : number_in(of_scenery, vertex.rest, vertex);
-    if (numbers[v] < rest_.size()) follower = numbers[v] + 1;
+    const bool moves = v < next.n_moving();
+    const Bearers by = moves && !next.bearers.empty() ? next.bearers[v] : Bearers{};
+    const SurfaceDelta::Vertex vertex{next.rest[v], moves ? next.cell[v] : scenery, by};
+    const bool follows =
+        follower < rest_.size() && cell_[follower] == vertex.cell && rest_[follower] == vertex.rest;
+    numbers[v] = follows ? follower : number_of(vertex);
+    if (numbers[v] >= rest_.size()) continue;
+    follower = numbers[v] + 1;
+    if (!bearers_.empty() && !(bearers_[numbers[v]] == by)) delta.carried.push_back({numbers[v], by});
   }
   return numbers;
 }
@@ -125,7 +123,7 @@ SurfaceDelta NumberedSurface::delta_to(const Surface& next) const {
   SurfaceDelta delta;
   delta.total_facets = next.facets.size();
   delta.hidden = next.hidden;
-  const auto number = numbers_of(next, delta.vertices);
+  const auto number = numbers_of(next, delta);
   const Unpaired left = strike_out_pairs(
       facets_.size(), [this](std::size_t f) { return placed(facets_[f], rgba_[f], f); }, next.facets.size(),
       [&](std::size_t f) {
@@ -154,8 +152,10 @@ void NumberedSurface::apply(const SurfaceDelta& delta) {
   for (const SurfaceDelta::Vertex& vertex : delta.vertices) {
     rest_.push_back(vertex.rest);
     cell_.push_back(vertex.cell);
+    if (!bearers_.empty()) bearers_.push_back(vertex.bearers);
     is_rigid_ = is_rigid_ && vertex.cell < 0;
   }
+  for (const SurfaceDelta::Carried& carried : delta.carried) bearers_[carried.vertex] = carried.bearers;
   for (const FacetChange& change : delta.facets) {
     if (change.facet == facets_.size()) {
       facets_.emplace_back();

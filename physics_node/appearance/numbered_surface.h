@@ -12,10 +12,16 @@ namespace palpate::physics {
 /// What makes one surface of another.
 struct SurfaceDelta {
   struct Vertex {
-    Vec3 rest;   // [m]
-    Index cell;  // of its mass; -1: scenery
+    Vec3 rest;        // [m]
+    Index cell;       // of its mass; -1: scenery
+    Bearers bearers;  // of a smooth skin
+  };
+  struct Carried {
+    std::uint32_t vertex;
+    Bearers bearers;
   };
   std::vector<Vertex> vertices;     // numbered on behind those that are there
+  std::vector<Carried> carried;     // by others than before, of those that are there
   std::vector<FacetChange> facets;  // to be carried out one after the other
   std::size_t total_facets = 0;     // afterwards: what is behind them is gone
   std::uint64_t hidden = 0;
@@ -44,7 +50,9 @@ class NumberedSurface {
   /// Position now: of a moving vertex from the body, of the scenery from rest.
   Vec3 position(std::size_t vertex, const NodeMotion& moving) const {
     const Index cell = cell_[vertex];
-    return cell >= 0 ? Vec3(rest_[vertex] + moving.displacement(cell)) : rest_[vertex];
+    if (cell < 0) return rest_[vertex];
+    if (bearers_.empty()) return rest_[vertex] + moving.displacement(cell);
+    return rest_[vertex] + bearers_[vertex].mean([&](Index node) { return moving.displacement(node); });
   }
 
   using Corners = std::array<std::uint32_t, 4>;
@@ -53,10 +61,12 @@ class NumberedSurface {
   std::uint64_t hidden() const { return hidden_; }
 
  private:
-  std::vector<std::uint32_t> numbers_of(const Surface& next, std::vector<SurfaceDelta::Vertex>& added) const;
+  std::vector<std::uint32_t> numbers_of(const Surface& next, SurfaceDelta& delta) const;
 
-  std::vector<Vec3> rest_;       // (n_vertices)
-  std::vector<Index> cell_;      // (n_vertices)
+  std::vector<Vec3> rest_;   // (n_vertices)
+  std::vector<Index> cell_;  // (n_vertices)
+  std::vector<Bearers>
+      bearers_;                  // as of Surface, but of scenery, too; EMPTY: no skin is smooth  (n_vertices)
   std::vector<Corners> facets_;  // (n_facets)
   std::vector<std::uint32_t> rgba_;
   std::uint64_t hidden_ = 0;

@@ -12,6 +12,7 @@
 #include "common/scene/body_spec.h"
 #include "physics_node/body/border_cells.h"
 #include "physics_node/body/deformable.h"
+#include "physics_node/body/skin_crossings.h"
 #include "physics_node/body/solid_shape.h"
 
 namespace palpate::physics {
@@ -52,7 +53,7 @@ Cells solid_cells(const BodySpec& body) {
   cells.spacing = Vec3::Constant(*body.spacing);
   Eigen::Array3d edges = (bounds.hi - bounds.lo).array() / *body.spacing;
   // Filled cells hold what is left over beyond whole ones.
-  const bool filled = body.border_cells == BorderCells::filled;
+  const bool filled = body.border.cells == BorderCells::filled;
   for (Eigen::Index a = 0; a < 3 && !filled; ++a)
     if (edges[a] < 0.499)
       throw InputError(
@@ -154,7 +155,8 @@ Cells make_cells(const BodySpec& body) {
                     "the deformable region must reach filled voxels (partition {} x {} x {})",
                     body.place.text(), body.name, cells.size.x(), cells.size.y(), cells.size.z()));
   }
-  if (body.border_cells == BorderCells::filled) fill_border_cells(body, cells);
+  if (body.border.cells == BorderCells::filled) fill_border_cells(body, cells);
+  if (body.border.skin == SkinKind::smooth) find_crossings(body, cells);
   return cells;
 }
 

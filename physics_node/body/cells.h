@@ -12,6 +12,11 @@
 
 namespace palpate::physics {
 
+struct SkinCrossing {
+  std::uint64_t face = 0;  // 6 times the number of the filled cell, and which of its faces: -x +x -y +y -z +z
+  double share = 0;        // of the way from its centre to that of the empty one
+};
+
 struct Cells {
   Vec3i size = Vec3i::Zero();
   Vec3 spacing = Vec3::Zero();           // [m]
@@ -21,6 +26,9 @@ struct Cells {
   /// How much of each cell that moves is tissue, of cells not seen, too, that the shape reaches into; EMPTY: all of the deformable ones
   /// (border_cells.h).                                                             (size)
   std::vector<float> share;
+  /// Where the tissue ends between the centres of a filled cell and of an empty one beside it; EMPTY: its faces are its skin
+  /// (skin_crossings.h).                                                            (by `face`)
+  std::vector<SkinCrossing> crossings;
   std::vector<float> intensity;         // of each cell; empty where there is no image
   std::vector<TransferPoint> transfer;  // colours; empty where there is no image
 
@@ -29,6 +37,11 @@ struct Cells {
            static_cast<std::size_t>(size.x()) *
                (static_cast<std::size_t>(j) +
                 static_cast<std::size_t>(size.y()) * static_cast<std::size_t>(k));
+  }
+  Vec3i cell_of(std::size_t index) const {
+    const auto nx = static_cast<std::size_t>(size.x()), ny = static_cast<std::size_t>(size.y());
+    return {static_cast<int>(index % nx), static_cast<int>(index / nx % ny),
+            static_cast<int>(index / nx / ny)};
   }
   bool inside(int i, int j, int k) const {
     return i >= 0 && j >= 0 && k >= 0 && i < size.x() && j < size.y() && k < size.z();

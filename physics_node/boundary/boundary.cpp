@@ -43,7 +43,7 @@ Boundary::Boundary(const BodyModel& moving, double bucket_size, bool follows)
     bucket_facets_.push_back(facet);
   }
   for (std::size_t b = 1; b < bucket_start_.size(); ++b) bucket_start_[b] += bucket_start_[b - 1];
-  for (const Index cell : surface_.cell) sag_.push_back(moving.displacement(cell));
+  for (std::uint32_t v = 0; v < surface_.n_moving(); ++v) sag_.push_back(displacement(v, moving));
   if (std::ranges::all_of(sag_, [](const Vec3& u) { return u.isZero(0); })) sag_.clear();
   if (follows && any_breaks(moving.body())) prepare_to_follow();
 }
@@ -52,6 +52,7 @@ void Boundary::prepare_to_follow() {
   PALPATE_CHECK(std::is_sorted(surface_.site.begin(), surface_.site.end()),
                 "facets in the order of their sites");
   sites_ = make_site_facets(body_);
+  if (!surface_.bearers.empty()) skin_ = std::make_unique<LiveSkin>(body_, surface_);
   const std::size_t n = sites_->n_sites();
   gone_.resize(surface_.facets.size());
   first_.resize(n);
@@ -69,7 +70,10 @@ std::size_t Boundary::bucket_of(const Vec3& p) const {
 
 void Boundary::facets_near(const Vec3& p, double radius, const NodeMotion& moving,
                            std::vector<std::uint32_t>& out) const {
+  const double around = radius + body_.body().spacing();
   const auto take = [&](std::uint32_t facet) {
+    if (!surface_.bearers.empty() && (nearly_centroid(facet, moving) - p).squaredNorm() > around * around)
+      return;
     if (exists(facet) && (centroid(facet, moving) - p).squaredNorm() <= radius * radius) out.push_back(facet);
   };
   for (const std::uint32_t facet : moving_facets_) take(facet);
@@ -107,19 +111,64 @@ bool Boundary::has_mass(std::uint32_t facet) const noexcept {
   return mass(facet, 0) >= 0 || mass(facet, 1) >= 0 || mass(facet, 2) >= 0 || mass(facet, 3) >= 0;
 }
 
+std::optional<std::uint32_t> Boundary::vertex(std::uint32_t facet, std::size_t corner) const noexcept {
+  if (is_loaded(facet)) return surface_.facets[facet][corner];
+  return skin_ ? skin_->vertex_of(open_at(facet).masses[corner]) : std::nullopt;
+}
+
+/// By more than the vertex's own mass; null: by that alone.
+const Bearers* Boundary::carried(std::uint32_t vertex) const noexcept {
+  if (surface_.bearers.empty()) return nullptr;
+  return skin_ ? &skin_->bearers(vertex) : &surface_.bearers[vertex];
+}
+
+std::int64_t Boundary::corner(std::uint32_t facet, std::size_t corner) const noexcept {
+  const auto at = vertex(facet, corner);
+  if (!at || (*at < surface_.n_moving() && surface_.bearers.empty())) return mass(facet, corner);
+  return std::int64_t{body_.body().capacity()} + *at;
+}
+
+Bearers Boundary::bearers(std::uint32_t facet, std::size_t corner) const noexcept {
+  const auto at = vertex(facet, corner);
+  if (at && *at >= surface_.n_moving()) return {};
+  const Bearers* by = at ? carried(*at) : nullptr;
+  return by != nullptr ? *by : Bearers::alone(mass(facet, corner));
+}
+
+Vec3 Boundary::displacement(std::uint32_t vertex, const NodeMotion& moving) const noexcept {
+  const Bearers* by = carried(vertex);
+  if (by == nullptr) return moving.displacement(surface_.cell[vertex]);
+  return by->mean([&](Index node) { return moving.displacement(node); });
+}
+
+Vec3 Boundary::place(std::uint32_t vertex, const NodeMotion& moving) const noexcept {
+  const Vec3& rest = surface_.rest[vertex];
+  return vertex < surface_.n_moving() ? Vec3(rest + displacement(vertex, moving)) : rest;
+}
+
 Vec3 Boundary::position(std::uint32_t facet, std::size_t corner, const NodeMotion& moving) const noexcept {
-  if (is_loaded(facet)) return surface_.position(surface_.facets[facet][corner], moving);
-  return moving.position(open_at(facet).masses[corner]);
+  const auto at = vertex(facet, corner);
+  return at ? place(*at, moving) : moving.position(open_at(facet).masses[corner]);
 }
 
 Vec3 Boundary::rest(std::uint32_t facet, std::size_t corner) const noexcept {
-  if (is_loaded(facet)) return surface_.rest[surface_.facets[facet][corner]];
-  return body_.body().rest_position(open_at(facet).masses[corner]);
+  const auto at = vertex(facet, corner);
+  return at ? surface_.rest[*at] : body_.body().rest_position(open_at(facet).masses[corner]);
 }
 
 Vec3 Boundary::centroid(std::uint32_t facet, const NodeMotion& moving) const noexcept {
   Vec3 sum = Vec3::Zero();
   for (std::size_t n = 0; n < 4; ++n) sum += position(facet, n, moving);
+  return sum / 4;
+}
+
+/// Of a smooth skin by the masses at its corners, which is off by what tissue strains in half a cell: to leave out what is far.
+Vec3 Boundary::nearly_centroid(std::uint32_t facet, const NodeMotion& moving) const noexcept {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t n = 0; n < 4; ++n) {
+    sum += rest(facet, n);
+    if (const Index own = mass(facet, n); own >= 0) sum += moving.displacement(own);
+  }
   return sum / 4;
 }
 

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "physics_node/boundary/live_skin.h"
 #include "physics_node/boundary/site_facets.h"
 #include "physics_node/boundary/surface.h"
 #include "physics_node/step/body_model.h"
@@ -51,10 +52,15 @@ class Boundary {
   // Of one facet. Its corners 2 and 3 are one where it is a triangle.
   bool exists(std::uint32_t facet) const noexcept;
   bool is_triangle(std::uint32_t facet) const noexcept;
-  /// The mass at a corner, -1: rigid scenery.
+  /// Facets that meet in a corner have the same number of it; below the capacity of the body it is that of the mass that it is.
+  std::int64_t corner(std::uint32_t facet, std::size_t corner) const noexcept;
+  /// Who carries a corner; nobody: rigid scenery.
+  Bearers bearers(std::uint32_t facet, std::size_t corner) const noexcept;
+  /// The mass whose corner it is, -1: rigid scenery. A smooth skin has others carry it, too.
   Index mass(std::uint32_t facet, std::size_t corner) const noexcept;
   bool has_mass(std::uint32_t facet) const noexcept;  // at a corner; else it is scenery
   Vec3 position(std::uint32_t facet, std::size_t corner, const NodeMotion& moving) const noexcept;
+  Vec3 rest(std::uint32_t facet, std::size_t corner) const noexcept;  // without any load [m]
   Vec3 centroid(std::uint32_t facet, const NodeMotion& moving) const noexcept;
   Vec3 rest_area(std::uint32_t facet) const noexcept;  // of the body without any load, as below [m^2]
   /// Where the facet lay when the body was loaded, sagged where that starts balanced: there it comes back to when nothing
@@ -81,7 +87,12 @@ class Boundary {
 
   std::size_t bucket_of(const Vec3& p) const;
   void prepare_to_follow();
-  Vec3 rest(std::uint32_t facet, std::size_t corner) const noexcept;
+  /// The vertex as loaded at a corner; none: a mass that had none.
+  std::optional<std::uint32_t> vertex(std::uint32_t facet, std::size_t corner) const noexcept;
+  const Bearers* carried(std::uint32_t vertex) const noexcept;
+  Vec3 displacement(std::uint32_t vertex, const NodeMotion& moving) const noexcept;  // of one that moves
+  Vec3 place(std::uint32_t vertex, const NodeMotion& moving) const noexcept;
+  Vec3 nearly_centroid(std::uint32_t facet, const NodeMotion& moving) const noexcept;
   Vec3 settled(std::uint32_t facet, std::size_t corner) const noexcept;
   bool is_loaded(std::uint32_t facet) const noexcept { return facet < surface_.facets.size(); }
   const OpenFacet& open_at(std::uint32_t facet) const noexcept {
@@ -89,6 +100,7 @@ class Boundary {
   }
   void mark(Index mass) noexcept;
   void restart() noexcept;
+  bool is_facet(std::uint32_t facet, const SiteFacets::Corners& masses) const noexcept;
   /// @param first, last  facets as loaded
   bool is_as_loaded(std::size_t first, std::size_t last,
                     std::span<const SiteFacets::Corners> now) const noexcept;
@@ -106,6 +118,7 @@ class Boundary {
   std::vector<std::uint32_t> bucket_start_;   // facets of bucket b: bucket_facets_[start[b] .. start[b + 1])
   std::vector<std::uint32_t> bucket_facets_;
 
+  std::unique_ptr<LiveSkin> skin_;     // of one that is smooth and follows breaks; else null
   std::unique_ptr<SiteFacets> sites_;  // null: follows no breaks
   std::vector<std::uint8_t> gone_;     // of each facet as loaded; EMPTY without sites_
   std::vector<std::uint32_t> first_;   // open facet of each site

@@ -65,6 +65,9 @@ class MoreVertices {
     for (const Index mass : added_) rest.push_back(body_.lattice.rest_position(mass));
     surface_.rest.insert(surface_.rest.begin() + n_moving, rest.begin(), rest.end());
     surface_.cell.insert(surface_.cell.end(), added_.begin(), added_.end());
+    if (surface_.bearers.empty()) return;
+    for (const Index mass : added_) surface_.bearers.push_back(Bearers::alone(mass));
+    surface_.fan.resize(surface_.cell.size(), no_fan);
   }
 
  private:

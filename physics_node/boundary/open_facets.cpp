@@ -24,6 +24,7 @@ void Boundary::restart() noexcept {
   for (std::size_t n = 0; n < n_used_; ++n) open_[n] = {};
   queue_begin_ = n_queued_ = n_used_ = n_open_ = 0;
   free_ = none;
+  if (skin_) skin_->restart();
   changed_all_ = ++revision_;
   if (body_.breaks() == 0) return;
   for (const Index node : body_.body().nodes())
@@ -74,6 +75,7 @@ void Boundary::renew(std::uint32_t site) noexcept {
   std::array<SiteFacets::Corners, SiteFacets::most_facets> room;
   const std::size_t n = sites_->facets_of(site, room);
   const std::span<const SiteFacets::Corners> now(room.data(), n);
+  if (skin_) skin_->look_at(body_.body().cells->cell_of(site));
   close_all(site);
   const auto [begin, end] = std::equal_range(surface_.site.begin(), surface_.site.end(), site);
   const auto first = static_cast<std::size_t>(begin - surface_.site.begin());
@@ -86,12 +88,21 @@ void Boundary::renew(std::uint32_t site) noexcept {
   for (const auto& masses : now) open(site, masses);
 }
 
+/// A skin names corners from another first one on.
+bool Boundary::is_facet(std::uint32_t facet, const SiteFacets::Corners& masses) const noexcept {
+  for (std::size_t first = 0; first < (surface_.bearers.empty() ? 1u : 4u); ++first) {
+    bool same = true;
+    for (std::size_t c = 0; c < 4; ++c) same = same && mass(facet, (first + c) % 4) == masses[c];
+    if (same) return true;
+  }
+  return false;
+}
+
 bool Boundary::is_as_loaded(std::size_t first, std::size_t last,
                             std::span<const SiteFacets::Corners> now) const noexcept {
   if (last - first != now.size()) return false;
   for (std::size_t n = 0; n < now.size(); ++n)
-    for (std::size_t c = 0; c < 4; ++c)
-      if (mass(static_cast<std::uint32_t>(first + n), c) != now[n][c]) return false;
+    if (!is_facet(static_cast<std::uint32_t>(first + n), now[n])) return false;
   return true;
 }
 

@@ -34,7 +34,7 @@ class VoxelSites final : public SiteFacets {
   }
 
   std::size_t facets_of(std::uint32_t site, std::span<Corners, most_facets> out) const noexcept override {
-    const Vec3i cell = cell_of(site);
+    const Vec3i cell = cells_.cell_of(site);
     const bool rigid = !is_deformable(cell);
     std::size_t n = 0;
     const auto take = [&](const FacetCorners& corners, bool bounds) {
@@ -52,19 +52,13 @@ class VoxelSites final : public SiteFacets {
     return n;
   }
 
-  bool is_rigid(std::uint32_t site) const noexcept override { return !is_deformable(cell_of(site)); }
+  bool is_rigid(std::uint32_t site) const noexcept override { return !is_deformable(cells_.cell_of(site)); }
 
  private:
   bool is_deformable(const Vec3i& c) const noexcept { return cells_.is_deformable(c.x(), c.y(), c.z()); }
   std::uint32_t number(const Vec3i& c) const noexcept {
     return static_cast<std::uint32_t>(cells_.index(c.x(), c.y(), c.z()));
   }
-  Vec3i cell_of(std::uint32_t site) const noexcept {
-    const auto n = static_cast<std::int64_t>(site), nx = std::int64_t{cells_.size.x()},
-               ny = std::int64_t{cells_.size.y()};
-    return {static_cast<int>(n % nx), static_cast<int>(n / nx % ny), static_cast<int>(n / nx / ny)};
-  }
-
   const Lattice& lattice_;
   const Cells& cells_;
   CellsNow now_;

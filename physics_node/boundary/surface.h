@@ -7,14 +7,21 @@
 #include <vector>
 
 #include "physics_node/body/body.h"
+#include "physics_node/boundary/bearers.h"
 #include "physics_node/boundary/live_elements.h"
 #include "physics_node/step/body_model.h"
 
 namespace palpate::physics {
 
+/// Surface::fan of a vertex that is on no smooth skin.
+inline constexpr std::uint8_t no_fan = 255;
+
 struct Surface {
   std::vector<Vec3> rest;   // rest position [m]               (n_vertices)
   std::vector<Index> cell;  // storage cell of its mass, moving first (n_moving)
+  /// Who carries each vertex that moves; EMPTY: its own mass does (n_moving).
+  std::vector<Bearers> bearers;
+  std::vector<std::uint8_t> fan;  // of a smooth skin, see smooth_skin.h; EMPTY: there is none  (n_moving)
   std::vector<std::array<std::uint32_t, 4>>
       facets;                       // corners, anticlockwise from outside; a triangle repeats its last
   std::vector<std::uint32_t> rgba;  // 0xAABBGGRR                      (n_facets)
@@ -26,13 +33,17 @@ struct Surface {
   std::size_t n_moving() const { return cell.size(); }
   /// Position now: of a moving vertex from the body, of the scenery from rest.
   Vec3 position(std::size_t vertex, const NodeMotion& moving) const {
-    return vertex < cell.size() ? Vec3(rest[vertex] + moving.displacement(cell[vertex])) : rest[vertex];
+    if (vertex >= cell.size()) return rest[vertex];
+    return rest[vertex] + (bearers.empty()
+                               ? moving.displacement(cell[vertex])
+                               : bearers[vertex].mean([&](Index n) { return moving.displacement(n); }));
   }
 };
 
 /// Faces of shown cells that no other shown cell covers. Source: Takada & Abe, visible list; 6 neighbours (C-37).
 /// A cell that has lost an element is shown by its five tetrahedra instead: a triangle is there while its three elements
 /// live, a tetrahedron is filled while its six do (C-8), and what both sides fill is hidden.
+/// With a smooth skin the corners that lay at it as loaded lie where the tissue ends (smooth_skin.h).
 /// @param threshold  shows only cells of at least this intensity; absent: all tissue
 /// @param rgba  of a body without an image
 Surface voxel_surface(const Body& body, const LiveElements& live, std::optional<double> threshold,
@@ -46,6 +57,9 @@ Surface fcc_surface(const Body& body, const LiveElements& live, std::uint32_t rg
 /// The faces of a mesh that can be touched, as triangles; those that a cut has opened darker and redder. hidden: the
 /// faces between two tetrahedra.
 Surface mesh_surface(const Body& body, const LiveElements& live, std::uint32_t rgba);
+
+/// The same facets with the masses themselves at their corners.
+Surface on_masses(const Body& body, Surface surface);
 
 /// The surface of any kind.
 Surface make_surface(const Body& body, const LiveElements& live, std::optional<double> threshold,

@@ -1,31 +1,45 @@
+#include <algorithm>
 #include <unordered_map>
 
 #include "physics_node/body/build_lattice.h"
 #include "physics_node/boundary/cut_cells.h"
+#include "physics_node/boundary/smooth_skin.h"
 #include "physics_node/boundary/surface.h"
 #include "physics_node/boundary/voxel_facets.h"
 
 namespace palpate::physics {
 namespace {
 
-/// Gives every corner that a facet uses a number: masses of the lattice and points of the scenery apart.
+/// Gives every vertex that a facet uses a number: those that move and points of the scenery apart.
 class Numbering {
  public:
-  explicit Numbering(const Body& body) : body_(body), shift_(lattice_corner(*body.cells, body.lattice)) {}
+  Numbering(const Body& body, const CutCells& cut, std::optional<double> threshold)
+      : body_(body), cut_(cut), shift_(lattice_corner(*body.cells, body.lattice)) {
+    if (SmoothSkin::is_on(body)) skin_.emplace(body, threshold);
+  }
 
-  /// Number of a corner, negative for scenery: the sign is resolved when the count of moving corners is known.
-  std::int64_t number(const Vec3i& corner, Surface& surface) {
+  /// Number of a corner of a cell, negative for scenery: the sign is resolved when the count of moving ones is known.
+  std::int64_t number(const Vec3i& corner, const Vec3i& cell, Surface& surface) {
     const Vec3i& n = body_.cells->size;
-    const std::int64_t key = corner.x() + (n.x() + 1LL) * (corner.y() + (n.y() + 1LL) * corner.z());
+    const int fan = fan_of(corner, cell);
+    constexpr int most_fans = 4;
+    const std::int64_t key =
+        fan + 1 + (most_fans + 1) * (corner.x() + (n.x() + 1LL) * (corner.y() + (n.y() + 1LL) * corner.z()));
     const auto found = numbers_.find(key);
     if (found != numbers_.end()) return found->second;
-    const Index cell = body_.lattice.mass_at(corner - shift_);
+    const Index mass = body_.lattice.mass_at(corner - shift_);
+    const Vec3 on_lattice =
+        mass >= 0 ? body_.lattice.rest_position(mass)
+                  : Vec3(body_.cells->corner + body_.cells->spacing.cwiseProduct(corner.cast<double>()));
+    const Vec3 rest = fan < 0 ? on_lattice : skin_->place(corner, fan);
     std::int64_t value = 0;
-    if (cell >= 0) {
+    if (mass >= 0) {
       value = static_cast<std::int64_t>(surface.cell.size());
-      surface.cell.push_back(cell);
+      surface.cell.push_back(mass);
+      surface.rest.push_back(rest);
+      if (skin_) add_bearers(corner, fan, mass, rest, surface);
     } else {
-      scenery_.push_back(body_.cells->corner + body_.cells->spacing.cwiseProduct(corner.cast<double>()));
+      scenery_.push_back(rest);
       value = -static_cast<std::int64_t>(scenery_.size());
     }
     numbers_.emplace(key, value);
@@ -33,10 +47,28 @@ class Numbering {
   }
 
   const std::vector<Vec3>& scenery() const { return scenery_; }
+  bool is_smooth() const { return skin_.has_value(); }
 
  private:
+  /// Where a cell broke, all facets at a corner share a vertex: the fans of before may have grown together.
+  int fan_of(const Vec3i& corner, const Vec3i& cell) const {
+    if (!skin_) return -1;
+    const int fan = skin_->fan(corner, cell);
+    if (fan <= 0 || !cut_.any()) return fan;
+    for (unsigned o = 0; o < 8; ++o)
+      if (cut_.is_cut(SmoothSkin::cell_at(corner, o))) return 0;
+    return fan;
+  }
+  void add_bearers(const Vec3i& corner, int fan, Index mass, const Vec3& rest, Surface& surface) const {
+    const auto alive = [this](const Vec3i& cell) { return !cut_.is_cut(cell); };
+    surface.bearers.push_back(fan < 0 ? Bearers::alone(mass) : skin_->bearers(corner, fan, rest, alive));
+    surface.fan.push_back(static_cast<std::uint8_t>(fan < 0 ? no_fan : fan));
+  }
+
   const Body& body_;
+  const CutCells& cut_;
   Vec3i shift_;
+  std::optional<SmoothSkin> skin_;
   std::unordered_map<std::int64_t, std::int64_t> numbers_;
   std::vector<Vec3> scenery_;
 };
@@ -45,10 +77,9 @@ class Numbering {
 class Builder {
  public:
   Builder(const Body& body, const LiveElements& live, std::optional<double> threshold, std::uint32_t rgba)
-      : body_(body),
-        cells_(*body.cells),
+      : cells_(*body.cells),
         cut_(body, live),
-        numbering_(body),
+        numbering_(body, cut_, threshold),
         threshold_(cells_.intensity.empty() ? std::nullopt : threshold),
         rgba_(rgba) {}
 
@@ -82,14 +113,13 @@ class Builder {
 
   void add_facet(const Vec3i& cell, const std::array<Vec3i, 4>& corners) {
     auto& facet = facets_.emplace_back();
-    for (std::size_t c = 0; c < 4; ++c) facet[c] = numbering_.number(corners[c], surface_);
+    for (std::size_t c = 0; c < 4; ++c) facet[c] = numbering_.number(corners[c], cell, surface_);
     surface_.rgba.push_back(cells_.transfer.empty() ? rgba_ : rgba_of(cells_.transfer, intensity(cell)));
     surface_.site.push_back(static_cast<std::uint32_t>(cells_.index(cell.x(), cell.y(), cell.z())));
   }
 
   /// Puts the scenery behind the moving vertices.
   Surface finish() {
-    for (const Index cell : surface_.cell) surface_.rest.push_back(body_.lattice.rest_position(cell));
     surface_.rest.insert(surface_.rest.end(), numbering_.scenery().begin(), numbering_.scenery().end());
     const auto n_moving = static_cast<std::int64_t>(surface_.cell.size());
     surface_.facets.reserve(facets_.size());
@@ -97,12 +127,20 @@ class Builder {
       auto& corners = surface_.facets.emplace_back();
       for (std::size_t c = 0; c < 4; ++c)
         corners[c] = static_cast<std::uint32_t>(facet[c] >= 0 ? facet[c] : n_moving - facet[c] - 1);
+      if (numbering_.is_smooth()) turn_to_shorter(corners);
     }
     surface_.hidden /= 2;  // each was met from both sides
     return std::move(surface_);
   }
 
-  const Body& body_;
+  /// A square that is not flat is drawn and felt as two triangles on either side of its corners 0 and 2: the nearer ones.
+  void turn_to_shorter(std::array<std::uint32_t, 4>& c) const {
+    const auto square = [&](std::size_t a, std::size_t b) {
+      return (surface_.rest[c[a]] - surface_.rest[c[b]]).squaredNorm();
+    };
+    if (c[2] != c[3] && square(1, 3) < square(0, 2)) std::rotate(c.begin(), c.begin() + 1, c.end());
+  }
+
   const Cells& cells_;
   CutCells cut_;
   Numbering numbering_;
@@ -117,6 +155,13 @@ class Builder {
 Surface voxel_surface(const Body& body, const LiveElements& live, std::optional<double> threshold,
                       std::uint32_t rgba) {
   return Builder(body, live, threshold, rgba).build();
+}
+
+Surface on_masses(const Body& body, Surface surface) {
+  for (std::size_t v = 0; v < surface.n_moving(); ++v) surface.rest[v] = body.rest_position(surface.cell[v]);
+  surface.bearers.clear();
+  surface.fan.clear();
+  return surface;
 }
 
 Surface make_surface(const Body& body, const LiveElements& live, std::optional<double> threshold,

@@ -13,6 +13,7 @@ constexpr double stiffness_in_cells =
     100;  // k h / E. Why: p / k is then below 1 % of the depth; see docs/benchmarks.md
 // Why: with 24 forces differ by 1 % at most, and cost five times as much. A stick bears along its side on many, across on few.
 constexpr double samples_in_size = 10, samples_in_side = 5;
+constexpr std::size_t most_bearings = 4 * FacePress::most_facets * 8;
 constexpr int fewest_a_side = 2, most_a_side = 8;
 constexpr double far = std::numeric_limits<double>::infinity();
 
@@ -49,7 +50,11 @@ FacePress::FacePress(const Boundary& surface, const NodeMotion& moving, const Ri
       margin_(0.1 * std::min(moving.body().spacing(), shape.size())) {
   faces_.reserve(most_facets);
   nodes_.reserve(4 * most_facets);
-  order_.reserve(4 * most_facets);
+  vertices_.reserve(4 * most_facets);
+  corners_.reserve(4 * most_facets);
+  bearings_.reserve(most_bearings);
+  order_.reserve(most_bearings);
+  listed_.reserve(most_facets);
   samples_.reserve(most_samples);
   near_.reserve(most_samples);
   forces_.reserve(4 * most_facets);
@@ -86,8 +91,8 @@ FacePress::Weights FacePress::weights(const Face& face, std::uint32_t at) const 
 }
 
 Vec3 FacePress::at(const Face& face, const Weights& w) const noexcept {
-  return w[0] * nodes_[face.node[0]].moved + w[1] * nodes_[face.node[1]].moved +
-         w[2] * nodes_[face.node[2]].moved + w[3] * nodes_[face.node[3]].moved;
+  return w[0] * vertices_[face.vertex[0]].moved + w[1] * vertices_[face.vertex[1]].moved +
+         w[2] * vertices_[face.vertex[2]].moved + w[3] * vertices_[face.vertex[3]].moved;
 }
 
 /// From outside, by the middles and corners of faces that look at the shape.
@@ -141,8 +146,7 @@ void FacePress::list(const ShapePose& pose, std::span<const std::uint32_t> candi
   attitude_ = pose.attitude;
   candidates_ = candidates;
   faces_.clear();
-  nodes_.clear();
-  order_.clear();
+  listed_.clear();
   if (!touching_) find_depth(pose);
   for (const std::uint32_t facet : candidates) {
     if (!surface_.exists(facet) || faces_.size() == most_facets) continue;
@@ -159,36 +163,65 @@ void FacePress::list(const ShapePose& pose, std::span<const std::uint32_t> candi
     if (!(face.area > 0)) continue;
     face.triangle = surface_.is_triangle(facet);
     face.n = static_cast<std::uint8_t>(std::lround(std::sqrt(face.area) / sample_spacing(face.area)));
-    for (std::size_t c = 0; c < 4; ++c) {
-      const Index cell = surface_.mass(facet, c);
-      const auto number = static_cast<std::uint32_t>(4 * faces_.size() + c);
-      face.node[c] = number;
-      if (cell >= 0) {
-        order_.emplace_back(cell, number);
-      } else {
-        nodes_.push_back({.place = surface_.position(facet, c, moving_)});
-        order_.emplace_back(-static_cast<Index>(nodes_.size()), number);
-      }
-    }
     faces_.push_back(face);
+    listed_.push_back(facet);
   }
-  // Equal nodes become one, in storage order; scenery stays before them.
+  // A skin torn to pieces may have more nodes than there is room for.
+  for (find_vertices(listed_); !find_nodes(); find_vertices(listed_)) {
+    faces_.resize(faces_.size() / 2, Face{});
+    listed_.resize(faces_.size(), 0);
+  }
+}
+
+/// Equal corners become one vertex, in the order of their numbers.
+void FacePress::find_vertices(std::span<const std::uint32_t> of_faces) noexcept {
+  corners_.clear();
+  vertices_.clear();
+  bearings_.clear();
+  for (std::uint32_t f = 0; f < of_faces.size(); ++f)
+    for (std::uint32_t c = 0; c < 4; ++c) corners_.push_back({surface_.corner(of_faces[f], c), 4 * f + c});
+  std::sort(corners_.begin(), corners_.end(), [](const Corner& a, const Corner& b) {
+    return a.corner != b.corner ? a.corner < b.corner : a.number < b.number;
+  });
+  for (std::size_t n = 0; n < corners_.size();) {
+    const std::uint32_t facet = of_faces[corners_[n].number / 4];
+    const std::size_t c = corners_[n].number % 4;
+    const Bearers by = surface_.bearers(facet, c);
+    Vertex vertex{.first = static_cast<std::uint32_t>(bearings_.size()), .n = by.n};
+    vertex.offset = surface_.rest(facet, c);
+    // Weights of a cell hold the place itself.
+    if (by.n > 0) vertex.offset -= by.mean([this](Index node) { return moving_.body().rest_position(node); });
+    if (by.n > 1) vertex.offset.setZero();
+    for (std::uint32_t b = 0; b < by.n; ++b)
+      bearings_.push_back({static_cast<std::uint32_t>(by.node[b]), by.weight[b]});
+    const auto number = static_cast<std::uint32_t>(vertices_.size());
+    vertices_.push_back(vertex);
+    for (const std::int64_t corner = corners_[n].corner; n < corners_.size() && corners_[n].corner == corner;
+         ++n)
+      faces_[corners_[n].number / 4].vertex[corners_[n].number % 4] = number;
+  }
+}
+
+/// Those that carry vertices, in storage order. @return false: there is no room for all
+bool FacePress::find_nodes() noexcept {
+  nodes_.clear();
+  order_.clear();
+  for (std::uint32_t b = 0; b < bearings_.size(); ++b)
+    order_.emplace_back(static_cast<Index>(bearings_[b].node), b);
   std::sort(order_.begin(), order_.end());
-  std::size_t n = 0;
-  while (n < order_.size()) {
+  for (std::size_t n = 0; n < order_.size();) {
     const Index cell = order_[n].first;
-    auto number = static_cast<std::uint32_t>(cell < 0 ? -cell - 1 : static_cast<Index>(nodes_.size()));
-    if (cell >= 0)
-      nodes_.push_back(
-          {.cell = cell, .inverse_mass = moving_.body().inverse_mass[static_cast<std::size_t>(cell)]});
+    if (nodes_.size() == nodes_.capacity()) return false;
     for (; n < order_.size() && order_[n].first == cell; ++n)
-      faces_[order_[n].second / 4].node[order_[n].second % 4] = number;
+      bearings_[order_[n].second].node = static_cast<std::uint32_t>(nodes_.size());
+    nodes_.push_back(
+        {.cell = cell, .inverse_mass = moving_.body().inverse_mass[static_cast<std::size_t>(cell)]});
   }
+  return true;
 }
 
 void FacePress::note_motion(bool verlet) noexcept {
   for (Node& node : nodes_) {
-    if (node.cell < 0) continue;
     node.began = moving_.position(node.cell);
     if (!verlet) {
       node.v = moving_.velocity(node.cell);

@@ -2,15 +2,15 @@
 // A rigid shape without mass that a given force presses on the faces of a body: how deep it goes, and what each node bears.
 //
 // Every face near the shape is divided into samples of an area A_s (at rest), which move with the corners of the face by their bilinear
-// weights w; d_s is the signed distance of one from the shape, o_s its gradient. In a step of dt, when the elements have moved the nodes to
+// weights, and those with the nodes that carry them (bearers.h); w is the product. d_s is the signed distance of one from the shape, o_s its gradient. In a step of dt, when the elements have moved the nodes to
 // x, the forces p_s o_s on the samples and the depth z of the shape solve
 //
 //   p_s = k A_s c_s max(0, -d_s) at x + dt^2 f / m and z,   f_i = sum_s w_si p_s o_s,   - sum_s p_s o_s . n = F
 //
 // which is the end of a step of backward Euler for contact alone: however stiff k = 100 E / h is, the step stays that of the elements. It is
-// solved by sweeps, lumped: with K_i = sum_s k A_s c_s w_si,
+// solved by sweeps, lumped: with K_i = sum_s k A_s c_s |w_si|,
 //
-//   p_s := max(0, p_s + (k A_s c_s (-d_s) - p_s) / (1 + dt^2 sum_i w_si K_i / m_i)),   z such that the sum is F in each
+//   p_s := max(0, p_s + (k A_s c_s (-d_s) - p_s) / (1 + dt^2 sum_i |w_si| K_i / m_i)),   z such that the sum is F in each
 //
 // The divisor is a bound of the row of the matrix that it stands for (Gershgorin), so no sweep goes too far; and what all sweeps together do
 // is symmetric, so it gives no energy. c_s, from 0 to 1, lets go of faces that turn away from the shape: 2 (-o_s . N), N the normal of the face. So a wall that a
@@ -103,18 +103,30 @@ class FacePress {
 
  private:
   struct Node {
-    Index cell = -1;  // -1: rigid scenery
+    Index cell = -1;
     double inverse_mass = 0;
-    Vec3 place = Vec3::Zero();  // of scenery [m]
     Vec3 x = Vec3::Zero(),
          f = Vec3::Zero();      // before contact, and by contact, in the frame of the pose [m], [N]
     Vec3 moved = Vec3::Zero();  // x + dt^2 f / m [m]
-    Vec3 seen = Vec3::Zero();   // the same when all samples were looked at last [m]
     Vec3 began = Vec3::Zero(), v = Vec3::Zero();  // see note_motion(), in the world [m], [m/s]
     double theta = 0;                             // dt^2 K / m
   };
+  struct Bearing {
+    std::uint32_t node = 0;
+    double weight = 0;
+  };
+  /// A corner of faces.
+  struct Vertex {
+    std::uint32_t first = 0, n = 0;  // of bearings_; none: rigid scenery
+    Vec3 offset = Vec3::Zero();      // from the mean of its nodes; of scenery its place, in the world [m]
+    Vec3 apart = Vec3::Zero();       // the same in the frame of the pose [m]
+    Vec3 x = Vec3::Zero(), f = Vec3::Zero(), moved = Vec3::Zero();  // as of nodes
+    Vec3 seen = Vec3::Zero();  // `moved` when all samples were looked at last [m]
+    double theta = 0;          // sum of |weight| theta
+    double K = 0;              // [N/m]
+  };
   struct Face {
-    std::array<std::uint32_t, 4> node{};
+    std::array<std::uint32_t, 4> vertex{};
     double area = 0;     // at rest [m^2]
     double reach = 0;    // from its middle to its corners [m]
     std::uint8_t n = 0;  // samples along a side
@@ -140,6 +152,9 @@ class FacePress {
   Weights weights(const Face& face, std::uint32_t at) const noexcept;
   Vec3 at(const Face& face, const Weights& w) const noexcept;
   double around() const noexcept;
+  void find_vertices(std::span<const std::uint32_t> of_faces) noexcept;
+  bool find_nodes() noexcept;
+  void move_vertices() noexcept;
   void find_depth(const ShapePose& pose) noexcept;
   void read_nodes(const ShapePose& pose) noexcept;
   void collect() noexcept;
@@ -168,10 +183,18 @@ class FacePress {
   double margin_;  // by which the depth may change before samples are collected anew [m]
   std::span<const std::uint32_t> candidates_;
   std::vector<Face> faces_;
+  std::vector<std::uint32_t> listed_;  // the facet of each
+  std::vector<Vertex> vertices_;
+  std::vector<Bearing> bearings_;
   std::vector<Node> nodes_;
-  std::vector<std::pair<Index, std::uint32_t>> order_;  // of corners, to find equal nodes
+  struct Corner {
+    std::int64_t corner = 0;  // Boundary::corner()
+    std::uint32_t number = 0;
+  };
+  std::vector<Corner> corners_;                         // of faces, by vertex
+  std::vector<std::pair<Index, std::uint32_t>> order_;  // of bearings, by node
   std::vector<Sample> samples_;
-  // Of the samples: those that press or are no clearer than near_within_. No node has moved by more than moved_by_ since all were looked
+  // Of the samples: those that press or are no clearer than near_within_. No vertex has moved by more than moved_by_ since all were looked
   // at, at the depth seen_z_. [m]
   std::vector<std::uint32_t> near_;
   double near_within_ = 0, seen_z_ = 0, moved_by_ = 0;

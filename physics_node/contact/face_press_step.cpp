@@ -18,10 +18,25 @@ constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 void FacePress::read_nodes(const ShapePose& pose) noexcept {
   for (Node& node : nodes_) {
-    const Vec3 x = node.cell < 0 ? node.place : moving_.position(node.cell);
-    node.moved = node.seen = node.x = pose.axes.transpose() * (x - pose.tip);
+    node.moved = node.x = pose.axes.transpose() * (moving_.position(node.cell) - pose.tip);
     node.f.setZero();
     node.theta = 0;
+  }
+  for (Vertex& vertex : vertices_) {
+    vertex.apart = pose.axes.transpose() * (vertex.n > 0 ? vertex.offset : Vec3(vertex.offset - pose.tip));
+    vertex.f.setZero();
+    vertex.theta = 0;
+  }
+  move_vertices();
+  for (Vertex& vertex : vertices_) vertex.seen = vertex.x = vertex.moved;
+}
+
+/// To where their nodes have moved.
+void FacePress::move_vertices() noexcept {
+  for (Vertex& vertex : vertices_) {
+    vertex.moved = vertex.apart;
+    for (std::uint32_t b = vertex.first; b < vertex.first + vertex.n; ++b)
+      vertex.moved += bearings_[b].weight * nodes_[bearings_[b].node].moved;
   }
 }
 
@@ -31,8 +46,8 @@ void FacePress::collect() noexcept {
   collected_z_ = z_;
   for (std::uint32_t f = 0; f < faces_.size(); ++f) {
     Face& face = faces_[f];
-    const Vec3 &a = nodes_[face.node[0]].x, &b = nodes_[face.node[1]].x, &c = nodes_[face.node[2]].x,
-               &d = nodes_[face.node[3]].x;
+    const Vec3 &a = vertices_[face.vertex[0]].x, &b = vertices_[face.vertex[1]].x,
+               &c = vertices_[face.vertex[2]].x, &d = vertices_[face.vertex[3]].x;
     const Vec3 middle = 0.25 * (a + b + c + d) + z_ * Vec3::UnitZ();
     // Why more than the reach: corners have moved since the frame began.
     if (distance(middle).distance > 1.1 * face.reach + 2 * margin_) continue;
@@ -57,7 +72,7 @@ void FacePress::collect() noexcept {
 double FacePress::part(const Sample& sample) const noexcept {
   const Face& face = faces_[sample.face];
   double theta = 0;
-  for (std::size_t k = 0; k < 4; ++k) theta += sample.w[k] * nodes_[face.node[k]].theta;
+  for (std::size_t k = 0; k < 4; ++k) theta += sample.w[k] * vertices_[face.vertex[k]].theta;
   return 1 / (1 + theta);
 }
 
@@ -75,7 +90,7 @@ void FacePress::keep_near(double within) noexcept {
 }
 
 void FacePress::look_at_all(double z) noexcept {
-  for (Node& node : nodes_) node.seen = node.moved;
+  for (Vertex& vertex : vertices_) vertex.seen = vertex.moved;
   for (Sample& sample : samples_) {
     sample.x = at(faces_[sample.face], sample.w);
     sample.part = part(sample);
@@ -107,8 +122,8 @@ FacePress::Balance FacePress::look(double z) noexcept {
 double FacePress::nearest() const noexcept {
   double least = unbounded;
   for (const Face& face : faces_) {
-    const Vec3 normal = (nodes_[face.node[2]].x - nodes_[face.node[0]].x)
-                            .cross(nodes_[face.node[3]].x - nodes_[face.node[1]].x);
+    const Vec3 normal = (vertices_[face.vertex[2]].x - vertices_[face.vertex[0]].x)
+                            .cross(vertices_[face.vertex[3]].x - vertices_[face.vertex[1]].x);
     for (int n = 0; n < face.n * face.n; ++n) {
       const Vec3 x = at(face, weights(face, static_cast<std::uint32_t>(n)));
       const RigidShape::Distance d = distance(x + z_ * Vec3::UnitZ());
@@ -146,16 +161,22 @@ FacePress::Found FacePress::balance(const PressBy& by) noexcept {
 /// dt^2 K_i / m_i, and the parts by it. @param all  of all samples, rather than of what presses now
 void FacePress::lump(double dt, bool all) noexcept {
   for (Node& node : nodes_) node.theta = 0;
+  for (Vertex& vertex : vertices_) vertex.K = vertex.theta = 0;
   for (const std::uint32_t s : near_) {
     const Sample& sample = samples_[s];
     if (!all && sample.next <= 0) continue;
     const Face& face = faces_[sample.face];
-    const Weights& w = sample.w;
-    for (std::size_t k = 0; k < 4; ++k) {
-      Node& node = nodes_[face.node[k]];
-      node.theta += dt * dt * node.inverse_mass * w[k] * sample.k * sample.c;
-    }
+    for (std::size_t k = 0; k < 4; ++k) vertices_[face.vertex[k]].K += sample.w[k] * sample.k * sample.c;
   }
+  const auto each_bearing = [this](const auto& visit) {
+    for (Vertex& vertex : vertices_)
+      for (std::uint32_t b = vertex.first; b < vertex.first + vertex.n; ++b)
+        visit(vertex, nodes_[bearings_[b].node], std::abs(bearings_[b].weight));
+  };
+  each_bearing([&](const Vertex& vertex, Node& node, double w) {
+    node.theta += dt * dt * node.inverse_mass * w * vertex.K;
+  });
+  each_bearing([](Vertex& vertex, const Node& node, double w) { vertex.theta += w * node.theta; });
   for (const std::uint32_t s : near_) samples_[s].part = part(samples_[s]);
 }
 
@@ -178,31 +199,35 @@ FacePress::Found FacePress::sweep(const PressBy& by, double dt, bool first) noex
   const double force = by.at(z_);
   if (!(pressed > 0 && force > 0)) return Found::nothing;
   for (Node& node : nodes_) node.f.setZero();
+  for (Vertex& vertex : vertices_) vertex.f.setZero();
   for (const std::uint32_t s : near_) {
     Sample& sample = samples_[s];
     sample.p = force / pressed * sample.next;
     if (sample.p <= 0) continue;
     const Face& face = faces_[sample.face];
     const Weights& w = sample.w;
-    for (std::size_t k = 0; k < 4; ++k) nodes_[face.node[k]].f += w[k] * sample.p * sample.o;
+    for (std::size_t k = 0; k < 4; ++k) vertices_[face.vertex[k]].f += w[k] * sample.p * sample.o;
   }
+  for (const Vertex& vertex : vertices_)
+    for (std::uint32_t b = vertex.first; b < vertex.first + vertex.n; ++b)
+      nodes_[bearings_[b].node].f += bearings_[b].weight * vertex.f;
+  for (Node& node : nodes_) node.moved = node.x + dt * dt * node.inverse_mass * node.f;
+  move_vertices();
   moved_by_ = 0;
-  for (Node& node : nodes_) {
-    node.moved = node.x + dt * dt * node.inverse_mass * node.f;
-    moved_by_ = std::max(moved_by_, (node.moved - node.seen).norm());
-  }
+  for (const Vertex& vertex : vertices_) moved_by_ = std::max(moved_by_, (vertex.moved - vertex.seen).norm());
   return Found::here;
 }
 
 void FacePress::share_out(const ShapePose& pose) noexcept {
   borne_.setZero();
   normal_ = pose.normal();
+  for (const Vertex& vertex : vertices_)
+    if (vertex.n == 0) borne_ += pose.axes * vertex.f;  // by scenery
   for (std::uint32_t n = 0; n < nodes_.size(); ++n) {
     const Node& node = nodes_[n];
     if (node.f.isZero()) continue;
     const Vec3 f = pose.axes * node.f;
     borne_ += f;
-    if (node.cell < 0) continue;
     forces_.push_back({node.cell, f});
     bears_.push_back(n);
   }

@@ -96,29 +96,40 @@ bool StickFaces::has_changed(const Stick& stick, double reach) const noexcept {
 LeadWork StickFaces::give_way(std::uint32_t facet, const Corners& corner, const FaceHit& hit,
                               const Stick& before, const Stick& now, const Vec3& origin, double dt,
                               ContactSum& sum) noexcept {
-  std::array<std::uint32_t, 3> which{};
-  std::array<Index, 3> cells{};
-  std::array<Vec3, 3> rest, x, v, v_move;
-  std::array<double, 3> weight{}, inverse_mass{};
+  constexpr std::size_t most = 24;  // three corners of eight masses
+  std::array<std::uint32_t, most> which{};
+  std::array<Index, most> cells{};
+  std::array<Vec3, most> rest, x, v, v_move;
+  std::array<double, most> weight{}, inverse_mass{};
   std::size_t n = 0;
   double W = 0, held = 0;
   Vec3 x_0 = Vec3::Zero(), v_p = Vec3::Zero(), v_moved = Vec3::Zero();
   for (std::size_t c = 0; c < 3; ++c) {
     const double w = hit.weight[static_cast<Eigen::Index>(c)];
-    const Index cell = surface_->mass(facet, corner[c]);
-    if (cell < 0) {  // of the scenery, which stays
+    const Bearers by = surface_->bearers(facet, corner[c]);
+    if (by.n == 0) {  // of the scenery, which stays
       x_0 += w * surface_->position(facet, corner[c], *model_);
       held += w * w / model_->body().law.mass;
       continue;
     }
-    which[n] = static_cast<std::uint32_t>(n);
-    cells[n] = cell;
-    rest[n] = model_->body().rest_position(cell);
-    weight[n] = w;
-    inverse_mass[n] = model_->body().inverse_mass[static_cast<std::size_t>(cell)];
-    W += w * w * inverse_mass[n];
-    if (inverse_mass[n] == 0) held += w * w / node_mass(model_->body(), cell);
-    ++n;
+    const auto rest_of = [this](Index node) { return model_->body().rest_position(node); };
+    if (by.n == 1) x_0 += w * (surface_->rest(facet, corner[c]) - rest_of(by.node[0]));
+    for (std::uint32_t b = 0; b < by.n; ++b) {
+      std::size_t at = 0;
+      while (at < n && cells[at] != by.node[b]) ++at;
+      if (at == n) {
+        which[n] = static_cast<std::uint32_t>(n);
+        cells[n] = by.node[b];
+        rest[n] = rest_of(by.node[b]);
+        inverse_mass[n] = model_->body().inverse_mass[static_cast<std::size_t>(by.node[b])];
+        ++n;
+      }
+      weight[at] += w * by.weight[b];
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    W += weight[i] * weight[i] * inverse_mass[i];
+    if (inverse_mass[i] == 0) held += weight[i] * weight[i] / node_mass(model_->body(), cells[i]);
   }
   LeadWork led;
   if (!(W > 0)) return led;  // nothing there gives way
@@ -132,7 +143,7 @@ LeadWork StickFaces::give_way(std::uint32_t facet, const Corners& corner, const 
   const Vec3 axis_motion = now.axis_point(hit.t) - before.axis_point(hit.t);
   const double depth = std::min(hit.depth, dt * (exit_speed + axis_motion.norm() / dt + v_moved.norm()));
   const double J = depth / (dt * yielding);
-  std::array<NodalPush, 3> pushes;
+  std::array<NodalPush, most> pushes;
   for (std::size_t i = 0; i < n; ++i) pushes[i] = {cells[i], J * weight[i] * inverse_mass[i] * hit.push};
   model_->push({pushes.data(), n}, dt);
   const bool carried = (x_0 - before.axis_point(before.nearest(x_0))).norm() < now.radius + carried_within;

@@ -33,8 +33,9 @@ void StickSurface::look(const Stick& stick, double t) noexcept {
 /// Does a mass at its corners move?
 bool StickSurface::gives(std::uint32_t facet) const noexcept {
   for (std::size_t corner = 0; corner < 4; ++corner) {
-    const Index mass = surface_.mass(facet, corner);
-    if (mass >= 0 && moving_.body().inverse_mass[static_cast<std::size_t>(mass)] > 0) return true;
+    const Bearers by = surface_.bearers(facet, corner);
+    for (std::uint32_t b = 0; b < by.n; ++b)
+      if (moving_.body().inverse_mass[static_cast<std::size_t>(by.node[b])] > 0) return true;
   }
   return false;
 }

@@ -40,7 +40,7 @@ ToolContact::ToolContact(const Boundary& surface, const NodeMotion& moving, doub
   reach_ = radius_ + farther + search_margin;
   near_.reserve(8 * room);
   facets_.reserve(room);
-  shares_.reserve(4 * room);
+  shares_.reserve(32 * room);
 }
 
 void ToolContact::look(const Vec3& p, double t) noexcept {
@@ -173,9 +173,9 @@ void ToolContact::find_shares(const Vec3& q) noexcept {
     const double w = weight(facet, foot, plane.normal);
     if (w <= 0) continue;
     for (std::size_t corner = 0; corner < 4; ++corner) {
-      const Index mass = surface_.mass(facet.id, corner);
-      if (mass < 0 || shares_.size() == shares_.capacity()) continue;
-      shares_.push_back({mass, w / (4 * sum)});
+      const Bearers by = surface_.bearers(facet.id, corner);
+      for (std::uint32_t b = 0; b < by.n && shares_.size() < shares_.capacity(); ++b)
+        shares_.push_back({by.node[b], by.weight[b] * w / (4 * sum)});
     }
   }
   merge_equal_masses(shares_);

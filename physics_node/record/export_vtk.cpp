@@ -53,10 +53,9 @@ class ExportedBody {
     VtpMesh mesh = facets(true, vertices);
     VtpArray displacement{"displacement", 3, {}};
     for (const std::uint32_t v : vertices) {
-      const std::size_t n = moves(v) ? number_of(v) : 0;
+      const Vec3 place = moves(v) ? place_of(v, position) : surface_.rest[v];
       for (int a = 0; a < 3; ++a) {
-        const auto rest = static_cast<float>(surface_.rest[v][a]);
-        const float now = moves(v) ? position[3 * n + static_cast<std::size_t>(a)] : rest;
+        const auto rest = static_cast<float>(surface_.rest[v][a]), now = static_cast<float>(place[a]);
         mesh.points.push_back(now);
         displacement.values.push_back(now - rest);
       }
@@ -90,6 +89,17 @@ class ExportedBody {
   bool moves(std::uint32_t vertex) const { return vertex < surface_.n_moving(); }
   std::size_t number_of(std::uint32_t vertex) const {
     return number_[static_cast<std::size_t>(surface_.cell[vertex])];
+  }
+  /// @param position  of each mass, as recorded
+  Vec3 place_of(std::uint32_t vertex, const std::vector<float>& position) const {
+    const auto at = [&](Index node) {
+      const float* p = &position[3 * number_[static_cast<std::size_t>(node)]];
+      return Vec3(p[0], p[1], p[2]);
+    };
+    if (surface_.bearers.empty()) return at(surface_.cell[vertex]);
+    return surface_.rest[vertex] + surface_.bearers[vertex].mean([&](Index node) {
+      return Vec3(at(node) - body().rest_position(node));
+    });
   }
 
   VtpArray yielded_share(std::uint64_t row, const std::vector<std::uint32_t>& vertices) const {

@@ -47,8 +47,8 @@ TEST(Elements, OfAModulusThatIsRefusedAreNotSaidToHaveNone) {
 TEST(Elements, MayFillTheCellsAtTheirBorder) {
   const std::string tissue = "density_kg_per_m3 = 1000\nmodulus_kPa = 10\n",
                     filled = "border_cells = \"filled\"";
-  EXPECT_EQ(parsed(elements(tissue)).bodies[0].border_cells, BorderCells::whole);
-  EXPECT_EQ(parsed(elements(tissue) + filled).bodies[0].border_cells, BorderCells::filled);
+  EXPECT_EQ(parsed(elements(tissue)).bodies[0].border.cells, BorderCells::whole);
+  EXPECT_EQ(parsed(elements(tissue) + filled).bodies[0].border.cells, BorderCells::filled);
   EXPECT_THAT(complaints_about(elements(tissue) + "border_cells = \"smooth\""),
               ElementsAre(HasSubstr("write \"whole\" or \"filled\"")));
   std::string springs = elements(tissue) + filled;

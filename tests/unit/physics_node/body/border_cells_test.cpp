@@ -85,7 +85,7 @@ TEST(BorderCells, OfAnImageFollowTheIntensityBetweenItsCells) {
   for (const auto& [from, expected] : {std::pair{275.0, 0.75}, {320.0, 0.3}, {295.0, 0.55}}) {
     BodySpec spec = volume_body(path, from, 1000);
     spec.model = ElementModel::fem;
-    spec.border_cells = BorderCells::filled;
+    spec.border.cells = BorderCells::filled;
     const Cells cells = make_cells(spec);
     // The border lies at from / 100 + 1/2 cells from the edge; a look in four finds it to an eighth.
     EXPECT_NEAR(static_cast<double>(cells.share_of(3, 1, 1)), expected, 0.126) << from;
@@ -102,7 +102,7 @@ TEST(BorderCells, AreNotOfAPieceThatIsLeftOut) {
   write_volume(made_volume({9, 3, 3}, [](int i, int, int) { return i == 5 || i == 6 ? 40.F : 200.F; }), path);
   BodySpec spec = volume_body(path, 100, 1000);
   spec.model = ElementModel::fem;
-  spec.border_cells = BorderCells::filled;
+  spec.border.cells = BorderCells::filled;
   std::get<VolumeShape>(spec.shape).largest_component = true;
   const Cells cells = make_cells(spec);
   EXPECT_EQ(cells.share_of(4, 1, 1), 1.0F);

@@ -1,0 +1,43 @@
+#pragma once
+// Who carries the vertices of a smooth skin while its body breaks. Where the cell goes that carried one, the next that lives around
+// its corner takes it on, at the same place of the body at rest.
+
+#include <optional>
+#include <span>
+
+#include "physics_node/boundary/cut_cells.h"
+#include "physics_node/boundary/smooth_skin.h"
+#include "physics_node/boundary/surface.h"
+#include "physics_node/step/topology.h"
+
+namespace palpate::physics {
+
+class LiveSkin {
+ public:
+  /// @param moving, as_loaded  outlive it
+  LiveSkin(const Topology& moving, const Surface& as_loaded);
+
+  const Bearers& bearers(std::uint32_t vertex) const noexcept { return now_[vertex]; }
+  /// The vertex that facets have which open at this mass; none: the mass itself is their corner.
+  std::optional<std::uint32_t> vertex_of(Index mass) const noexcept {
+    const std::uint32_t vertex = first_[static_cast<std::size_t>(mass)];
+    return vertex == none ? std::nullopt : std::optional(vertex);
+  }
+
+  /// As loaded, whatever is gone. Allocates nothing.
+  void restart() noexcept;
+  /// A cell has changed. Allocates nothing. Cost: its eight corners, 64 cells.
+  void look_at(const Vec3i& cell) noexcept;
+
+ private:
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
+
+  const Surface& as_loaded_;
+  SmoothSkin skin_;
+  CellsNow cells_;
+  std::vector<Bearers> now_;          // (n_moving)
+  std::vector<std::uint32_t> first_;  // vertex of each mass, that of its first fan  (n_cells of the lattice)
+  std::vector<std::uint32_t> next_;   // of the same mass  (n_moving)
+};
+
+}  // namespace palpate::physics
