@@ -166,6 +166,8 @@ void BodyPicture::apply(const VertexBlock& block) {
 
 void BodyPicture::refresh() {
   if (rebuild_) {
+    // Why: five passes make a staircase look even, and would wipe the face off a head.
+    normals_.set_passes(is_smooth_skin(rest_, surface_.corners) ? 1 : SurfaceNormals::for_stairs);
     normals_.rebuild(surface_.position, surface_.corners);
     for (std::size_t v = 0; v < packed_.size(); ++v) pack(v);
   } else if (!moved_.empty()) {

@@ -32,6 +32,22 @@ Vector3f corner_sum(const std::vector<Vector3f>& normal, const Corners& c) {
 
 SurfaceNormals::SurfaceNormals(int passes) : levels_(static_cast<std::size_t>(std::max(passes, 0)) + 1) {}
 
+void SurfaceNormals::set_passes(int passes) {
+  levels_.resize(static_cast<std::size_t>(std::max(passes, 0)) + 1);
+}
+
+bool is_smooth_skin(std::span<const Array3f> rest, std::span<const Corners> corners) {
+  constexpr float along = 0.9999F;  // cosine
+  std::size_t facets = 0, slanted = 0;
+  for (const Corners& c : corners) {
+    if (is_loose(c)) continue;
+    ++facets;
+    const Vector3f normal = unit_or_zero(area_vector(rest, c));
+    if (c[2] != c[3] && normal.cwiseAbs().maxCoeff() < along) ++slanted;
+  }
+  return 2 * slanted > facets;
+}
+
 std::span<const std::uint32_t> SurfaceNormals::facets_at(std::uint32_t vertex) const noexcept {
   return {facet_.data() + first_[vertex], facet_.data() + first_[vertex + 1]};
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Smooth normals of a surface whose facets are voxel faces, that is a staircase.
+// Smooth normals of a surface whose facets are faces of a lattice, that is a staircase; of one that is smooth itself.
 //
 //   n_v^0 = unit of the sum of (twice the) area vectors of the facets at vertex v
 //   n_v^p = unit of the sum over the facets at v of the sum of n^(p-1) over their corners,  p = 1 .. passes
@@ -18,8 +18,12 @@ namespace palpate::render {
 
 class SurfaceNormals {
  public:
+  static constexpr int for_stairs = 5;
   /// @param passes  of smoothing, >= 0
-  explicit SurfaceNormals(int passes = 5);
+  explicit SurfaceNormals(int passes = for_stairs);
+
+  /// From the next rebuild() on. @param passes  >= 0
+  void set_passes(int passes);
 
   /// Everything anew. @param position,corners as in Surface
   void rebuild(std::span<const Array3f> position, std::span<const Corners> corners);
@@ -44,5 +48,8 @@ class SurfaceNormals {
   std::uint32_t round_ = 0;
   std::vector<std::vector<Eigen::Vector3f>> levels_;  // n^0 .. n^passes                  (each n_vertices)
 };
+
+/// Is it a smooth skin of cells: most of its facets have four corners, and lie along no plane of a lattice? At rest.
+bool is_smooth_skin(std::span<const Array3f> rest, std::span<const Corners> corners);
 
 }  // namespace palpate::render
