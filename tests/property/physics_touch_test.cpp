@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bench/solids/driven_body.h"
 #include "bench/solids/shape_press.h"
 #include "common/message/vec3.h"
 #include "common/scene/physics_spec.h"
@@ -13,6 +14,7 @@
 #include "physics_node/contact/point_tool.h"
 #include "physics_node/world.h"
 #include "tests/support/physics/small_worlds.h"
+#include "tests/support/physics/smooth_image.h"
 
 namespace palpate::physics::test {
 namespace {
@@ -121,6 +123,45 @@ TEST(Touch, OfASphereIsHertz) {
 }
 
 /// Slid by three cells under the same force, slowly: how the depth changes on the way.
+/// An image of a half space that leans, pressed square to it: how the skin lies in the cells should not be felt. [m] of depth
+double depth_on_slope(double degrees, SkinKind skin, BorderCells border) {
+  const double angle = degrees * std::numbers::pi / 180;
+  const Vec3 out(std::sin(angle), 0, std::cos(angle)), at(0.1, 0.2, 8.6);  // [mm]
+  SmoothImage image;
+  image.size = {36, 30, 24};
+  image.phi = [=](const Vec3& p) { return (at - p).dot(out); };
+  image.skin = skin;
+  image.border = border;
+  image.fixed = {false, false, false, false, true, false};
+  bench::DrivenBody body(image.body(), Precision::single_);
+  const Boundary surface(body.model(), 0.02);
+  FacePress press(surface, body.model(), RigidShape::sphere(0.006));
+  const ShapePose pose = pose_along(1e-3 * at, out);
+  std::vector<std::uint32_t> near;
+  for (std::uint32_t f = 0; f < surface.surface().facets.size(); ++f)
+    if ((surface.settled_centroid(f) - pose.tip).norm() < 0.016) near.push_back(f);
+  body.after_step = [&](double dt) {
+    press.list(pose, near);
+    press.press(pose, 0.2, dt);
+    body.model().kick(press.forces(), dt);
+  };
+  EXPECT_TRUE(body.settle(1e-7, 20000));
+  return press.depth();
+}
+
+TEST(Touch, OfASlopeIsThatOfAPlane) {
+  const double flat = depth_on_slope(0, SkinKind::smooth, BorderCells::filled);
+  for (const double degrees : {8.0, 17.0, 30.0}) {
+    const double smooth = depth_on_slope(degrees, SkinKind::smooth, BorderCells::filled) / flat,
+                 whole = depth_on_slope(degrees, SkinKind::smooth, BorderCells::whole) / flat,
+                 bricks = depth_on_slope(degrees, SkinKind::bricks, BorderCells::whole) / flat;
+    std::printf("leans by %4.1f degrees: depth of %.3f mm times %.3f; border cells whole %.3f; bricks %.3f\n",
+                degrees, 1e3 * flat, smooth, whole, bricks);
+    EXPECT_NEAR(smooth, 1, 0.05) << degrees;
+    EXPECT_NEAR(whole, 1, 0.1) << degrees;
+  }
+}
+
 TEST(Touch, SlidesOverFacesWithoutAHop) {
   World world(scene_of(block(5)));
   Hand hand;

@@ -71,6 +71,8 @@ INSTANTIATE_TEST_SUITE_P(
         {body(knife + "\ntheta_deg = [0, \"up\", 0]"), "9:17", "is \"up\"; write a finite number"},
         {body(knife + "\nlattice = \"voxel\""), "9:11",
          "a knife or needle stands on an \"fcc\" lattice; leave \"lattice\" out"},
+        {body(box + "\nskin = \"smooth\""), "8:8",
+         "\"skin\" is of cells; write lattice = \"voxel\", or leave \"skin\" out"},
         {body("shape = \"needle\"\nlength_mm = 40\ndiameter_mm = 6"), "4:1",
          "lacks \"theta_deg\"; give [swing, twist, rotation, sharpening]"},
         {body("shape = \"needle\"\ndiameter_mm = 6\ntheta_deg = [0, 0, 0, 30]"), "4:1",

@@ -107,6 +107,7 @@ TEST_F(SceneMesh, RefusesWhatIsOfOtherShapes) {
            {"spacing_mm = 2", "a mesh brings its own spacing"},
            {"hourglass = \"physical\"", "\"hourglass\" is of cells"},
            {"border_cells = \"filled\"", "\"border_cells\" is of cells"},
+           {"skin = \"smooth\"", "\"skin\" is of cells"},
            {"handle = [\"+z\"]", "a mesh cannot be led by a hand"},
            {"cavity = [{ center_mm = [0, 0, 0], radius_mm = 1 }]", "nothing can be cut out of a mesh"},
            {"model = \"springs\"", "a mesh is of finite elements"},
