@@ -9,16 +9,27 @@
 
 namespace palpate {
 
-enum class CommandKind : std::uint32_t { pause, resume, reset, threshold, record, material, device, stop };
-inline constexpr std::uint32_t n_command_kinds = 8;
+enum class CommandKind : std::uint32_t {
+  pause,
+  resume,
+  reset,
+  threshold,
+  record,
+  material,
+  device,
+  stop,
+  section
+};
+inline constexpr std::uint32_t n_command_kinds = 9;
 
 /// render, palpate -> physics, haptic.
 struct Command {
   std::uint64_t id = 0;  // grows per writer; a repeated id is ignored
   CommandKind kind = CommandKind::pause;
   double value =
-      0;  // pause: frames to go on by first, 0 or more; threshold: intensity; record: 0 or 1; device: 1 ends a fault
-  std::array<char, 64> name{};  // material, or tool whose device it is about
+      0;  // pause: frames to go on by first, 0 or more; threshold: intensity; record: 0 or 1; device: 1 ends a fault;
+          // section: where it cuts the axis [m]
+  std::array<char, 64> name{};  // material, tool whose device it is about, or axis of the section: section_name()
 
   template <class Visit>
   static constexpr void fields(Visit&& visit) {

@@ -24,6 +24,19 @@ void read_camera(TableReader& render, ReadContext& context) {
   reader.refuse_left_over();
 }
 
+void read_section(TableReader& render, ReadContext& context) {
+  const auto* table = render.read_table("section");
+  if (table == nullptr) return;
+  TableReader reader(*table, "section of [render]", context.complaints);
+  reader.require("axis", "write the axis that it lies across: \"x\", \"y\" or \"z\"");
+  reader.require("at_mm", "write where on that axis it lies");
+  SectionSpec section;
+  if (const auto axis = reader.read_word("axis", {"x", "y", "z"})) section.axis = static_cast<int>(*axis);
+  if (const auto at = reader.read_number("at_mm", {.lo = -1e6, .hi = 1e6})) section.at = m_from_mm(*at);
+  context.scene.render->section = section;
+  reader.refuse_left_over();
+}
+
 }  // namespace
 
 void read_render(TableReader& root, ReadContext& context) {
@@ -34,6 +47,7 @@ void read_render(TableReader& root, ReadContext& context) {
   if (const auto size = reader.read_integers("size_px", 2, "[width, height]", 16, 8192))
     render.size_px = {(*size)[0], (*size)[1]};
   read_camera(reader, context);
+  read_section(reader, context);
   render.threshold = reader.read_number("threshold");
   if (const auto shown =
           reader.read_words("show", {"tool", "force", "panels", "wire", "fragments", "displacement"})) {

@@ -10,16 +10,32 @@
 
 namespace palpate::physics {
 Appearance::Appearance(const World& world, std::optional<double> threshold, Remake how)
-    : world_(world), views_(world.n_bodies()), threshold_(threshold), how_(how) {
+    : world_(world),
+      views_(world.n_bodies()),
+      threshold_(threshold),
+      section_(world.scene().render->section),
+      how_(how) {
   restored_ = world.report().restored;
   for (std::size_t b = 0; b < views_.size(); ++b) {
+    views_[b].body = b;
+    views_[b].number = static_cast<std::uint32_t>(b);
     copy(b);
     views_[b].breaks = world.body(b).losses().breaks;
-    views_[b].shown = NumberedSurface(surface_of(b));
-    begin_whole(views_[b]);
   }
   for (std::size_t c = 0; c < world.n_connections(); ++c)
     strands_.emplace_back(world.connection(c), static_cast<std::uint32_t>(views_.size() + c), strand_colour);
+  auto number = static_cast<std::uint32_t>(views_.size() + strands_.size());
+  for (const std::size_t b : bodies_with_section(world.scene())) {
+    View& view = views_.emplace_back();
+    view.body = b;
+    view.number = number++;
+    view.grey = grey_scale_of(*world.body(b).body().cells);
+  }
+  for (std::size_t v = 0; v < views_.size(); ++v) {
+    if (is_out(views_[v])) continue;
+    views_[v].shown = NumberedSurface(surface_of(v));
+    begin_whole(views_[v]);
+  }
 }
 
 /// What a surface is made from, so that the body may move on.
@@ -36,10 +52,14 @@ void Appearance::copy(std::size_t body) {
 }
 
 /// From copies and what is constant: safe in another thread.
-Surface Appearance::surface_of(std::size_t body) const {
-  const Body& constant = world_.body(body).body();
-  const View& view = views_[body];
-  const std::uint32_t rgba = body_colour(world_.scene(), body);
+Surface Appearance::surface_of(std::size_t v) const {
+  const View& view = views_[v];
+  const Body& constant = world_.body(view.body).body();
+  const std::uint32_t rgba = body_colour(world_.scene(), view.body);
+  if (view.grey) {
+    if (!section_) return {};
+    return section_surface(constant, *views_[view.body].live, *section_, *view.grey, rgba);
+  }
   Surface surface = make_surface(constant, *view.live, threshold_, rgba);
   add_loose_parts(constant, *view.live, threshold_, rgba, surface);
   if (view.colours != nullptr) view.colours->paint(surface);
@@ -48,9 +68,12 @@ Surface Appearance::surface_of(std::size_t body) const {
 
 /// Safe in another thread as long as nothing is shown meanwhile.
 Appearance::Made Appearance::make(const Job& job) const {
-  const NumberedSurface& shown = views_[job.body].shown;
-  Surface surface = surface_of(job.body);
-  Made made{job.body, std::nullopt, shown.delta_to(surface)};
+  const View& view = views_[job.view];
+  const NumberedSurface& shown = view.shown;
+  Surface surface = surface_of(job.view);
+  // Of a section that was somewhere else nothing is as before.
+  if (view.grey) return {job.view, NumberedSurface(std::move(surface)), {}};
+  Made made{job.view, std::nullopt, shown.delta_to(surface)};
   const std::size_t pages = ChangePages::most_pages(job.listed.vertices + made.delta.vertices.size(),
                                                     job.listed.facets + made.delta.facets.size());
   const std::size_t chunks = n_chunks(surface.n_vertices(), surface.facets.size());
@@ -61,7 +84,7 @@ Appearance::Made Appearance::make(const Job& job) const {
 }
 
 void Appearance::show(Made made) {
-  View& view = views_[made.body];
+  View& view = views_[made.view];
   if (made.whole) {
     view.shown = std::move(*made.whole);
     return begin_whole(view);
@@ -85,9 +108,11 @@ void Appearance::begin_whole(View& view) {
   view.blocks.begin(view.shown.n_vertices());
 }
 
-void Appearance::publish_anew(std::size_t body) {
-  if (body < views_.size()) return begin_whole(views_[body]);
-  strands_.at(body - views_.size()).publish_anew();
+void Appearance::publish_anew(std::size_t number) {
+  for (View& view : views_)
+    if (view.number == number && !is_out(view)) return begin_whole(view);
+  if (const std::size_t strands = number - world_.n_bodies(); number >= world_.n_bodies() && strands < strands_.size())
+    strands_[strands].publish_anew();
 }
 
 void Appearance::set_threshold(double threshold) {
@@ -95,12 +120,21 @@ void Appearance::set_threshold(double threshold) {
   poll();
 }
 
-/// Bodies whose surface is not that of their live elements and the threshold any more; takes note of both.
+void Appearance::set_section(const std::optional<SectionSpec>& section) {
+  wanted_section_ = section;
+  poll();
+}
+
+/// Those whose surface is not that of their live elements, the threshold and the section any more; takes note of all.
 std::vector<Appearance::Job> Appearance::outdated() {
   std::vector<Job> jobs;
   const bool went_back = world_.report().restored != restored_;
   restored_ = world_.report().restored;
-  for (std::size_t b = 0; b < views_.size(); ++b) {
+  const bool by_section = wanted_section_ && *wanted_section_ != section_;
+  if (wanted_section_) section_ = *wanted_section_;
+  wanted_section_.reset();
+  std::vector<bool> broke(world_.n_bodies());
+  for (std::size_t b = 0; b < broke.size(); ++b) {
     const BodyModel& moving = world_.body(b);
     const Body& body = moving.body();
     const bool by_threshold = wanted_ && body.cells && !body.cells->intensity.empty();
@@ -110,9 +144,12 @@ std::vector<Appearance::Job> Appearance::outdated() {
       by_breaks = went_back || breaks != views_[b].breaks;
       views_[b].breaks = breaks;
       if (by_breaks) copy(b);
+      broke[b] = by_breaks;
     }
     if (by_threshold || by_breaks) jobs.push_back({b, views_[b].listed});
   }
+  for (std::size_t v = broke.size(); v < views_.size(); ++v)
+    if (section_ && (by_section || broke[views_[v].body])) jobs.push_back({v, {}});
   if (wanted_) threshold_ = wanted_;
   wanted_.reset();
   return jobs;
@@ -139,11 +176,10 @@ bool Appearance::poll() {
 
 int Appearance::write_surfaces(const SurfaceSinks& sinks) {
   int samples = 0;
-  for (std::size_t b = 0; b < views_.size(); ++b) {
-    View& view = views_[b];
+  for (View& view : views_) {
     if (view.due == Due::nothing) continue;
     const bool whole = view.due == Due::whole;
-    const int written = whole ? write_whole(b, sinks.whole) : write_change(b, sinks.change);
+    const int written = whole ? write_whole(view, sinks.whole) : write_change(view, sinks.change);
     samples += written;
     view.due = Due::nothing;
     const std::size_t bytes = static_cast<std::size_t>(written) * (whole ? chunk_bytes : page_bytes);
@@ -159,8 +195,7 @@ int Appearance::write_surfaces(const SurfaceSinks& sinks) {
 }
 
 /// @return pages
-int Appearance::write_change(std::size_t body, const std::function<void(const SurfaceChange&)>& sink) {
-  View& view = views_[body];
+int Appearance::write_change(View& view, const std::function<void(const SurfaceChange&)>& sink) {
   new_vertices_.clear();
   for (std::size_t v = view.n_told; v < view.shown.n_vertices(); ++v)
     new_vertices_.push_back(float_of(view.shown.rest(v)));
@@ -174,11 +209,10 @@ int Appearance::write_change(std::size_t body, const std::function<void(const Su
 }
 
 /// @return chunks
-int Appearance::write_whole(std::size_t body, const std::function<void(const BodySurface&)>& sink) {
-  View& view = views_[body];
+int Appearance::write_whole(View& view, const std::function<void(const BodySurface&)>& sink) {
   const NumberedSurface& surface = view.shown;
   BodySurface& out = *chunk_;
-  out.body = static_cast<std::uint32_t>(body);
+  out.body = view.number;
   out.revision = view.revision;
   out.facets_hidden = static_cast<std::uint32_t>(surface.hidden());
   out.rigid = surface.is_rigid() ? 1 : 0;
@@ -194,11 +228,11 @@ int Appearance::write_blocks(const std::function<void(const VertexBlock&)>& sink
   int blocks = 0;
   block_->tick = static_cast<std::uint64_t>(world_.report().frames);
   block_->t = world_.t();
-  for (std::size_t b = 0; b < views_.size(); ++b) {
-    View& view = views_[b];
-    block_->body = static_cast<std::uint32_t>(b);
+  for (View& view : views_) {
+    if (is_out(view)) continue;
+    block_->body = view.number;
     block_->revision = view.revision;
-    blocks += view.blocks.write(view.shown, world_.body(b), *block_, sink);
+    blocks += view.blocks.write(view.shown, world_.body(view.body), *block_, sink);
   }
   for (StrandPicture& strands : strands_) blocks += strands.write_blocks(*block_, sink);
   return blocks;
@@ -211,9 +245,11 @@ void Appearance::resend() {
 
 std::size_t Appearance::facets_visible() const {
   std::size_t n = 0;
-  for (const View& view : views_)
+  for (const View& view : views_) {
+    if (view.grey) continue;
     n += static_cast<std::size_t>(std::count_if(view.shown.facets().begin(), view.shown.facets().end(),
                                                 [](const auto& facet) { return !is_loose(facet); }));
+  }
   for (const StrandPicture& strands : strands_) n += strands.n_facets();
   return n;
 }

@@ -15,6 +15,7 @@
 #include "physics_node/appearance/numbered_surface.h"
 #include "physics_node/appearance/strand_picture.h"
 #include "physics_node/appearance/surface_bytes_report.h"
+#include "physics_node/boundary/section_surface.h"
 #include "physics_node/boundary/surface.h"
 #include "physics_node/world.h"
 
@@ -38,6 +39,9 @@ class Appearance {
   /// Shows tissue from another intensity on; poll() takes the new surfaces.
   void set_threshold(double threshold);
 
+  /// Shows another section of bodies of cells, or none; poll() takes it. It begins with the scene's.
+  void set_section(const std::optional<SectionSpec>& section);
+
   /// Takes finished surfaces, and follows elements that broke or came back: of each body that has such, a copy of its live
   /// elements goes into a new surface. Costs next to nothing where none has. Allocates: not for inside a frame.
   /// @return true if write_surfaces has something new
@@ -48,8 +52,8 @@ class Appearance {
   /// @return chunks and pages
   int write_surfaces(const SurfaceSinks& sinks);
 
-  /// The surface of this body is written whole next time: a part of it has been lost.
-  void publish_anew(std::size_t body);
+  /// The surface with this number is written whole next time: a part of it has been lost.
+  void publish_anew(std::size_t number);
 
   /// Blocks in which a vertex moved by more than a hundredth of a millimetre, or changed its flags, since they were
   /// last written. @return blocks
@@ -68,8 +72,11 @@ class Appearance {
     std::size_t vertices = 0, facets = 0;
   };
   struct View {
+    std::size_t body = 0;
+    std::uint32_t number = 0;           // to the eye
+    std::optional<GreyScale> grey;      // of a section
     NumberedSurface shown;
-    std::unique_ptr<LiveElements> live;        // what it was, or is being, made from
+    std::unique_ptr<LiveElements> live;  // what it was, or is being, made from; of a section that of its body
     std::unique_ptr<FragmentColours> colours;  // the same; null where fragments have none
     std::int64_t breaks = 0;                   // of the body then
     std::uint32_t revision = 0;
@@ -82,28 +89,31 @@ class Appearance {
   };
   /// A new surface of a body: its changes, or where those weigh too much the whole.
   struct Made {
-    std::size_t body = 0;
+    std::size_t view = 0;
     std::optional<NumberedSurface> whole;
     SurfaceDelta delta;
   };
   struct Job {
-    std::size_t body = 0;
+    std::size_t view = 0;
     Listed listed;
   };
-  Surface surface_of(std::size_t body) const;
+  Surface surface_of(std::size_t view) const;
+  bool is_out(const View& view) const { return view.grey && !section_; }  // a section where there is none
   Made make(const Job& job) const;
   std::vector<Job> outdated();
   void copy(std::size_t body);
   void show(Made made);
   void begin_whole(View& view);
-  int write_whole(std::size_t body, const std::function<void(const BodySurface&)>& sink);
-  int write_change(std::size_t body, const std::function<void(const SurfaceChange&)>& sink);
+  int write_whole(View& view, const std::function<void(const BodySurface&)>& sink);
+  int write_change(View& view, const std::function<void(const SurfaceChange&)>& sink);
 
   const World& world_;
-  std::vector<View> views_;
+  std::vector<View> views_;  // of bodies, then of sections
   std::vector<StrandPicture> strands_;
   std::optional<double> threshold_;  // of the surfaces shown or being made
   std::optional<double> wanted_;     // threshold asked for since
+  std::optional<SectionSpec> section_;  // likewise, of those shown or being made
+  std::optional<std::optional<SectionSpec>> wanted_section_;
   Remake how_;
   std::int64_t restored_ = 0;  // how often the guard had gone back when surfaces were last looked at
   std::unique_ptr<BodySurface> chunk_ = std::make_unique<BodySurface>();

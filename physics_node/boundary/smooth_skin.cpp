@@ -128,7 +128,7 @@ int SmoothSkin::fan(const Vec3i& corner, const Vec3i& cell) const noexcept {
   return all.of_octant[static_cast<std::size_t>(at.x() + 2 * at.y() + 4 * at.z())];
 }
 
-/// Of the way from the centre of a shown cell to that of one which is not. Where a threshold hides tissue it ends at that.
+/// Where a threshold hides tissue it ends at that.
 double SmoothSkin::crossing(const Vec3i& in, int axis, bool up) const noexcept {
   const Vec3i out = in + (up ? 1 : -1) * Vec3i::Unit(axis);
   const bool inside = cells_.inside(out.x(), out.y(), out.z());
@@ -167,14 +167,14 @@ Vec3 SmoothSkin::place(const Vec3i& corner, int fan) const noexcept {
   return cells_.corner + cells_.spacing.cwiseProduct(sum / n);
 }
 
-Bearers SmoothSkin::bearers_in(const Vec3i& cell, const Vec3& place) const noexcept {
-  const Vec3 xi = (place - cells_.corner).cwiseQuotient(cells_.spacing) - cell.cast<double>();
+Bearers bearers_in_cell(const Body& body, const Vec3i& shift, const Vec3i& cell, const Vec3& place) noexcept {
+  const Vec3 xi = (place - body.cells->corner).cwiseQuotient(body.cells->spacing) - cell.cast<double>();
   Bearers by;
   for (unsigned o = 0; o < 8; ++o) {
     const Vec3i at(bit(o, 0), bit(o, 1), bit(o, 2));
     double w = 1;
     for (int a = 0; a < 3; ++a) w *= at[a] != 0 ? xi[a] : 1 - xi[a];
-    const Index node = body_.lattice.mass_at(cell + at - shift_);
+    const Index node = body.lattice.mass_at(cell + at - shift);
     if (node < 0) return {};
     if (w == 0) continue;
     by.weight[by.n] = w;
@@ -196,7 +196,7 @@ Bearers SmoothSkin::bearers_among(const Vec3i& corner, int fan, const Vec3& plac
       (place - cells_.corner) - cells_.spacing.cwiseProduct(corner.cast<double>());  // from the corner [m]
   // The cell that holds it, else the nearest of its fan, else the nearest of all.
   const unsigned holder = (away.x() > 0 ? 1U : 0U) | (away.y() > 0 ? 2U : 0U) | (away.z() > 0 ? 4U : 0U);
-  if ((lives >> holder & 1) != 0) return bearers_in(cell_at(corner, holder), place);
+  if ((lives >> holder & 1) != 0) return bearers_in_cell(body_, shift_, cell_at(corner, holder), place);
   int best = -1;
   double least = std::numeric_limits<double>::infinity();
   for (const bool of_fan : {true, false}) {
@@ -213,7 +213,7 @@ Bearers SmoothSkin::bearers_among(const Vec3i& corner, int fan, const Vec3& plac
       }
       if (square < least) least = square, best = static_cast<int>(o);
     }
-    if (best >= 0) return bearers_in(cell_at(corner, static_cast<unsigned>(best)), place);
+    if (best >= 0) return bearers_in_cell(body_, shift_, cell_at(corner, static_cast<unsigned>(best)), place);
   }
   return Bearers::alone(own);
 }

@@ -23,6 +23,10 @@ struct SkinFans {
 };
 const SkinFans& skin_fans(unsigned filled) noexcept;
 
+/// Of a place in a cell or beside it, by trilinear weights; nobody where the cell has no masses.
+/// @param shift  from grid coordinates of the lattice to corners of cells
+Bearers bearers_in_cell(const Body& body, const Vec3i& shift, const Vec3i& cell, const Vec3& place) noexcept;
+
 class SmoothSkin {
  public:
   static bool is_on(const Body& body) noexcept { return body.cells && !body.cells->crossings.empty(); }
@@ -34,6 +38,8 @@ class SmoothSkin {
   const SkinFans& fans(const Vec3i& corner) const noexcept;
   /// Of the facets of a cell at its corner; -1: none, the corner lay inside the tissue or outside of it.
   int fan(const Vec3i& corner, const Vec3i& cell) const noexcept;
+  /// Of the way from the centre of a shown cell to that of one which is not, across a face up or down an axis.
+  double crossing(const Vec3i& in, int axis, bool up) const noexcept;
   /// Where the vertex of a fan rests [m].
   Vec3 place(const Vec3i& corner, int fan) const noexcept;
   /// Who carries it. Its own mass does where that is held by scenery, and where no cell lives around it.
@@ -60,9 +66,7 @@ class SmoothSkin {
  private:
   bool shown(const Vec3i& cell) const noexcept;
   double intensity(const Vec3i& cell) const noexcept;
-  double crossing(const Vec3i& in, int axis, bool up) const noexcept;
   Bearers bearers_among(const Vec3i& corner, int fan, const Vec3& place, unsigned lives) const noexcept;
-  Bearers bearers_in(const Vec3i& cell, const Vec3& place) const noexcept;
 
   const Body& body_;
   const Cells& cells_;

@@ -91,13 +91,15 @@ class Builder {
         for (int i = 0; i < cells_.size.x(); ++i) {
           const Vec3i cell(i, j, k);
           if (!shown(cell)) continue;
-          const auto take = [&](const FacetCorners& corners, bool) { add_facet(cell, corners); };
-          for (const VoxelFace& face : voxel_faces) count_hidden(facets.on_face(cell, face, take));
+          for (const VoxelFace& face : voxel_faces)
+            count_hidden(facets.on_face(cell, face, [&](const FacetCorners& corners, bool) {
+              add_facet(cell, corners, coloured_by(cell, face));
+            }));
         }
     for (const Vec3i& cell : cut_.cells())
       if (shown(cell))
         count_hidden(
-            facets.inside(cell, [&](const FacetCorners& corners, bool) { add_facet(cell, corners); }));
+            facets.inside(cell, [&](const FacetCorners& corners, bool) { add_facet(cell, corners, cell); }));
     return finish();
   }
 
@@ -111,10 +113,16 @@ class Builder {
   }
   void count_hidden(int facets) { surface_.hidden += static_cast<std::uint64_t>(facets); }
 
-  void add_facet(const Vec3i& cell, const std::array<Vec3i, 4>& corners) {
+  /// A smooth skin cuts through cells that are partly air, and has the colour of the tissue below them.
+  Vec3i coloured_by(const Vec3i& cell, const VoxelFace& face) const {
+    const Vec3i below = cell - face.outward;
+    return numbering_.is_smooth() && shown(below) ? below : cell;
+  }
+
+  void add_facet(const Vec3i& cell, const std::array<Vec3i, 4>& corners, const Vec3i& coloured) {
     auto& facet = facets_.emplace_back();
     for (std::size_t c = 0; c < 4; ++c) facet[c] = numbering_.number(corners[c], cell, surface_);
-    surface_.rgba.push_back(cells_.transfer.empty() ? rgba_ : rgba_of(cells_.transfer, intensity(cell)));
+    surface_.rgba.push_back(cells_.transfer.empty() ? rgba_ : rgba_of(cells_.transfer, intensity(coloured)));
     surface_.site.push_back(static_cast<std::uint32_t>(cells_.index(cell.x(), cell.y(), cell.z())));
   }
 

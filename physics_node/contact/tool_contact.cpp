@@ -38,46 +38,72 @@ ToolContact::ToolContact(const Boundary& surface, const NodeMotion& moving, doub
   const double coarse = moving.body().spacing();
   radius_ = std::max(2 * radius, 2 * coarse);
   reach_ = radius_ + farther + search_margin;
-  near_.reserve(8 * room);
+  found_.reserve(8 * room);
+  near_.reserve(room);
+  corners_.reserve(4 * room);
+  order_.reserve(4 * room);
   facets_.reserve(room);
   shares_.reserve(32 * room);
 }
 
 void ToolContact::look(const Vec3& p, double t) noexcept {
   const bool moved = (p - searched_at_).norm() > 0.5 * search_margin;
-  const bool opened = surface_.changed_near(p, reach_ + 2 * search_margin, searched_revision_, moving_);
+  const bool opened =
+      surface_.changed_near(p, reach_ + 2 * search_margin, searched_revision_, moving_) ||
+      std::any_of(near_.begin(), near_.end(), [this](const Near& near) { return !surface_.exists(near.id); });
   searched_revision_ = surface_.revision();
   if (moved || opened || t - searched_when_ >= search_period || t < searched_when_) {
-    near_.clear();
-    surface_.facets_near(p, reach_ + search_margin, moving_, near_);
-    keep_nearest(p);
+    search(p);
     searched_at_ = p;
     searched_when_ = t;
   }
+  for (Corner& corner : corners_) corner.place = surface_.position(corner.facet, corner.of_facet, moving_);
   facets_.clear();
-  for (const std::uint32_t id : near_) {
-    if (!surface_.exists(id)) continue;
-    const auto [centroid, area] = surface_.centroid_and_area(id, moving_);
+  for (const Near& near : near_) {
+    const Vec3 &p0 = corners_[near.corner[0]].place, &p1 = corners_[near.corner[1]].place,
+               &p2 = corners_[near.corner[2]].place, &p3 = corners_[near.corner[3]].place;
+    const Vec3 centroid = 0.25 * (p0 + p1 + p2 + p3);
     if ((centroid - p).squaredNorm() > reach_ * reach_) continue;
+    const Vec3 area = 0.5 * (p2 - p0).cross(p3 - p1);
     const double size = area.norm();
     if (size > 0)
-      facets_.push_back({id, centroid, area / size, surface_.settled_centroid(id),
-                         surface_.settled_area(id).normalized(), size});
+      facets_.push_back({near.id, centroid, area / size, near.rest, near.rest_normal, size, near.corner});
+  }
+}
+
+/// Facets around p, each corner of theirs once.
+void ToolContact::search(const Vec3& p) noexcept {
+  found_.clear();
+  surface_.facets_near(p, reach_ + search_margin, moving_, found_);
+  keep_nearest(p);
+  near_.clear();
+  order_.clear();
+  corners_.clear();
+  for (const std::uint32_t id : found_) {
+    for (std::uint32_t c = 0; c < 4; ++c)
+      order_.emplace_back(surface_.corner(id, c), static_cast<std::uint32_t>(4 * near_.size()) + c);
+    near_.push_back({id, {}, surface_.settled_centroid(id), surface_.settled_area(id).normalized()});
+  }
+  std::sort(order_.begin(), order_.end());
+  for (const auto& [number, at] : order_) {
+    if (corners_.empty() || corners_.back().number != number)
+      corners_.push_back({number, near_[at / 4].id, at % 4});
+    near_[at / 4].corner[at % 4] = static_cast<std::uint32_t>(corners_.size() - 1);
   }
 }
 
 void ToolContact::keep_nearest(const Vec3& p) noexcept {
-  if (near_.size() <= room) return;
+  if (found_.size() <= room) return;
   const auto distance = [&](std::uint32_t id) {
     return (surface_.centroid_and_area(id, moving_).centroid - p).squaredNorm();
   };
-  std::nth_element(near_.begin(), near_.begin() + static_cast<std::ptrdiff_t>(room), near_.end(),
+  std::nth_element(found_.begin(), found_.begin() + static_cast<std::ptrdiff_t>(room), found_.end(),
                    [&](std::uint32_t a, std::uint32_t b) {
                      const double da = distance(a);
                      const double db = distance(b);
                      return da != db ? da < db : a < b;
                    });
-  near_.resize(room);
+  found_.resize(room);
 }
 
 const ToolContact::Facet* ToolContact::nearest(const Vec3& p) const noexcept {
@@ -169,16 +195,25 @@ void ToolContact::find_shares(const Vec3& q) noexcept {
   double sum = 0;
   for (const Facet& facet : facets_) sum += weight(facet, foot, plane.normal);
   if (sum <= 0) return;
+  // By corners first: several facets have each, and several corners each mass.
+  for (Corner& corner : corners_) corner.weight = 0;
   for (const Facet& facet : facets_) {
     const double w = weight(facet, foot, plane.normal);
     if (w <= 0) continue;
-    for (std::size_t corner = 0; corner < 4; ++corner) {
-      const Bearers by = surface_.bearers(facet.id, corner);
-      for (std::uint32_t b = 0; b < by.n && shares_.size() < shares_.capacity(); ++b)
-        shares_.push_back({by.node[b], by.weight[b] * w / (4 * sum)});
-    }
+    for (const std::uint32_t corner : facet.corner) corners_[corner].weight += w / (4 * sum);
   }
-  merge_equal_masses(shares_);
+  bool merged = true;
+  for (const Corner& corner : corners_) {
+    if (corner.weight <= 0) continue;
+    const Bearers by = surface_.bearers(corner.facet, corner.of_facet);
+    merged = merged && by.n <= 1;
+    for (std::uint32_t b = 0; b < by.n && shares_.size() < shares_.capacity(); ++b)
+      shares_.push_back({by.node[b], by.weight[b] * corner.weight});
+  }
+  if (!merged || !std::is_sorted(shares_.begin(), shares_.end(), [](const MassShare& a, const MassShare& b) {
+        return a.cell < b.cell;
+      }))
+    merge_equal_masses(shares_);
 }
 
 std::uint32_t ToolContact::write_facets(const Vec3& p, std::uint32_t body, PatchFacet* out,

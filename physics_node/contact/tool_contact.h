@@ -71,7 +71,22 @@ class ToolContact {
     Vec3 centroid, normal;
     Vec3 rest, rest_normal;  // the same before any force
     double area;
+    std::array<std::uint32_t, 4> corner;  // of corners_
   };
+  /// One that the last search found.
+  struct Near {
+    std::uint32_t id;
+    std::array<std::uint32_t, 4> corner;  // of corners_
+    Vec3 rest, rest_normal;
+  };
+  /// A corner of facets.
+  struct Corner {
+    std::int64_t number = 0;  // Boundary::corner()
+    std::uint32_t facet = 0, of_facet = 0;
+    Vec3 place = Vec3::Zero();  // now [m]
+    double weight = 0;          // of a plane
+  };
+  void search(const Vec3& p) noexcept;
   void keep_nearest(const Vec3& p) noexcept;
   double weight(const Facet& facet, const Vec3& q, const Vec3& facing) const noexcept;
   LocalPlane plane_at(const Vec3& q, const Vec3& facing) const noexcept;
@@ -84,7 +99,10 @@ class ToolContact {
   Vec3 searched_at_ = Vec3::Constant(1e9);
   double searched_when_ = -1e9;
   std::uint64_t searched_revision_ = 0;  // of the boundary
-  std::vector<std::uint32_t> near_;
+  std::vector<std::uint32_t> found_;
+  std::vector<Near> near_;       // of found_
+  std::vector<Corner> corners_;  // of near_, by number
+  std::vector<std::pair<std::int64_t, std::uint32_t>> order_;  // to find equal corners
   std::vector<Facet> facets_;  // of near_, as they are now
   std::vector<MassShare> shares_;
   std::uint64_t contact_set_ = 0;

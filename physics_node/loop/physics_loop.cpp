@@ -98,6 +98,7 @@ void PhysicsLoop::take_commands() {
   bool reset = false;
   double steps = 0;
   std::optional<double> threshold;
+  std::optional<std::optional<SectionSpec>> section;
   for (int n = 0; n < most_commands && wire_.commands.take(command); ++n) {
     if (recorder_) recorder_->command(*world_, command);
     switch (command.kind) {
@@ -114,6 +115,9 @@ void PhysicsLoop::take_commands() {
         break;
       case CommandKind::threshold:
         threshold = command.value;
+        break;
+      case CommandKind::section:
+        section = section_of(command.name.data(), command.value);
         break;
       case CommandKind::stop:
         stop_ = true;
@@ -132,6 +136,7 @@ void PhysicsLoop::take_commands() {
         static_cast<int>(std::min(frames_to_go_ + std::floor(steps), static_cast<double>(most_steps)));
   if (reset) world_->reset();
   if (threshold) appearance_->set_threshold(*threshold);
+  if (section) appearance_->set_section(*section);
 }
 
 void PhysicsLoop::publish_hand() {

@@ -27,6 +27,7 @@ struct SmoothImage {
   ElementModel model = ElementModel::fem;
   BorderCells border = BorderCells::whole;
   std::array<bool, 6> fixed{};
+  bool breaks = false;
 
   BodySpec spec(const palpate::test::ScratchFolder& folder) const {
     const std::string path = folder / "made.h5";
@@ -46,40 +47,45 @@ struct SmoothImage {
     const palpate::test::ScratchFolder folder;
     MaterialSpec material = soft_material();
     material.viscosity = 1;
+    if (breaks) material.break_ratio = 1.5;
     return build_body(spec(folder), material);
   }
 };
 
-/// Edges that are not passed once each way; and vertices whose facets do not hang together as one fan.
+/// Edges that are not passed as often one way as the other, edges of four facets, and vertices whose facets do not hang together.
 struct Defects {
   int open_edges = 0, edges_of_four = 0, bad_vertices = 0;
 };
 inline Defects defects_of(const Surface& surface) {
   Defects found;
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
-  std::map<std::uint32_t, std::map<std::uint32_t, std::uint32_t>> link;  // of a vertex, from corner to corner
-  std::map<std::uint32_t, bool> twice;
+  // At each vertex the neighbours that its facets join.
+  std::map<std::uint32_t, std::map<std::uint32_t, std::uint32_t>> joined;
   for (const auto& f : surface.facets) {
     const std::size_t n = f[2] == f[3] ? 3 : 4;
     for (std::size_t c = 0; c < n; ++c) {
-      ++edges[{f[c], f[(c + 1) % n]}];
-      if (!link[f[c]].emplace(f[(c + 1) % n], f[(c + n - 1) % n]).second) twice[f[c]] = true;
+      const std::uint32_t next = f[(c + 1) % n], before = f[(c + n - 1) % n];
+      ++edges[{f[c], next}];
+      auto& at = joined[f[c]];
+      const auto root = [&](std::uint32_t v) {
+        at.try_emplace(v, v);
+        while (at[v] != v) v = at[v];
+        return v;
+      };
+      const std::uint32_t one = root(next), other = root(before);
+      at[one] = other;
     }
   }
   for (const auto& [edge, count] : edges) {
     const auto back = edges.find({edge.second, edge.first});
     const int other = back == edges.end() ? 0 : back->second;
     if (other != count) ++found.open_edges;
-    if (count > 1) ++found.edges_of_four;
+    if (count > 1 && edge.first < edge.second) ++found.edges_of_four;
   }
-  for (const auto& [vertex, next] : link) {
-    std::size_t n = 0;
-    for (auto at = next.begin(); at != next.end() && n <= next.size();) {
-      ++n;
-      at = next.find(at->second);
-      if (at == next.begin()) break;
-    }
-    if (n != next.size() || twice.count(vertex) != 0) ++found.bad_vertices;
+  for (const auto& [vertex, at] : joined) {
+    int pieces = 0;
+    for (const auto& [neighbour, to] : at) pieces += neighbour == to ? 1 : 0;
+    if (pieces != 1) ++found.bad_vertices;
   }
   return found;
 }
