@@ -69,6 +69,9 @@ std::size_t Picture::facets_visible() const noexcept { return parts_->model.face
 std::size_t Picture::facets_total() const noexcept { return parts_->model.facets_total(); }
 std::size_t Picture::bytes_uploaded() const noexcept { return parts_->stage.painter().bytes_uploaded(); }
 void Picture::set_threshold(double intensity) noexcept { parts_->stage.threshold().obey(intensity); }
+void Picture::set_section(const std::optional<SectionSpec>& section) noexcept {
+  parts_->stage.section().obey(section);
+}
 ViewModel& Picture::model() noexcept { return parts_->model; }
 const ViewModel& Picture::model() const noexcept { return parts_->model; }
 

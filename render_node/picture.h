@@ -6,7 +6,7 @@
 #include <string>
 
 #include "common/message/messages.h"
-#include "common/scene/scene_fwd.h"
+#include "common/scene/section_spec.h"
 #include "render_node/image/image.h"
 
 namespace palpate::render {
@@ -45,6 +45,8 @@ class Picture {
   std::size_t bytes_uploaded() const noexcept;  // to the graphics card by the last draw()
   /// The threshold that the panel shows, after somebody commanded another.
   void set_threshold(double intensity) noexcept;
+  /// The section, likewise.
+  void set_section(const std::optional<SectionSpec>& section) noexcept;
 
   ViewModel& model() noexcept;
   const ViewModel& model() const noexcept;

@@ -141,6 +141,7 @@ int run_headless(const NodeOptions& options, const Scene& scene) {
     const auto news = wire.take_into(picture.model());
     stop = news.stop;
     if (news.threshold) picture.set_threshold(*news.threshold);
+    if (news.section) picture.set_section(*news.section);
     // 2. draw when simulated time has come to the next frame
     const double t = picture.model().t();
     if (picture.model().anything_to_see() && schedule.due(t) && frames.wants_next()) {
@@ -178,16 +179,19 @@ std::string keep(const Image& picture, const std::string& out) {
   }
 }
 
-void pass_on(const PanelWishes& wishes, bool paused, double frame_Hz, ThresholdControl& threshold,
-             Wire& wire) {
+void pass_on(const PanelWishes& wishes, bool paused, double frame_Hz, Window& window, Wire& wire) {
   const double hundredth = std::max(1.0, std::round(0.01 * frame_Hz));
   const double frames = wishes.frames_on + hundredth * wishes.hundredths_on;
   if (frames > 0)
     wire.command(CommandKind::pause, frames);
   else if (wishes.paused != paused)
     wire.command(wishes.paused ? CommandKind::pause : CommandKind::resume);
-  if (const auto value = threshold.due(seconds_from_ns(now_ns()), wishes.threshold_released)) {
+  const double now_s = seconds_from_ns(now_ns());
+  if (const auto value = window.threshold().due(now_s, wishes.threshold_released))
     wire.command(CommandKind::threshold, *value);
+  if (window.section().due(now_s, wishes.section_released)) {
+    const auto& section = window.section().value();
+    wire.command(CommandKind::section, section ? section->at : 0, std::string(section_name(section)));
   }
 }
 
@@ -214,13 +218,14 @@ int run_window(const NodeOptions& options, const Scene& given) {
     const auto news = wire.take_into(model);
     stop = news.stop;
     if (news.threshold) window.threshold().obey(*news.threshold);
+    if (news.section) window.section().obey(*news.section);
     // 2. draw, and pass on what the person wants
     PanelFacts facts;
     facts.t = model.t();
     facts.interactive = true;
     facts.paused = news.paused;
     const PanelWishes wishes = window.draw(facts);
-    pass_on(wishes, facts.paused, scene.physics->frame_Hz, window.threshold(), wire);
+    pass_on(wishes, facts.paused, scene.physics->frame_Hz, window, wire);
     if (wishes.reset) reset(scene, model, wire);
     if (wishes.picture) window.say(keep(*wishes.picture, options.out));
     for (auto& pointer : window.pointers()) wire.point(pointer.message(now_ns()));

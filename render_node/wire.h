@@ -9,6 +9,7 @@
 
 #include "common/message/messages.h"
 #include "common/process/node_main.h"
+#include "common/scene/section_spec.h"
 #include "common/wire/participant.h"
 #include "common/wire/reader.h"
 #include "common/wire/refusals.h"
@@ -24,9 +25,10 @@ class Wire {
 
   struct News {
     bool anything = false;
-    bool stop = false;                // somebody commanded stop
-    bool paused = false;              // commanded last
-    std::optional<double> threshold;  // commanded by somebody
+    bool stop = false;                                  // somebody commanded stop
+    bool paused = false;                                // commanded last
+    std::optional<double> threshold;                    // commanded by somebody
+    std::optional<std::optional<SectionSpec>> section;  // likewise
   };
   /// Takes all that has come into the model.
   News take_into(ViewModel& model);

@@ -52,6 +52,8 @@ uniform float most_way;
 uniform mat4 clip_from_world;
 uniform mat4 world_from_model;
 uniform float shading;
+uniform vec4 cut;
+void take_away() { gl_ClipDistance[0] = cut.w - dot(cut.xyz, rest); }
 // As WayScale has it: its own colour, yellow, orange, red, violet.
 vec3 by_way(vec3 own, float share) {
   vec3 yellow = vec3(1.00, 0.86, 0.30), orange = vec3(0.96, 0.50, 0.12);
@@ -81,6 +83,7 @@ void main() {
   outward = mat3(world_from_model) * normal;
   albedo = albedo_here();
   gl_Position = clip_from_world * p;
+  take_away();
 }
 )";
 const std::string pixel_lit = R"(
@@ -100,6 +103,7 @@ void main() {
   vec4 p = world_from_model * vec4(position, 1.0);
   seen = lit(mat3(world_from_model) * normal, normalize(eye - p.xyz), albedo_here(), p.xyz);
   gl_Position = clip_from_world * p;
+  take_away();
 }
 )";
 const std::string pixel_passed_on = R"(
@@ -118,6 +122,7 @@ void main() {
   albedo = albedo_here();
   gl_Position = clip_from_world * p;
   gl_PointSize = max(bead_size / gl_Position.w, 2.0);
+  take_away();
 }
 )";
 const std::string pixel_bead = R"(
@@ -141,6 +146,7 @@ out vec4 seen;
 void main() {
   seen = vec4(sqrt(0.42 * albedo_here()), 1.0);
   gl_Position = clip_from_world * world_from_model * vec4(position, 1.0);
+  take_away();
 }
 )";
 
@@ -175,6 +181,7 @@ void LitProgram::begin(const Camera& camera) const {
   pale(0);
   shade(1);
   colour_by_way(0);
+  cut_open(no_cut());
 }
 
 void LitProgram::place(const Eigen::Matrix4f& world_from_model) const {
@@ -190,6 +197,8 @@ void LitProgram::pale(float share) const { program_.set("paleness", share); }
 void LitProgram::shade(float share) const { program_.set("shading", share); }
 
 void LitProgram::colour_by_way(float most) const { program_.set("most_way", most); }
+
+void LitProgram::cut_open(const Eigen::Vector4f& cut) const { program_.set("cut", cut); }
 
 void LitProgram::touched(std::span<const Touch> touches) const {
   static constexpr std::array<const char*, most_touches> names = {"touch[0]", "touch[1]", "touch[2]",

@@ -10,6 +10,7 @@
 
 #include "render_node/gl/program.h"
 #include "render_node/view/camera.h"
+#include "render_node/view/section_cut.h"
 
 namespace palpate::render {
 
@@ -49,6 +50,8 @@ class LitProgram {
   void shade(float share) const;
   /// Coloured by how far a vertex is from rest, up to so much [m]; 0, as after begin(): in its own colour.
   void colour_by_way(float most) const;
+  /// What rests beyond the plane is not drawn (section_cut.h), while GL_CLIP_DISTANCE0 is enabled; all is after begin().
+  void cut_open(const Eigen::Vector4f& cut) const;
   /// By tools; none after begin().
   void touched(std::span<const Touch> touches) const;
   /// Of beads. @param radius [m]  @param height  of the picture [px]

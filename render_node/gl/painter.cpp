@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "common/scene/body_spec.h"
+#include "common/scene/connection_spec.h"
 #include "common/scene/device_spec.h"
 #include "common/scene/force_model.h"
 #include "common/scene/scene.h"
@@ -38,7 +39,11 @@ Eigen::Vector3d stick_axis(const DeviceSpec& device) {
 }  // namespace
 
 Painter::Painter(const Scene& scene, const ViewModel& model)
-    : scene_(scene), bodies_(model.bodies().size()), tools_(scene.tools.size()) {
+    : scene_(scene),
+      first_section_(scene.bodies.size() + scene.connections.size()),
+      with_section_(bodies_with_section(scene)),
+      bodies_(model.bodies().size()),
+      tools_(scene.tools.size()) {
   for (std::size_t i = 0; i < tools_.size(); ++i) {
     const auto& device = scene.device(scene.tools[i].device);
     tools_[i].radius = scene.tools[i].radius;
@@ -120,15 +125,25 @@ void Painter::draw_planes(const ViewModel& model, const Camera& camera) {
 }
 
 /// Not a tool, nor the strands between bodies: these have no place at rest.
-bool Painter::is_tissue(std::size_t body) const {
-  return body < scene_.bodies.size() &&
-         std::ranges::none_of(tools_, [body](const Tool& tool) { return tool.body == body; });
+bool Painter::is_tissue(std::size_t picture) const {
+  const std::size_t n = scene_.bodies.size();
+  const std::size_t body = picture < n                ? picture
+                           : picture < first_section_ ? n
+                                                      : with_section_[picture - first_section_];
+  return body < n && std::ranges::none_of(tools_, [body](const Tool& tool) { return tool.body == body; });
+}
+
+/// The section of a body is shown with it.
+bool Painter::is_shown(std::size_t picture, const PaintOptions& options) const {
+  if (picture < first_section_) return !is_hidden(options.hidden.bodies, picture);
+  return options.section && is_tissue(picture) &&
+         !is_hidden(options.hidden.bodies, with_section_[picture - first_section_]);
 }
 
 void Painter::follow_ways(const ViewModel& model, const PaintOptions& options) {
   if (!options.displacement) return;
   for (std::size_t i = 0; i < bodies_.size(); ++i)
-    if (is_tissue(i) && !is_hidden(options.hidden.bodies, i))
+    if (is_tissue(i) && is_shown(i, options))
       way_scale_.see(static_cast<double>(model.bodies()[i].farthest()));
 }
 
@@ -138,29 +153,37 @@ void Painter::draw_bodies(ViewModel& model, const Camera& camera, const PaintOpt
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     BodyPicture& body = model.bodies()[i];
     TissueDrawing& drawing = bodies_[i];
-    if (body.empty() || is_hidden(options.hidden.bodies, i)) continue;
+    if (body.empty() || !is_shown(i, options)) continue;
     bytes_uploaded_ += drawing.upload(body);
-    const LitProgram& lit = drawing.closed() && drawing.dense() ? at_vertices_ : at_pixels_;
+    const bool opened = options.section && is_tissue(i) && i < first_section_;
+    const LitProgram& lit = drawing.closed() && drawing.dense() && !opened ? at_vertices_ : at_pixels_;
     lit.begin(camera);
+    if (opened) {
+      lit.cut_open(section_cut(*options.section, camera.eye()));
+      glEnable(GL_CLIP_DISTANCE0);
+    }
     lit.shade(options.wire ? 0.0F : shade);
     lit.pale(options.wire ? 0.75F : 0.0F);
     lit.touched(touches_);
     if (options.displacement && is_tissue(i)) lit.colour_by_way(static_cast<float>(way_scale_.most()));
     glEnable(GL_POLYGON_OFFSET_FILL);  // lines lie before the surface
     glPolygonOffset(1, 1);
-    drawing.draw(lit);
+    drawing.draw(lit, opened);
     glDisable(GL_POLYGON_OFFSET_FILL);
     if (options.wire || drawing.has_lines()) {
       as_lines_.begin(camera);
       as_lines_.shade(shade);
+      if (opened) as_lines_.cut_open(section_cut(*options.section, camera.eye()));
       drawing.draw_lines(as_lines_, body, options.wire);
     }
     if (drawing.has_beads()) {
       as_beads_.begin(camera);
       as_beads_.shade(shade);
+      if (opened) as_beads_.cut_open(section_cut(*options.section, camera.eye()));
       as_beads_.size_beads(camera, bead_radius * body.edge_length(), height);
       drawing.draw_beads(as_beads_);
     }
+    glDisable(GL_CLIP_DISTANCE0);
   }
 }
 

@@ -23,7 +23,8 @@ namespace palpate::render {
 /// What of the scene's [render] table a hand may switch while it runs.
 struct PaintOptions {
   bool tool = true, force = true, wire = false, fragments = false;
-  bool displacement = false;  // colours say how far tissue is from rest
+  bool displacement = false;                // colours say how far tissue is from rest
+  std::optional<SectionSpec> section = {};  // across which bodies are shown cut open
   Hidden hidden = {};
 };
 
@@ -57,7 +58,8 @@ class Painter {
   void adapt_sizes(const Eigen::AlignedBox3d& box);
   void find_touches(const ViewModel& model, const PaintOptions& options);
   void follow_ways(const ViewModel& model, const PaintOptions& options);
-  bool is_tissue(std::size_t body) const;
+  bool is_tissue(std::size_t picture) const;
+  bool is_shown(std::size_t picture, const PaintOptions& options) const;
   void draw_bodies(ViewModel& model, const Camera& camera, const PaintOptions& options, int height);
   void draw_planes(const ViewModel& model, const Camera& camera);
   void draw_tool(Tool& tool, const ToolView& view, const ViewModel& model, const PaintOptions& options);
@@ -71,7 +73,9 @@ class Painter {
   LitProgram as_beads_{Lighting::as_beads};
   LitProgram as_lines_{Lighting::as_lines};
   BackdropDrawing backdrop_;
-  std::vector<TissueDrawing> bodies_;
+  std::size_t first_section_;              // behind bodies and connections
+  std::vector<std::size_t> with_section_;  // bodies
+  std::vector<TissueDrawing> bodies_;      // of all pictures: bodies, connections, sections
   std::vector<Tool> tools_;
   std::vector<Touch> touches_;
   double size_ = 0;  // half the diagonal of all bodies [m]

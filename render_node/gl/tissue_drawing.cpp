@@ -98,12 +98,12 @@ std::size_t TissueDrawing::upload_all(const BodyPicture& body) {
          body.packed().size() * (2 * sizeof(Array3f) + sizeof(PackedVertex) + sizeof(std::uint32_t));
 }
 
-void TissueDrawing::draw(const LitProgram& program) const {
+void TissueDrawing::draw(const LitProgram& program, bool opened) const {
   program.place(Eigen::Matrix4f::Identity());
   program.finish(0.035F, 1.0F);
   array_.bind();
   triangles_.bind();
-  if (closed_) glEnable(GL_CULL_FACE);
+  if (closed_ && !opened) glEnable(GL_CULL_FACE);
   glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(n_triangle_indices_), GL_UNSIGNED_INT, nullptr);
   glDisable(GL_CULL_FACE);
 }

@@ -7,12 +7,14 @@
 #include "common/scene/connection_spec.h"
 #include "common/scene/device_spec.h"
 #include "common/scene/scene.h"
+#include "common/scene/section_spec.h"
 #include "common/scene/tool_spec.h"
 #include "render_node/model/hand_state.h"
 
 namespace palpate::render {
 ViewModel::ViewModel(const Scene& scene) : tools_(scene.tools.size()) {
-  const std::size_t n = scene.bodies.size() + scene.connections.size();
+  first_section_ = scene.bodies.size() + scene.connections.size();
+  const std::size_t n = first_section_ + bodies_with_section(scene).size();
   bodies_.reserve(n);
   for (std::size_t i = 0; i < n; ++i) bodies_.emplace_back(budget_);
   for (std::size_t i = 0; i < tools_.size(); ++i) {
@@ -123,13 +125,13 @@ Eigen::AlignedBox3d ViewModel::box() const {
 
 std::size_t ViewModel::facets_visible() const noexcept {
   std::size_t n = 0;
-  for (const auto& body : bodies_) n += body.facets_visible();
+  for (const auto& body : std::span(bodies_).first(first_section_)) n += body.facets_visible();
   return n;
 }
 
 std::size_t ViewModel::facets_total() const noexcept {
   std::size_t n = 0;
-  for (const auto& body : bodies_) n += body.facets_total();
+  for (const auto& body : std::span(bodies_).first(first_section_)) n += body.facets_total();
   return n;
 }
 

@@ -29,6 +29,9 @@ enum class Action {
   first_view,
   wires,
   ways,
+  section,
+  section_on,
+  section_back,
   // of the tool that the mouse leads
   toggle_tool,
   next_tool,
@@ -40,7 +43,7 @@ enum class Action {
   roll_left,
   roll_right
 };
-inline constexpr int n_actions = 26;  // with none
+inline constexpr int n_actions = 29;  // with none
 
 /// What a row is about; the headings of the help.
 enum class Part { window, view, tool };

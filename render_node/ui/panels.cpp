@@ -102,7 +102,40 @@ void buttons(std::initializer_list<ActionButton> all, int a_line, PanelWishes& w
   }
 }
 
-PanelWishes controls(const PanelFacts& facts, ThresholdControl& threshold) {
+/// Across which axis bodies are cut open, and where.
+void section_rows(const ViewModel& model, const PanelFacts& facts, SectionControl& section,
+                  PanelWishes& wishes) {
+  static constexpr std::array<const char*, 3> names = {"x", "y", "z"};
+  const auto words = [&] {
+    return fmt::format("{} = {:.1f} mm", names[static_cast<std::size_t>(section.value()->axis)],
+                       mm_from_m(section.value()->at));
+  };
+  if (!section.applies()) return;
+  if (!facts.interactive) {
+    if (section.value()) row("cut open at", words());
+    return;
+  }
+  ImGui::TextDisabled("cut open");
+  ImGui::SameLine();
+  if (ImGui::RadioButton("no", !section.value())) section.close();
+  for (int axis = 0; axis < 3; ++axis) {
+    ImGui::SameLine();
+    if (ImGui::RadioButton(names[static_cast<std::size_t>(axis)],
+                           section.value() && section.value()->axis == axis))
+      section.choose(axis, model.box());
+  }
+  if (!section.value() || model.box().isEmpty()) return;
+  const int axis = section.value()->axis;
+  auto at = static_cast<float>(mm_from_m(section.value()->at));
+  ImGui::SetNextItemWidth(-1);
+  if (ImGui::SliderFloat("##section", &at, static_cast<float>(mm_from_m(model.box().min()[axis])),
+                         static_cast<float>(mm_from_m(model.box().max()[axis])), "%.1f mm"))
+    section.move_to(m_from_mm(static_cast<double>(at)), model.box());
+  wishes.section_released = ImGui::IsItemDeactivatedAfterEdit();
+}
+
+PanelWishes controls(const ViewModel& model, const PanelFacts& facts, ThresholdControl& threshold,
+                     SectionControl& section) {
   PanelWishes wishes;
   if (threshold.applies()) {
     if (facts.interactive) {
@@ -117,6 +150,7 @@ PanelWishes controls(const PanelFacts& facts, ThresholdControl& threshold) {
       row("tissue from intensity", fmt::format("{:.0f}", threshold.value()));
     }
   }
+  section_rows(model, facts, section, wishes);
   if (facts.interactive)
     buttons({{facts.paused ? "Go on" : "Pause", Action::pause},
              {"Step", Action::hundredth_on},
@@ -125,7 +159,7 @@ PanelWishes controls(const PanelFacts& facts, ThresholdControl& threshold) {
              {"Picture", Action::picture},
              {"Fold", Action::fold}},
             3, wishes);
-  if (facts.interactive || threshold.applies()) ImGui::Separator();
+  if (facts.interactive || threshold.applies() || section.value()) ImGui::Separator();
   return wishes;
 }
 
@@ -190,7 +224,7 @@ void warning_rows(const ViewModel& model) {
 }  // namespace
 
 PanelWishes lay_out_panels(const Scene& scene, const ViewModel& model, const PanelFacts& facts,
-                           ThresholdControl& threshold, Hidden& hidden, float scale) {
+                           const PanelControls& moved, float scale) {
   const ImVec2 picture = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({0, 0});
   ImGui::SetNextWindowSize({panel_width_in(picture.x, scale), picture.y});
@@ -202,13 +236,13 @@ PanelWishes lay_out_panels(const Scene& scene, const ViewModel& model, const Pan
   row("simulated time", fmt::format("{:.2f} s", facts.t));
   warning_rows(model);
   ImGui::Separator();
-  PanelWishes wishes = controls(facts, threshold);
+  PanelWishes wishes = controls(model, facts, moved.threshold, moved.section);
   if (facts.pointer != nullptr)
     row("mouse", fmt::format("{} {}", facts.pointer->held() ? "holds" : "lets lie",
                              scene.tools[facts.pointer->tool()].name));
   if (facts.interactive && section("View", true, true)) view_rows(wishes);
   if (facts.interactive && section("Bodies and tools", true, scene.bodies.size() + scene.tools.size() <= few))
-    lay_out_scene_tree(scene, hidden);
+    lay_out_scene_tree(scene, moved.hidden);
   if (section("Nodes", facts.interactive, false)) {
     node_rows(model);
     row("facets visible",

@@ -8,6 +8,7 @@
 
 #include "common/scene/scene_fwd.h"
 #include "render_node/image/image.h"
+#include "render_node/model/section_control.h"
 #include "render_node/model/threshold_control.h"
 #include "render_node/model/view_model.h"
 #include "render_node/ui/bindings.h"
@@ -32,6 +33,7 @@ struct PanelFacts {
 struct PanelWishes {
   bool threshold_moved = false;  // ThresholdControl has the value
   bool threshold_released = false;
+  bool section_released = false;
   std::vector<Action> actions;  // by buttons, as if by keys
   // What of buttons and keys is not the window's own.
   bool paused = false;                   // it should be
@@ -45,10 +47,16 @@ inline constexpr float panel_width = 308;  // [px] at a picture height of 720
 /// Width of the column in a picture where it is not folded: at most two fifths of it [px].
 float panel_width_in(float picture_width, float scale);
 
+/// What the column moves.
+struct PanelControls {
+  ThresholdControl& threshold;
+  SectionControl& section;
+  Hidden& hidden;  // by its list of bodies and tools
+};
+
 /// Lays out the column in the current ImGui frame. @param scale  of all lengths, 1 at 720 px
-/// @param hidden  what its list of bodies and tools switches
 PanelWishes lay_out_panels(const Scene& scene, const ViewModel& model, const PanelFacts& facts,
-                           ThresholdControl& threshold, Hidden& hidden, float scale);
+                           const PanelControls& controls, float scale);
 
 /// What is left of a folded column: a button that unfolds it.
 PanelWishes lay_out_folded();

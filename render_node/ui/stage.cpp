@@ -18,9 +18,15 @@ Stage::Stage(const Scene& scene, ViewModel& model, int height)
     : scene_(scene),
       model_(model),
       camera_(scene.render->camera),
-      options_{scene.render->show_tool,      scene.render->show_force,        scene.render->show_wire,
-               scene.render->show_fragments, scene.render->show_displacement, {}},
+      options_{scene.render->show_tool,
+               scene.render->show_force,
+               scene.render->show_wire,
+               scene.render->show_fragments,
+               scene.render->show_displacement,
+               scene.render->section,
+               {}},
       threshold_(scene),
+      section_(scene),
       painter_(scene, model),
       imgui_(height) {}
 
@@ -30,6 +36,7 @@ PanelWishes Stage::draw(const PanelFacts& facts, int width, int height, float se
   const float left = panels && !facts.folded ? panel_width_in(static_cast<float>(width), scale) : 0;
   camera_.set_picture(width, height, static_cast<int>(std::lround(left)));
   camera_.fit(box_with_floor());
+  options_.section = section_.value();
   painter_.draw(model_, camera_, options_, width, height);
   if (!panels && !facts.interactive) return {};
   ImGuiIO& io = ImGui::GetIO();
@@ -40,8 +47,9 @@ PanelWishes Stage::draw(const PanelFacts& facts, int width, int height, float se
   shown.arrow_metres_per_newton = options_.force ? painter_.arrow_metres_per_newton() : 0;
   PanelWishes wishes;
   if (panels)
-    wishes = facts.folded ? lay_out_folded()
-                          : lay_out_panels(scene_, model_, shown, threshold_, options_.hidden, scale);
+    wishes = facts.folded
+                 ? lay_out_folded()
+                 : lay_out_panels(scene_, model_, shown, {threshold_, section_, options_.hidden}, scale);
   if (model_.anything_to_see()) {
     lay_out_measures(camera_, left, scale);
     if (options_.displacement) lay_out_legend(painter_.way_scale(), scale);

@@ -24,6 +24,7 @@ class Stage {
   Camera& camera() noexcept { return camera_; }
   PaintOptions& options() noexcept { return options_; }
   ThresholdControl& threshold() noexcept { return threshold_; }
+  SectionControl& section() noexcept { return section_; }
   const Painter& painter() const noexcept { return painter_; }
 
  private:
@@ -35,6 +36,7 @@ class Stage {
   Camera camera_;
   PaintOptions options_;
   ThresholdControl threshold_;
+  SectionControl section_;
   Painter painter_;
   ImguiContext imgui_;
   ImguiDrawing panels_;

@@ -46,7 +46,7 @@ bool ToolLeading::keeps_to_surface() const {
 }
 
 PointerInput ToolLeading::input_from(const HandEvents& events, const CursorNow& cursor, const Camera& camera,
-                                     const Hidden& hidden, double seconds) {
+                                     const SeenBodies& seen, double seconds) {
   const auto key = [&](Action action) {
     return cursor.typing ? 0.0 : held(events, action, seconds) / seconds;
   };
@@ -69,7 +69,10 @@ PointerInput ToolLeading::input_from(const HandEvents& events, const CursorNow& 
     return input;
   }
   const bool taken = input.place || (input.toggle && !pointers_[led_].held());
-  if (taken) touch_.keep(tissue(), hidden.bodies);
+  if (taken) {
+    touch_.keep(tissue(), seen.hidden.bodies, seen.cut);
+    if (seen.cut) touch_.keep_sections(model_.sections());
+  }
   if (cursor.in_picture)
     input.surface = [&](const Eigen::Vector2d& pixel) {
       return touch_.under(camera, pixel, clearance(scene_.tools[pointers_[led_].tool()]));
@@ -78,13 +81,13 @@ PointerInput ToolLeading::input_from(const HandEvents& events, const CursorNow& 
 }
 
 void ToolLeading::lead(const HandEvents& events, const CursorNow& cursor, const Camera& camera,
-                       const Hidden& hidden, double seconds) {
+                       const SeenBodies& seen, double seconds) {
   if (pointers_.empty()) return;
   for (int n = cursor.typing ? 0 : presses(events, Action::next_tool); n > 0; --n) {
     pointers_[led_].let_go();
     led_ = (led_ + 1) % pointers_.size();
   }
-  const PointerInput input = input_from(events, cursor, camera, hidden, seconds);
+  const PointerInput input = input_from(events, cursor, camera, seen, seconds);
   pointers_[led_].follow(input, camera, seconds);
 }
 

@@ -37,7 +37,7 @@ class ToolLeading {
   void lay_out(const Camera& camera);
 
   /// @param seconds  since the last picture
-  void lead(const HandEvents& events, const CursorNow& cursor, const Camera& camera, const Hidden& hidden,
+  void lead(const HandEvents& events, const CursorNow& cursor, const Camera& camera, const SeenBodies& seen,
             double seconds);
 
   bool any() const noexcept { return !pointed_.empty(); }
@@ -49,7 +49,7 @@ class ToolLeading {
   bool keeps_to_surface() const;
   std::span<const BodyPicture> tissue() const;
   PointerInput input_from(const HandEvents& events, const CursorNow& cursor, const Camera& camera,
-                          const Hidden& hidden, double seconds);
+                          const SeenBodies& seen, double seconds);
 
   const Scene& scene_;
   const ViewModel& model_;

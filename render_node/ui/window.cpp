@@ -131,7 +131,7 @@ PanelWishes Window::draw(const PanelFacts& facts, Image* seen) {
   const CursorNow cursor = cursor_now(wheel);
   leading_.lay_out(stage_->camera());
   move_camera(cursor);
-  leading_.lead(events_, cursor, stage_->camera(), stage_->options().hidden, seconds);
+  leading_.lead(events_, cursor, stage_->camera(), seen_bodies(), seconds);
   wishes.paused = facts.paused;
   for (const Action action : wishes.actions) perform(action, wishes);
   if (!cursor.typing) perform_keys(wishes);
@@ -228,9 +228,25 @@ void Window::perform(Action action, PanelWishes& wishes) {
     case Action::ways:
       stage_->options().displacement = !stage_->options().displacement;
       break;
+    case Action::section:
+      stage_->section().next(model_.box());
+      break;
+    case Action::section_on:
+      stage_->section().move(1, model_.box());
+      break;
+    case Action::section_back:
+      stage_->section().move(-1, model_.box());
+      break;
     default:
       break;  // about the tool that the mouse leads
   }
+}
+
+SeenBodies Window::seen_bodies() const {
+  SeenBodies seen{stage_->options().hidden, {}};
+  if (const auto& section = stage_->section().value())
+    seen.cut = section_cut(*section, stage_->camera().eye());
+  return seen;
 }
 
 /// At the tool that the mouse leads, or else the first that is known.
@@ -247,5 +263,6 @@ void Window::look_at_tool() {
 bool Window::closing() const { return leave_ || glfwWindowShouldClose(glfw_->window) != 0; }
 bool Window::software() const { return software_gl(); }
 ThresholdControl& Window::threshold() { return stage_->threshold(); }
+SectionControl& Window::section() { return stage_->section(); }
 
 }  // namespace palpate::render

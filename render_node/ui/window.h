@@ -45,6 +45,7 @@ class Window {
   bool closing() const;   // the person wants to leave
   bool software() const;  // drawn by the processor, not by a graphics card
   ThresholdControl& threshold();
+  SectionControl& section();
 
  private:
   struct Glfw;
@@ -54,6 +55,7 @@ class Window {
   void perform_keys(PanelWishes& wishes);
   void perform(Action action, PanelWishes& wishes);
   void look_at_tool();
+  SeenBodies seen_bodies() const;
 
   HandEvents events_;
   std::unique_ptr<Glfw> glfw_;  // made before, and gone after, all that draws

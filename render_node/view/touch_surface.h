@@ -9,13 +9,18 @@
 
 #include "render_node/model/body_picture.h"
 #include "render_node/view/camera.h"
+#include "render_node/view/section_cut.h"
 
 namespace palpate::render {
 
 class TouchSurface {
  public:
   /// Copies what is shown now. @param hidden  bodies not to be met, as in the scene; may be shorter than bodies
-  void keep(std::span<const BodyPicture> bodies, const std::vector<bool>& hidden);
+  /// @param cut  what of them is taken away (section_cut.h)
+  void keep(std::span<const BodyPicture> bodies, const std::vector<bool>& hidden,
+            const std::optional<Eigen::Vector4f>& cut = {});
+  /// Sections, behind which nothing is met, nor they themselves: a tool would lie in tissue.
+  void keep_sections(std::span<const BodyPicture> sections);
 
   /// A point just before the nearest surface under a pixel: `before` and half an edge of the body hit, in depth, so
   /// that a smooth plane through a surface of steps still lies behind it. Nothing: the pixel shows none.
@@ -26,7 +31,8 @@ class TouchSurface {
  private:
   struct Kept {
     Surface surface;
-    double edge = 0;  // mean length [m]
+    double edge = 0;      // mean length [m]
+    bool blocks = false;  // a section
   };
   std::vector<Kept> kept_;
   struct Asked {

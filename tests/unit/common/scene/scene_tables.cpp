@@ -78,6 +78,7 @@ std::vector<SceneTable> all_tables() {
       table("[contact]", "[contact]"),
       table("[render]", "[render]"),
       table("camera of [render]", "[render.camera]"),
+      table("section of [render]", "[render.section]", "axis = \"x\"\nat_mm = 0\n"),
       table("[record]", "[record]"),
       table("[device.NAME]", "[device.d]",
             "driver = \"simulated\"\nwaypoints = [[0, 0, 0, 0], [1, 0, 0, 0]]\n"),

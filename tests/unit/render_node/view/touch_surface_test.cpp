@@ -70,5 +70,18 @@ TEST(TouchSurface, LooksThroughWhatIsHiddenAndFollowsTheCamera) {
   EXPECT_NEAR(touch.under(seen.camera, middle, 0)->x(), side / 2 + side / cells / 2, 1e-8);
 }
 
+TEST(TouchSurface, DoesNotMeetWhatASectionTakesAway) {
+  Seen seen;
+  TouchSurface touch;
+  touch.keep(seen.model.bodies(), {}, section_cut({1, 0.0}, seen.camera.eye()));
+  const auto behind = touch.under(seen.camera, middle, 0);
+  ASSERT_TRUE(behind) << "the far side";
+  EXPECT_NEAR(behind->y(), side / 2 - side / cells / 2, 1e-8);
+  // The cut face itself is in the way.
+  touch.keep(seen.model.bodies(), {}, section_cut({1, 0.0}, seen.camera.eye()));
+  touch.keep_sections(seen.model.bodies());
+  EXPECT_FALSE(touch.under(seen.camera, middle, 0));
+}
+
 }  // namespace
 }  // namespace palpate::render
