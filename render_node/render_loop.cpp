@@ -155,6 +155,8 @@ int run_headless(const NodeOptions& options, const Scene& scene) {
     // 3. say how it goes
     fare.tell(wire, phase_of(picture.model()), schedule.skipped(), false);
   }
+  frames.settle();
+  fare.note_losses(frames);
   fare.tell(wire, NodePhase::stopping, schedule.skipped(), true);
   const int kept = fare.write_report(options.out, picture.model(), wire, &frames);
   return wire.unwelcome() ? exit_mistake : kept;

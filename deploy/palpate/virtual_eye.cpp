@@ -53,12 +53,13 @@ void VirtualEye::draw(physics::World& world, std::int64_t now_ns) {
   if (folder_) folder_->keep(picture_.image());
 }
 
-nlohmann::json VirtualEye::summary(double wall_s) const {
+nlohmann::json VirtualEye::summary(double wall_s) {
   nlohmann::json summary = {{"frames", drawn_},
                             {"fps", wall_s > 0 ? drawn_ / wall_s : 0.0},
                             {"facets_visible", picture_.facets_visible()},
                             {"facets_total", picture_.facets_total()}};
   if (!folder_) return summary;
+  folder_->settle();
   summary["frames"] = folder_->kept();
   if (folder_->lost() > 0) summary["frames_lost"] = folder_->lost();
   if (folder_->every() > 1)

@@ -28,7 +28,7 @@ class VirtualEye {
   void frame(physics::World& world, std::int64_t now_ns);
 
   /// The part `render` of summary.json.
-  nlohmann::json summary(double wall_s) const;
+  nlohmann::json summary(double wall_s);
 
  private:
   void draw(physics::World& world, std::int64_t now_ns);

@@ -1,6 +1,7 @@
 #include "render_node/image/frame_folder.h"
 
 #include <algorithm>
+#include <chrono>
 #include <numeric>
 
 #include "common/error/error.h"
@@ -26,14 +27,26 @@ FrameFolder::FrameFolder(const fs::path& out, const RenderSpec& spec)
   kept_ = own_pictures(folder_);
 }
 
-bool FrameFolder::wants_next() {
-  const std::uint64_t n = offered_++;
+FrameFolder::~FrameFolder() { settle(); }
+
+bool FrameFolder::is_full() const {
   const auto bytes = [](double sum, const OwnPicture& picture) {
     return sum + static_cast<double>(picture.bytes);
   };
-  if (n % every_ == 0 &&
-      (kept_.size() >= most_ || std::accumulate(kept_.begin(), kept_.end(), 0.0, bytes) >= most_bytes_))
-    thin();
+  // One that is being written weighs about as much as that before it.
+  const bool more = pending_.valid();
+  const double likely = more && !kept_.empty() ? static_cast<double>(kept_.back().bytes) : 0;
+  return kept_.size() + (more ? 1 : 0) >= most_ ||
+         std::accumulate(kept_.begin(), kept_.end(), likely, bytes) >= most_bytes_;
+}
+
+bool FrameFolder::wants_next() {
+  if (pending_.valid() && pending_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) settle();
+  const std::uint64_t n = offered_++;
+  if (n % every_ == 0 && is_full()) {
+    settle();
+    if (is_full()) thin();
+  }
   const bool wanted = n % every_ == 0;
   left_out_ += wanted ? 0 : 1;
   return wanted;
@@ -65,23 +78,36 @@ void FrameFolder::thin() {
   kept_ = std::move(left);
 }
 
+FrameFolder::Written FrameFolder::write(const Image& image, const fs::path& path) {
+  try {
+    write_png(image, path);
+  } catch (const InputError& error) {
+    return {0, error.what()};
+  }
+  std::error_code unknown;
+  const auto bytes = fs::file_size(path, unknown);
+  return {unknown ? 0 : bytes, {}};
+}
+
 void FrameFolder::keep(const Image& image) {
+  settle();
   if (lost_ > 0) {  // what room there is again is for what tells of it
     ++lost_;
     return;
   }
-  const fs::path path = folder_ / frame_name(last_ + 1);
-  try {
-    write_png(image, path);
-    ++last_;
-    std::error_code unknown;
-    const auto bytes = fs::file_size(path, unknown);
-    kept_.push_back({last_, unknown ? 0 : bytes});
-  } catch (const InputError& error) {
-    ++lost_;
-    why_ = error.what();
-    log_error("{}; the session goes on without pictures", why_);
+  pending_ = std::async(std::launch::async, write, image, folder_ / frame_name(last_ + 1));
+}
+
+void FrameFolder::settle() {
+  if (!pending_.valid()) return;
+  const Written written = pending_.get();
+  if (written.why.empty()) {
+    kept_.push_back({++last_, written.bytes});
+    return;
   }
+  ++lost_;
+  why_ = written.why;
+  log_error("{}; the session goes on without pictures", why_);
 }
 
 }  // namespace palpate::render

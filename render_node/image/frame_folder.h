@@ -1,9 +1,10 @@
 #pragma once
 // OUT/frames/frame_00001.png and so on, within the budget that the scene gives them. A disk that takes no
-// more costs pictures, never the session.
+// more costs pictures, never the session. Pictures are written beside: who draws waits only if the one before is not done.
 
 #include <cstdint>
 #include <filesystem>
+#include <future>
 #include <string>
 #include <vector>
 
@@ -20,15 +21,20 @@ class FrameFolder {
   /// @param spec  most_frames, most_frame_bytes
   /// @throws InputError if it cannot be made, or is a link
   FrameFolder(const std::filesystem::path& out, const RenderSpec& spec);
+  FrameFolder(FrameFolder&&) = default;
+  FrameFolder& operator=(FrameFolder&&) = default;
+  ~FrameFolder();
 
   /// Is the picture that is due now to be kept? Ask once for each; one that is not need not be drawn. Where
   /// the budget is reached, every second picture that lies there goes, those left are numbered anew, and half
   /// as many are kept from here on: what is left is always spread evenly over the whole session.
   bool wants_next();
 
-  /// Writes the picture that was wanted. The first that cannot be written is logged, and from then on all are
+  /// Begins to write the picture that was wanted. The first that cannot be written is logged, and from then on all are
   /// only counted.
   void keep(const Image& image);
+  /// Waits until all that was kept lies there, or is lost. What follows knows no more than was settled.
+  void settle();
 
   std::uint64_t lost() const noexcept { return lost_; }
   const std::string& why() const noexcept { return why_; }  // of the first lost one; empty: none is
@@ -38,7 +44,13 @@ class FrameFolder {
   std::uint64_t every() const noexcept { return every_; }        // how many are due for each that is kept
 
  private:
+  bool is_full() const;
   void thin();
+  struct Written {
+    std::uint64_t bytes = 0;
+    std::string why;  // it is lost; empty: it is there
+  };
+  static Written write(const Image& image, const std::filesystem::path& path);
 
   std::filesystem::path folder_;
   std::size_t most_;
@@ -47,6 +59,7 @@ class FrameFolder {
   int last_ = 0;                  // highest number there, anybody's
   std::uint64_t offered_ = 0, every_ = 1, left_out_ = 0, lost_ = 0;
   std::string why_;
+  std::future<Written> pending_;
 };
 
 }  // namespace palpate::render

@@ -34,6 +34,7 @@ RenderSpec budget(int frames, double bytes = 1e9) {
 void offer(FrameFolder& frames, int first, int n) {
   for (int i = first; i < first + n; ++i)
     if (frames.wants_next()) frames.keep(grey(i));
+  frames.settle();
 }
 
 /// The shades of frame_00001.png and so on, as many as there are without a gap.
@@ -67,6 +68,21 @@ TEST(FrameFolder, KeepsToItsBudgetAndStaysEven) {
     EXPECT_EQ(frames.left_out(), static_cast<std::size_t>(n) - left.size()) << n;
     EXPECT_EQ(frames.every(), static_cast<std::uint64_t>(step)) << n;
   }
+}
+
+/// Whoever draws does not wait for a picture to be written, and nothing of what was kept is lost by going.
+TEST(FrameFolder, WritesBesideAndInOrder) {
+  const ScratchFolder out;
+  {
+    FrameFolder frames(out.path(), budget(8));
+    for (int i = 0; i < 40; ++i) {
+      if (frames.wants_next()) frames.keep(grey(i));
+      ASSERT_LE(files_in(fs::path(out.path()) / "frames"), 8u) << i;
+    }
+  }
+  const auto left = shades(out.path());
+  ASSERT_GE(left.size(), 4u);
+  for (std::size_t i = 0; i < left.size(); ++i) EXPECT_EQ(left[i], static_cast<int>(i) * left[1]);
 }
 
 TEST(FrameFolder, CountsBytes) {
