@@ -42,13 +42,14 @@ class Image {
     }
     return g;
   }
-  /// By Newton's method along the gradient. In cells.
+  /// By Newton's method along the gradient, which in noise needs short steps. In cells.
   double from_border(const Vec3& p) const {
     Vec3 q = p;
-    for (int n = 0; n < 12; ++n) {
+    for (int n = 0; n < 30; ++n) {
       const Vec3 g = gradient(q);
       if (!(g.squaredNorm() > 0)) break;
-      q -= cells_.spacing.cwiseProduct(std::clamp(phi(q) / g.squaredNorm(), -1e3, 1e3) * g);
+      const Vec3 step = phi(q) / g.squaredNorm() * g;
+      q -= cells_.spacing.cwiseProduct(step * std::min(1.0, 0.25 / step.norm()));
     }
     return (q - p).cwiseQuotient(cells_.spacing).norm();
   }

@@ -16,7 +16,8 @@ constexpr double left_out = 0.02;  // of intensities, at each end of the scale
 constexpr double darker = 0.8;
 
 std::uint32_t grey_of(double intensity, const GreyScale& grey) {
-  const double share = std::clamp((intensity - grey.black) / (grey.white - grey.black), 0.04, 1.0);
+  // Why the root: of a CT bone takes most of the scale, and soft tissue would be black.
+  const double share = std::sqrt(std::clamp((intensity - grey.black) / (grey.white - grey.black), 0.01, 1.0));
   const auto level = static_cast<std::uint32_t>(std::lround(255 * share));
   return 0xFF000000U | level << 16U | level << 8U | level;
 }

@@ -8,7 +8,7 @@
 
 namespace palpate::physics {
 
-/// Intensities that are shown black and white.
+/// Intensities that are shown black and white; between them brightness goes by the root.
 struct GreyScale {
   double black = 0, white = 1;
 };

@@ -58,7 +58,8 @@ TEST(SectionSurface, HasTheGreysOfTheImage) {
   for (std::size_t f = 0; f < surface.facets.size(); ++f) {
     const Vec3i cell = body.cells->cell_of(surface.site[f]);
     const auto intensity = static_cast<double>(body.cells->intensity[surface.site[f]]);
-    const double share = std::clamp((intensity - grey.black) / (grey.white - grey.black), 0.04, 1.0);
+    const double share =
+        std::sqrt(std::clamp((intensity - grey.black) / (grey.white - grey.black), 0.01, 1.0));
     EXPECT_NEAR(surface.rgba[f] & 0xFFU, 255 * share, 0.51);
     EXPECT_EQ(surface.rgba[f] & 0xFFU, surface.rgba[f] >> 8U & 0xFFU);
     EXPECT_TRUE(body.cells->is_filled(cell.x(), cell.y(), cell.z()));
