@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/message/messages.h"
+#include "common/scene/colour_kind.h"
 #include "common/scene/section_spec.h"
 #include "render_node/image/image.h"
 
@@ -47,6 +48,8 @@ class Picture {
   void set_threshold(double intensity) noexcept;
   /// The section, likewise.
   void set_section(const std::optional<SectionSpec>& section) noexcept;
+  /// What colours say, likewise.
+  void set_colour(ColourKind kind) noexcept;
 
   ViewModel& model() noexcept;
   const ViewModel& model() const noexcept;

@@ -142,6 +142,7 @@ int run_headless(const NodeOptions& options, const Scene& scene) {
     stop = news.stop;
     if (news.threshold) picture.set_threshold(*news.threshold);
     if (news.section) picture.set_section(*news.section);
+    if (news.colour) picture.set_colour(*news.colour);
     // 2. draw when simulated time has come to the next frame
     const double t = picture.model().t();
     if (picture.model().anything_to_see() && schedule.due(t) && frames.wants_next()) {
@@ -213,6 +214,7 @@ int run_window(const NodeOptions& options, const Scene& given) {
   Window window(scene, model, pointed_tools(options, scene));
   Wire wire(membership(options, scene, "render"));
   Fare fare(scene);
+  ColourKind commanded = window.colour();
   bool stop = false;
   while (!stop && !wire.unwelcome() && !stop_requested() && !time_is_over(options, model)) {
     const std::int64_t began_ns = now_ns();
@@ -221,6 +223,7 @@ int run_window(const NodeOptions& options, const Scene& given) {
     stop = news.stop;
     if (news.threshold) window.threshold().obey(*news.threshold);
     if (news.section) window.section().obey(*news.section);
+    if (news.colour) window.colour() = commanded = *news.colour;
     // 2. draw, and pass on what the person wants
     PanelFacts facts;
     facts.t = model.t();
@@ -228,6 +231,10 @@ int run_window(const NodeOptions& options, const Scene& given) {
     facts.paused = news.paused;
     const PanelWishes wishes = window.draw(facts);
     pass_on(wishes, facts.paused, scene.physics->frame_Hz, window, wire);
+    if (window.colour() != commanded) {
+      commanded = window.colour();
+      wire.command(CommandKind::colour, 0, std::string(name_of(commanded)));
+    }
     if (wishes.reset) reset(scene, model, wire);
     if (wishes.picture) window.say(keep(*wishes.picture, options.out));
     for (auto& pointer : window.pointers()) wire.point(pointer.message(now_ns()));

@@ -77,6 +77,9 @@ Wire::News Wire::take_into(ViewModel& model) {
       case CommandKind::threshold:
         news.threshold = command.value;
         break;
+      case CommandKind::colour:
+        if (const auto kind = colour_kind_of(command.name.data())) news.colour = kind;
+        break;
       case CommandKind::section:
         news.section = section_of(command.name.data(), command.value);
         break;

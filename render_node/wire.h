@@ -9,6 +9,7 @@
 
 #include "common/message/messages.h"
 #include "common/process/node_main.h"
+#include "common/scene/colour_kind.h"
 #include "common/scene/section_spec.h"
 #include "common/wire/participant.h"
 #include "common/wire/reader.h"
@@ -29,6 +30,7 @@ class Wire {
     bool paused = false;                                // commanded last
     std::optional<double> threshold;                    // commanded by somebody
     std::optional<std::optional<SectionSpec>> section;  // likewise
+    std::optional<ColourKind> colour;                   // likewise
   };
   /// Takes all that has come into the model.
   News take_into(ViewModel& model);

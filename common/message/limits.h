@@ -45,6 +45,7 @@ inline constexpr double largest_state = 1e6;      // of a mode [m sqrt(kg)], and
 inline constexpr double most_compliance = 1;      // of what answers at once [m/N]
 inline constexpr double rigid_stiffness = 1e9;    // stands for "does not give" [N/m]
 inline constexpr double most_energy = 1e6;        // [J]
+inline constexpr double largest_field = 1e12;     // that colours show, strain or stress [Pa]
 inline constexpr double largest_value = 1e9;      // of a command or a rate, in its unit
 inline constexpr std::int64_t latest_stamp = std::int64_t{1} << 61;  // either side of zero [ns]
 

@@ -18,9 +18,10 @@ enum class CommandKind : std::uint32_t {
   material,
   device,
   stop,
-  section
+  section,
+  colour
 };
-inline constexpr std::uint32_t n_command_kinds = 9;
+inline constexpr std::uint32_t n_command_kinds = 10;
 
 /// render, palpate -> physics, haptic.
 struct Command {
@@ -28,8 +29,10 @@ struct Command {
   CommandKind kind = CommandKind::pause;
   double value =
       0;  // pause: frames to go on by first, 0 or more; threshold: intensity; record: 0 or 1; device: 1 ends a fault;
-          // section: where it cuts the axis [m]
-  std::array<char, 64> name{};  // material, tool whose device it is about, or axis of the section: section_name()
+      // section: where it cuts the axis [m]
+  std::array<char, 64>
+      name{};  // material, tool whose device it is about, axis of the section: section_name(), or what
+               // colours are to say: name_of(ColourKind)
 
   template <class Visit>
   static constexpr void fields(Visit&& visit) {

@@ -150,6 +150,9 @@ struct VertexBlock {
   std::uint32_t n_vertices = 0;                        // <= max_block_vertices
   std::array<Array3f, max_block_vertices> position{};  // [m]
   std::array<std::uint8_t, max_block_vertices> flags{};
+  float field_most =
+      0;  // of what colours show, where physics computes it (ColourKind): strain, or stress [Pa]; 0: nothing
+  std::array<std::uint8_t, max_block_vertices> field{};  // 255ths of that
 
   template <class Visit>
   static constexpr void fields(Visit&& visit) {
@@ -163,6 +166,8 @@ struct VertexBlock {
     visit(PALPATE_FIELD(n_vertices), count(max_block_vertices));
     visit.first(PALPATE_FIELD(position), PALPATE_FIELD(n_vertices), within(farthest_vertex));
     visit.first(PALPATE_FIELD(flags), PALPATE_FIELD(n_vertices), any);
+    visit(PALPATE_FIELD(field_most), up_to(largest_field));
+    visit.first(PALPATE_FIELD(field), PALPATE_FIELD(n_vertices), any);
     visit.rule("block", RejectReason::out_of_range,
                [](const auto& m) { return m.block == m.first_vertex / max_block_vertices; });
     visit.rule("first_vertex", RejectReason::out_of_range, [](const auto& m) {

@@ -49,14 +49,20 @@ void read_render(TableReader& root, ReadContext& context) {
   read_camera(reader, context);
   read_section(reader, context);
   render.threshold = reader.read_number("threshold");
-  if (const auto shown =
-          reader.read_words("show", {"tool", "force", "panels", "wire", "fragments", "displacement"})) {
+  if (const auto shown = reader.read_words(
+          "show", {"tool", "force", "panels", "wire", "fragments", "displacement", "strain", "stress"})) {
     render.show_tool = (*shown)[0];
     render.show_force = (*shown)[1];
     render.show_panels = (*shown)[2];
     render.show_wire = (*shown)[3];
     render.show_fragments = (*shown)[4];
-    render.show_displacement = (*shown)[5];
+    int kinds = 0;
+    for (std::size_t n = 1; n < colour_names.size(); ++n)
+      if ((*shown)[4 + n]) render.colour = static_cast<ColourKind>(n), ++kinds;
+    if (kinds > 1)
+      reader.complain("show",
+                      "\"displacement\", \"strain\" and \"stress\" in \"show\" are colours of the same "
+                      "tissue; name one of them");
   }
   set_if(render.rate_Hz, reader.read_number("rate_Hz", {.lo = 0, .hi = 1000, .without_lo = true}));
   if (const auto most = reader.read_integer("most_frames", 2, 1'000'000))

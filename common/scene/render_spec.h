@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "common/math/vec3.h"
+#include "common/scene/colour_kind.h"
 #include "common/scene/section_spec.h"
 
 namespace palpate {
@@ -18,12 +19,12 @@ struct CameraSpec {
 struct RenderSpec {
   std::array<int, 2> size_px{1280, 720};
   CameraSpec camera;
-  std::optional<double> threshold;  // intensity shown from; absent: each volume's keep_min
+  std::optional<double> threshold;     // intensity shown from; absent: each volume's keep_min
   std::optional<SectionSpec> section;  // cut open; absent: whole
   bool show_tool = true, show_force = true, show_panels = true, show_wire = false;
-  bool show_fragments = false;     // every fragment but the largest in a colour of its own
-  bool show_displacement = false;  // coloured by how far it is from where it lies at rest
-  double rate_Hz = 10;             // frames per simulated second when headless
+  bool show_fragments = false;  // every fragment but the largest in a colour of its own
+  ColourKind colour = ColourKind::own;
+  double rate_Hz = 10;  // frames per simulated second when headless
   // What the frames of one run may take on the disk. Where that is reached, every second one goes and half
   // as many come.
   int most_frames = 400;

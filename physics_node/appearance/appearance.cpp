@@ -36,6 +36,12 @@ Appearance::Appearance(const World& world, std::optional<double> threshold, Rema
     views_[v].shown = NumberedSurface(surface_of(v));
     begin_whole(views_[v]);
   }
+  set_colour(world.scene().render->colour);
+}
+
+void Appearance::set_colour(ColourKind kind) {
+  for (View& view : views_) view.field = TissueField::of(world_.body(view.body), kind);
+  resend();
 }
 
 /// What a surface is made from, so that the body may move on.
@@ -111,7 +117,8 @@ void Appearance::begin_whole(View& view) {
 void Appearance::publish_anew(std::size_t number) {
   for (View& view : views_)
     if (view.number == number && !is_out(view)) return begin_whole(view);
-  if (const std::size_t strands = number - world_.n_bodies(); number >= world_.n_bodies() && strands < strands_.size())
+  if (const std::size_t strands = number - world_.n_bodies();
+      number >= world_.n_bodies() && strands < strands_.size())
     strands_[strands].publish_anew();
 }
 
@@ -232,7 +239,7 @@ int Appearance::write_blocks(const std::function<void(const VertexBlock&)>& sink
     if (is_out(view)) continue;
     block_->body = view.number;
     block_->revision = view.revision;
-    blocks += view.blocks.write(view.shown, world_.body(view.body), *block_, sink);
+    blocks += view.blocks.write(view.shown, world_.body(view.body), view.field.get(), *block_, sink);
   }
   for (StrandPicture& strands : strands_) blocks += strands.write_blocks(*block_, sink);
   return blocks;

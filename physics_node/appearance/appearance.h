@@ -42,6 +42,9 @@ class Appearance {
   /// Shows another section of bodies of cells, or none; poll() takes it. It begins with the scene's.
   void set_section(const std::optional<SectionSpec>& section);
 
+  /// What colours are to say: blocks then hold the field, of bodies that have it. It begins with the scene's.
+  void set_colour(ColourKind kind);
+
   /// Takes finished surfaces, and follows elements that broke or came back: of each body that has such, a copy of its live
   /// elements goes into a new surface. Costs next to nothing where none has. Allocates: not for inside a frame.
   /// @return true if write_surfaces has something new
@@ -73,8 +76,8 @@ class Appearance {
   };
   struct View {
     std::size_t body = 0;
-    std::uint32_t number = 0;           // to the eye
-    std::optional<GreyScale> grey;      // of a section
+    std::uint32_t number = 0;       // to the eye
+    std::optional<GreyScale> grey;  // of a section
     NumberedSurface shown;
     std::unique_ptr<LiveElements> live;  // what it was, or is being, made from; of a section that of its body
     std::unique_ptr<FragmentColours> colours;  // the same; null where fragments have none
@@ -86,6 +89,7 @@ class Appearance {
     std::vector<FacetChange> due_facets;
     std::size_t n_told = 0;  // vertices
     MovedBlocks blocks;
+    std::unique_ptr<TissueField> field;  // that colours show; null: none
   };
   /// A new surface of a body: its changes, or where those weigh too much the whole.
   struct Made {
@@ -110,8 +114,8 @@ class Appearance {
   const World& world_;
   std::vector<View> views_;  // of bodies, then of sections
   std::vector<StrandPicture> strands_;
-  std::optional<double> threshold_;  // of the surfaces shown or being made
-  std::optional<double> wanted_;     // threshold asked for since
+  std::optional<double> threshold_;     // of the surfaces shown or being made
+  std::optional<double> wanted_;        // threshold asked for since
   std::optional<SectionSpec> section_;  // likewise, of those shown or being made
   std::optional<std::optional<SectionSpec>> wanted_section_;
   Remake how_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "physics_node/appearance/numbered_surface.h"
+#include "physics_node/appearance/tissue_field.h"
 #include "physics_node/step/body_model.h"
 
 namespace palpate::physics {
@@ -32,22 +33,28 @@ class MovedBlocks {
   /// All blocks are written again next time.
   void resend();
 
-  /// Gives the sink every block in which a vertex moved by more than a hundredth of a millimetre, or changed its flags.
+  /// Gives the sink every block in which a vertex moved by more than a hundredth of a millimetre, changed its flags, or the
+  /// field by a hundredth of the largest in the block.
+  /// @param field  that colours show; null: none
   /// @param block  what does not depend on the block is filled in  @return blocks
-  int write(const NumberedSurface& surface, const BodyModel& moving, VertexBlock& block,
-            const std::function<void(const VertexBlock&)>& sink);
+  int write(const NumberedSurface& surface, const BodyModel& moving, const TissueField* field,
+            VertexBlock& block, const std::function<void(const VertexBlock&)>& sink);
 
  private:
-  void look_at(const NumberedSurface& surface, const BodyModel& moving, std::size_t first, std::size_t last);
+  void look_at(const NumberedSurface& surface, const BodyModel& moving, const TissueField* field,
+               std::size_t first, std::size_t last);
   bool changed(const NumberedSurface& surface, const BodyModel& moving, std::size_t first,
                std::size_t last) const;
 
   std::vector<Array3f> sent_;             // positions as last written  (n_vertices)
   std::vector<std::uint8_t> sent_flags_;  // (n_vertices)
+  std::vector<float> sent_field_;         // (n_vertices)
   // Of the block that is looked at.
   std::vector<Index> cells_;           // of its vertices that move
   std::vector<Condition> conditions_;  // of these
   std::vector<std::uint8_t> flags_;    // of its vertices
+  std::vector<float> field_;           // likewise
+  float field_most_ = 0;               // the largest of them
 };
 
 }  // namespace palpate::physics

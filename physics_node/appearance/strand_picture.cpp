@@ -93,9 +93,10 @@ int StrandPicture::write_blocks(VertexBlock& block, const std::function<void(con
     block.block = static_cast<std::uint32_t>(first / max_block_vertices);
     block.first_vertex = static_cast<std::uint32_t>(first);
     block.n_vertices = static_cast<std::uint32_t>(last - first);
+    block.field_most = 0;
     for (std::size_t n = first; n < last; ++n) {
       block.position[n - first] = sent_[n] = now_[n];
-      block.flags[n - first] = 0;
+      block.flags[n - first] = block.field[n - first] = 0;
     }
     sink(block);
     ++blocks;

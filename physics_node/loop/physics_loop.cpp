@@ -99,6 +99,7 @@ void PhysicsLoop::take_commands() {
   double steps = 0;
   std::optional<double> threshold;
   std::optional<std::optional<SectionSpec>> section;
+  std::optional<ColourKind> colour;
   for (int n = 0; n < most_commands && wire_.commands.take(command); ++n) {
     if (recorder_) recorder_->command(*world_, command);
     switch (command.kind) {
@@ -119,6 +120,9 @@ void PhysicsLoop::take_commands() {
       case CommandKind::section:
         section = section_of(command.name.data(), command.value);
         break;
+      case CommandKind::colour:
+        if (const auto kind = colour_kind_of(command.name.data())) colour = kind;
+        break;
       case CommandKind::stop:
         stop_ = true;
         break;
@@ -137,6 +141,7 @@ void PhysicsLoop::take_commands() {
   if (reset) world_->reset();
   if (threshold) appearance_->set_threshold(*threshold);
   if (section) appearance_->set_section(*section);
+  if (colour) appearance_->set_colour(*colour);
 }
 
 void PhysicsLoop::publish_hand() {

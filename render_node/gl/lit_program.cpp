@@ -48,14 +48,16 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in uint flags;
 layout(location = 3) in vec4 colour;
 layout(location = 4) in vec3 rest;
+layout(location = 5) in float field;
 uniform float most_way;
+uniform float most_field;
 uniform mat4 clip_from_world;
 uniform mat4 world_from_model;
 uniform float shading;
 uniform vec4 cut;
 void take_away() { gl_ClipDistance[0] = cut.w - dot(cut.xyz, rest); }
-// As WayScale has it: its own colour, yellow, orange, red, violet.
-vec3 by_way(vec3 own, float share) {
+// As ColourScale has it: its own colour, yellow, orange, red, violet.
+vec3 by_scale(vec3 own, float share) {
   vec3 yellow = vec3(1.00, 0.86, 0.30), orange = vec3(0.96, 0.50, 0.12);
   vec3 red = vec3(0.78, 0.12, 0.16), violet = vec3(0.40, 0.06, 0.46);
   float s = 4.0 * clamp(share, 0.0, 1.0);
@@ -66,7 +68,8 @@ vec3 by_way(vec3 own, float share) {
 }
 vec3 albedo_here() {
   vec3 shown = colour.rgb;
-  if (most_way > 0.0) shown = by_way(shown, distance(position, rest) / most_way);
+  if (most_way > 0.0) shown = by_scale(shown, distance(position, rest) / most_way);
+  if (most_field > 0.0) shown = by_scale(shown, field / most_field);
   vec3 light = shown * shown;
   vec3 dark = light * 0.08 + vec3(0.004, 0.004, 0.010);
   return mix(light, dark, shading * float(flags >> 2u) / 63.0);  // light: elastic, dark: yielded
@@ -181,6 +184,7 @@ void LitProgram::begin(const Camera& camera) const {
   pale(0);
   shade(1);
   colour_by_way(0);
+  colour_by_field(0);
   cut_open(no_cut());
 }
 
@@ -197,6 +201,8 @@ void LitProgram::pale(float share) const { program_.set("paleness", share); }
 void LitProgram::shade(float share) const { program_.set("shading", share); }
 
 void LitProgram::colour_by_way(float most) const { program_.set("most_way", most); }
+
+void LitProgram::colour_by_field(float most) const { program_.set("most_field", most); }
 
 void LitProgram::cut_open(const Eigen::Vector4f& cut) const { program_.set("cut", cut); }
 

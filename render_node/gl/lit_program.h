@@ -20,6 +20,7 @@ inline constexpr unsigned at_normal = 1;    // vec3, model space, unit
 inline constexpr unsigned at_flags = 2;     // uint, flags of VertexBlock
 inline constexpr unsigned at_colour = 3;    // vec4, as shown
 inline constexpr unsigned at_rest = 4;      // vec3, where it lies without any load
+inline constexpr unsigned at_field = 5;     // float, what colours show
 
 /// Where the light is computed. Facets of about a pixel look the same lit at their vertices, at a third of the cost in
 /// software; but only pixels know which side of an open surface they show. Points are drawn as beads, that is as small
@@ -50,6 +51,8 @@ class LitProgram {
   void shade(float share) const;
   /// Coloured by how far a vertex is from rest, up to so much [m]; 0, as after begin(): in its own colour.
   void colour_by_way(float most) const;
+  /// Coloured by the field of a vertex, up to so much, likewise.
+  void colour_by_field(float most) const;
   /// What rests beyond the plane is not drawn (section_cut.h), while GL_CLIP_DISTANCE0 is enabled; all is after begin().
   void cut_open(const Eigen::Vector4f& cut) const;
   /// By tools; none after begin().

@@ -106,7 +106,7 @@ void Painter::draw(ViewModel& model, const Camera& camera, const PaintOptions& o
   glClear(GL_DEPTH_BUFFER_BIT);
   backdrop_.draw_gradient();
   find_touches(model, options);
-  follow_ways(model, options);
+  follow_colours(model, options);
   draw_bodies(model, camera, options, height);
   at_pixels_.begin(camera);
   for (std::size_t i = 0; i < tools_.size(); ++i)
@@ -140,11 +140,13 @@ bool Painter::is_shown(std::size_t picture, const PaintOptions& options) const {
          !is_hidden(options.hidden.bodies, with_section_[picture - first_section_]);
 }
 
-void Painter::follow_ways(const ViewModel& model, const PaintOptions& options) {
-  if (!options.displacement) return;
+void Painter::follow_colours(const ViewModel& model, const PaintOptions& options) {
+  if (options.colour == ColourKind::own) return;
+  colour_scale_.show(options.colour);
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     if (is_tissue(i) && is_shown(i, options))
-      way_scale_.see(static_cast<double>(model.bodies()[i].farthest()));
+      colour_scale_.see(static_cast<double>(is_of_physics(options.colour) ? model.bodies()[i].most_field()
+                                                                          : model.bodies()[i].farthest()));
 }
 
 void Painter::draw_bodies(ViewModel& model, const Camera& camera, const PaintOptions& options, int height) {
@@ -165,7 +167,9 @@ void Painter::draw_bodies(ViewModel& model, const Camera& camera, const PaintOpt
     lit.shade(options.wire ? 0.0F : shade);
     lit.pale(options.wire ? 0.75F : 0.0F);
     lit.touched(touches_);
-    if (options.displacement && is_tissue(i)) lit.colour_by_way(static_cast<float>(way_scale_.most()));
+    const auto most = static_cast<float>(colour_scale_.most());
+    if (options.colour == ColourKind::displacement && is_tissue(i)) lit.colour_by_way(most);
+    if (is_of_physics(options.colour) && is_tissue(i)) lit.colour_by_field(most);
     glEnable(GL_POLYGON_OFFSET_FILL);  // lines lie before the surface
     glPolygonOffset(1, 1);
     drawing.draw(lit, opened);

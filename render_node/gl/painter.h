@@ -15,15 +15,15 @@
 #include "render_node/gl/tissue_drawing.h"
 #include "render_node/model/view_model.h"
 #include "render_node/view/camera.h"
+#include "render_node/view/colour_scale.h"
 #include "render_node/view/hidden.h"
-#include "render_node/view/way_scale.h"
 
 namespace palpate::render {
 
 /// What of the scene's [render] table a hand may switch while it runs.
 struct PaintOptions {
   bool tool = true, force = true, wire = false, fragments = false;
-  bool displacement = false;                // colours say how far tissue is from rest
+  ColourKind colour = ColourKind::own;      // what colours of tissue say
   std::optional<SectionSpec> section = {};  // across which bodies are shown cut open
   Hidden hidden = {};
 };
@@ -38,7 +38,7 @@ class Painter {
 
   double arrow_metres_per_newton() const noexcept { return metres_per_newton_; }  // 0: nothing seen yet
   /// What its colours say, where they were asked for.
-  const WayScale& way_scale() const noexcept { return way_scale_; }
+  const ColourScale& colour_scale() const noexcept { return colour_scale_; }
   std::size_t bytes_uploaded() const noexcept { return bytes_uploaded_; }  // by the last draw()
 
  private:
@@ -57,7 +57,7 @@ class Painter {
   };
   void adapt_sizes(const Eigen::AlignedBox3d& box);
   void find_touches(const ViewModel& model, const PaintOptions& options);
-  void follow_ways(const ViewModel& model, const PaintOptions& options);
+  void follow_colours(const ViewModel& model, const PaintOptions& options);
   bool is_tissue(std::size_t picture) const;
   bool is_shown(std::size_t picture, const PaintOptions& options) const;
   void draw_bodies(ViewModel& model, const Camera& camera, const PaintOptions& options, int height);
@@ -80,7 +80,7 @@ class Painter {
   std::vector<Touch> touches_;
   double size_ = 0;  // half the diagonal of all bodies [m]
   double metres_per_newton_ = 0;
-  WayScale way_scale_;
+  ColourScale colour_scale_;
   std::size_t bytes_uploaded_ = 0;
 };
 

@@ -47,7 +47,9 @@ TissueDrawing::TissueDrawing() {
   glVertexAttribPointer(at_colour, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(std::uint32_t), nullptr);
   rest_.bind();
   glVertexAttribPointer(at_rest, 3, GL_FLOAT, GL_FALSE, sizeof(Array3f), nullptr);
-  for (const auto place : {at_position, at_normal, at_flags, at_colour, at_rest})
+  field_.bind();
+  glVertexAttribPointer(at_field, 1, GL_FLOAT, GL_FALSE, sizeof(float), nullptr);
+  for (const auto place : {at_position, at_normal, at_flags, at_colour, at_rest, at_field})
     glEnableVertexAttribArray(place);
 }
 
@@ -61,7 +63,8 @@ std::size_t TissueDrawing::upload(BodyPicture& body) {
     for (const auto& range : body.dirty_ranges()) {
       position_.update(range.first, position.subspan(range.first, range.n));
       packed_.update(range.first, packed.subspan(range.first, range.n));
-      bytes += range.n * (sizeof(Array3f) + sizeof(PackedVertex));
+      field_.update(range.first, std::span<const float>(body.field()).subspan(range.first, range.n));
+      bytes += range.n * (sizeof(Array3f) + sizeof(PackedVertex) + sizeof(float));
     }
   }
   body.clear_dirty();
@@ -86,6 +89,7 @@ std::size_t TissueDrawing::upload_all(const BodyPicture& body) {
   packed_.upload(std::span<const PackedVertex>(body.packed()));
   colour_.upload(std::span<const std::uint32_t>(body.vertex_rgba()));
   rest_.upload(std::span<const Array3f>(body.rest()));
+  field_.upload(std::span<const float>(body.field()));
   triangles_.upload(std::span<const std::uint32_t>(triangles));
   lines_.upload(std::span<const std::uint32_t>(lines));
   beads_.upload(std::span<const std::uint32_t>(beads));
@@ -95,7 +99,8 @@ std::size_t TissueDrawing::upload_all(const BodyPicture& body) {
   n_edge_indices_ = 0;
   closed_ = is_closed(body.surface());
   return (triangles.size() + lines.size() + beads.size()) * sizeof(std::uint32_t) +
-         body.packed().size() * (2 * sizeof(Array3f) + sizeof(PackedVertex) + sizeof(std::uint32_t));
+         body.packed().size() *
+             (2 * sizeof(Array3f) + sizeof(PackedVertex) + sizeof(std::uint32_t) + sizeof(float));
 }
 
 void TissueDrawing::draw(const LitProgram& program, bool opened) const {

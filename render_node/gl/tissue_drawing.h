@@ -37,6 +37,7 @@ class TissueDrawing {
   Buffer packed_{Buffer::Kind::vertices};
   Buffer colour_{Buffer::Kind::vertices};
   Buffer rest_{Buffer::Kind::vertices};
+  Buffer field_{Buffer::Kind::vertices};
   Buffer triangles_{Buffer::Kind::indices};
   Buffer edges_{Buffer::Kind::indices};
   Buffer lines_{Buffer::Kind::indices};

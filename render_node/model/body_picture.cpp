@@ -102,6 +102,7 @@ void BodyPicture::follow_surface() {
   rest_.insert(rest_.end(), surface_.position.begin() + static_cast<std::ptrdiff_t>(rest_.size()),
                surface_.position.end());  // new ones lie there still
   flags_.resize(n, 0);
+  field_.resize(n, 0.0F);
   is_moved_.resize(n, 0);
   packed_.resize(n);
   page_dirty_.assign((n + page_vertices - 1) / page_vertices, 0);
@@ -155,6 +156,11 @@ void BodyPicture::apply(const VertexBlock& block) {
       pack(v);
       touch(v);
     }
+    const float field = static_cast<float>(block.field[i]) / 255.0F * block.field_most;
+    if (field_[v] != field) {
+      field_[v] = field;
+      touch(v);
+    }
     if (surface_.position[v] == block.position[i]) continue;
     surface_.position[v] = block.position[i];
     touch(v);
@@ -189,6 +195,12 @@ float BodyPicture::farthest() const noexcept {
     most2 = std::max(most2, x * x + y * y + z * z);
   }
   return std::sqrt(most2);
+}
+
+float BodyPicture::most_field() const noexcept {
+  float most = 0;
+  for (const float value : field_) most = std::max(most, value);
+  return most;
 }
 
 void BodyPicture::pack(std::size_t vertex) {

@@ -54,6 +54,9 @@ class BodyPicture {
   std::vector<Array3f> const& rest() const noexcept { return rest_; }  // of each vertex [m]
   /// How far the vertex is from there that is farthest. Cost: a pass over all. [m]
   float farthest() const noexcept;
+  /// What colours show, as physics has computed it; 0 where it has not.  (n_vertices)
+  std::vector<float> const& field() const noexcept { return field_; }
+  float most_field() const noexcept;  // cost: a pass over all
   std::vector<PackedVertex> const& packed() const noexcept { return packed_; }
   std::vector<std::uint32_t> const& vertex_rgba() const noexcept {
     return vertex_rgba_;
@@ -95,6 +98,7 @@ class BodyPicture {
   std::vector<Array3f> rest_;               // (n_vertices)
   std::vector<std::uint32_t> vertex_rgba_;  // (n_vertices)
   std::vector<std::uint8_t> flags_;         // (n_vertices)
+  std::vector<float> field_;                // (n_vertices)
   std::vector<PackedVertex> packed_;        // (n_vertices)
   Eigen::AlignedBox3f first_box_;
   float edge_length_ = 0;

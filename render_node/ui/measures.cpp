@@ -54,14 +54,14 @@ void draw_axes(const Camera& camera, float left, float scale) {
 
 }  // namespace
 
-void lay_out_legend(const WayScale& ways, float scale) {
+void lay_out_legend(const ColourScale& colours, float scale) {
   const ImVec2 picture = ImGui::GetIO().DisplaySize;
   const float width = 150 * scale, height = 10 * scale;
   const ImVec2 low = {picture.x - 20 * scale - width, picture.y - 66 * scale};
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   constexpr int steps = 4;
   const auto colour = [](int n) {
-    const auto& c = WayScale::colours[static_cast<std::size_t>(n)];
+    const auto& c = ColourScale::colours[static_cast<std::size_t>(n)];
     return IM_COL32(c[0], c[1], c[2], 255);
   };
   for (int n = 0; n < steps; ++n) {
@@ -69,12 +69,12 @@ void lay_out_legend(const WayScale& ways, float scale) {
     list.AddRectFilledMultiColor({left, low.y}, {right, low.y + height}, colour(n), colour(n + 1),
                                  colour(n + 1), colour(n));
   }
-  const std::string most = ways.words();
+  const std::string most = colours.words();
   const float line = ImGui::GetTextLineHeight();
   list.AddText({low.x, low.y - line - 2 * scale}, ink, "0");
   list.AddText({low.x + width - ImGui::CalcTextSize(most.c_str()).x, low.y - line - 2 * scale}, ink,
                most.c_str());
-  list.AddText({low.x, low.y - 2 * line - 2 * scale}, ink, "from rest");
+  list.AddText({low.x, low.y - 2 * line - 2 * scale}, ink, colours.heading());
 }
 
 void lay_out_measures(const Camera& camera, float left, float scale) {

@@ -3,12 +3,12 @@
 // what the column leaves free.
 
 #include "render_node/view/camera.h"
-#include "render_node/view/way_scale.h"
+#include "render_node/view/colour_scale.h"
 
 namespace palpate::render {
 
-/// What the colours of displacement say, in the lower right corner above the scale bar.
-void lay_out_legend(const WayScale& ways, float scale);
+/// What the colours of tissue say, in the lower right corner above the scale bar.
+void lay_out_legend(const ColourScale& colours, float scale);
 
 /// Lays both out in the current ImGui frame, beneath its windows.
 /// @param left  covered by the column [px]  @param scale  of all lengths, 1 at 720 px

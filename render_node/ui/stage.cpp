@@ -22,7 +22,7 @@ Stage::Stage(const Scene& scene, ViewModel& model, int height)
                scene.render->show_force,
                scene.render->show_wire,
                scene.render->show_fragments,
-               scene.render->show_displacement,
+               scene.render->colour,
                scene.render->section,
                {}},
       threshold_(scene),
@@ -52,7 +52,7 @@ PanelWishes Stage::draw(const PanelFacts& facts, int width, int height, float se
                  : lay_out_panels(scene_, model_, shown, {threshold_, section_, options_.hidden}, scale);
   if (model_.anything_to_see()) {
     lay_out_measures(camera_, left, scale);
-    if (options_.displacement) lay_out_legend(painter_.way_scale(), scale);
+    if (options_.colour != ColourKind::own) lay_out_legend(painter_.colour_scale(), scale);
   }
   if (facts.interactive) lay_out_hindrances(hindrances(scene_, model_, facts.paused, facts.pointer), left);
   lay_out_words(facts.words, left);

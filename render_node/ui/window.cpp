@@ -226,7 +226,7 @@ void Window::perform(Action action, PanelWishes& wishes) {
       stage_->options().wire = !stage_->options().wire;
       break;
     case Action::ways:
-      stage_->options().displacement = !stage_->options().displacement;
+      stage_->options().colour = next(stage_->options().colour);
       break;
     case Action::section:
       stage_->section().next(model_.box());
@@ -263,6 +263,7 @@ void Window::look_at_tool() {
 bool Window::closing() const { return leave_ || glfwWindowShouldClose(glfw_->window) != 0; }
 bool Window::software() const { return software_gl(); }
 ThresholdControl& Window::threshold() { return stage_->threshold(); }
+ColourKind& Window::colour() { return stage_->options().colour; }
 SectionControl& Window::section() { return stage_->section(); }
 
 }  // namespace palpate::render

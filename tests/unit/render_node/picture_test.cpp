@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "common/scene/body_spec.h"
 #include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/surroundings_spec.h"
@@ -208,7 +209,7 @@ TEST(Picture, ColoursTissueByHowFarItIsFromRest) {
   Scene scene = small_scene();
   const auto middle = *camera_of(scene).project({0, -side / 2, 0});
   for (const bool shown : {false, true}) {
-    scene.render->show_displacement = shown;
+    scene.render->colour = shown ? ColourKind::displacement : ColourKind::own;
     Picture picture(scene);
     show(picture, cube);
     picture.draw(0);
@@ -225,6 +226,51 @@ TEST(Picture, ColoursTissueByHowFarItIsFromRest) {
     EXPECT_LT(now.y(), own.y() - 40);
     EXPECT_GT(now.z(), now.y() + 20);
   }
+}
+
+/// One half strains as much as the scale has, the other not at all.
+TEST(Picture, ColoursTissueByWhatPhysicsTells) {
+  Scene scene = small_scene();
+  scene.render->colour = ColourKind::strain;
+  Picture picture(scene);
+  show(picture, cube);
+  picture.draw(0);
+  const auto left = *camera_of(scene).project({-0.03, -side / 2, 0}),
+             right = *camera_of(scene).project({0.03, -side / 2, 0});
+  const Eigen::Vector3i own = pixel(picture, right), other = pixel(picture, left);
+  auto block = block_of(cube, 0, 1, 0);
+  block.field_most = 0.2F;
+  for (std::uint32_t v = 0; v < block.n_vertices; ++v) block.field[v] = block.position[v][0] > 0 ? 255 : 0;
+  picture.take(block);
+  picture.draw(0.1);
+  EXPECT_LT(difference(pixel(picture, left), other), 4);
+  EXPECT_LT(pixel(picture, right).y(), own.y() - 40);
+}
+
+/// A plane takes the half nearer to the eye away; what lay behind shows.
+TEST(Picture, ShowsWhatASectionOpens) {
+  Scene scene = small_scene();
+  scene.bodies[0].lattice = LatticeKind::voxel;
+  const auto at = *camera_of(scene).project({0.02, -side / 2, 0.01});
+  Picture whole(scene);
+  show(whole, cube);
+  whole.draw(0);
+  scene.render->section = SectionSpec{1, 0.0};
+  Picture opened(scene);
+  show(opened, cube);
+  opened.draw(0);
+  EXPECT_GT(difference(pixel(whole, at), pixel(opened, at)), 8) << "the inside of the far half";
+  // A section of the body closes it.
+  auto cut = test::chunks_of(cube, 1, 1);
+  for (auto& chunk : cut)
+    for (std::uint32_t v = 0; v < chunk.n_vertices; ++v) chunk.position[v][1] = 0;
+  for (const auto& chunk : cut) opened.take(chunk);
+  opened.draw(0);
+  const Eigen::Vector3i with = pixel(opened, at);
+  opened.set_section(std::nullopt);
+  opened.draw(0);
+  EXPECT_LT(difference(pixel(opened, at), pixel(whole, at)), 4) << "whole again";
+  EXPECT_GT(difference(with, pixel(whole, at)), 4);
 }
 
 TEST(Picture, UploadsOnlyWhatMoved) {

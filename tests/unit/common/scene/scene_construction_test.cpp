@@ -71,6 +71,8 @@ INSTANTIATE_TEST_SUITE_P(
         {body(knife + "\ntheta_deg = [0, \"up\", 0]"), "9:17", "is \"up\"; write a finite number"},
         {body(knife + "\nlattice = \"voxel\""), "9:11",
          "a knife or needle stands on an \"fcc\" lattice; leave \"lattice\" out"},
+        {body(box) + "[render]\nshow = [\"strain\", \"stress\"]\n", "11:8",
+         "are colours of the same tissue; name one of them"},
         {body(box + "\nskin = \"smooth\""), "8:8",
          "\"skin\" is of cells; write lattice = \"voxel\", or leave \"skin\" out"},
         {body("shape = \"needle\"\nlength_mm = 40\ndiameter_mm = 6"), "4:1",

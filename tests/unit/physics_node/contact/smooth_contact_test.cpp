@@ -62,9 +62,11 @@ TEST(SmoothContact, NeverPushesItsVerticesBeyondTheShape) {
     }
     const double tip = pose.tip.z() - press.depth();
     for (const std::uint32_t f : bench.facets)
-      for (std::size_t c = 0; c < 4; ++c)
-        if (const Vec3 x = bench.surface.position(f, c, *bench.moving); bench.surface.rest(f, c).z() > 0.012)
-          EXPECT_TRUE((x - pose.tip).head<2>().norm() > 0.003 || x.z() > tip - 0.25 * press.depth()) << dt;
+      for (std::size_t c = 0; c < 4; ++c) {
+        const Vec3 x = bench.surface.position(f, c, *bench.moving);
+        const bool beside = (x - pose.tip).head<2>().norm() > 0.003 || bench.surface.rest(f, c).z() < 0.012;
+        EXPECT_TRUE(beside || x.z() > tip - 0.25 * press.depth()) << dt;
+      }
   }
 }
 

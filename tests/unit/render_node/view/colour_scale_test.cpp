@@ -1,4 +1,4 @@
-#include "render_node/view/way_scale.h"
+#include "render_node/view/colour_scale.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 namespace palpate::render {
 namespace {
 
-TEST(WayScale, IsRoundAndOnlyGrows) {
-  WayScale scale;
+TEST(ColourScale, IsRoundAndOnlyGrows) {
+  ColourScale scale;
   EXPECT_EQ(scale.words(), "1 mm");
   scale.see(0.5e-3);
   EXPECT_EQ(scale.words(), "1 mm") << "a dent that nobody sees";
@@ -25,8 +25,24 @@ TEST(WayScale, IsRoundAndOnlyGrows) {
   }
 }
 
-TEST(WayScale, HearsNothingOfWhatIsNotANumber) {
-  WayScale scale;
+TEST(ColourScale, BeginsAnewWithAnotherKind) {
+  ColourScale scale;
+  scale.see(7e-3);
+  scale.show(ColourKind::strain);
+  EXPECT_EQ(scale.words(), "1 %");
+  scale.see(0.13);
+  EXPECT_EQ(scale.words(), "20 %");
+  scale.show(ColourKind::strain);
+  EXPECT_EQ(scale.words(), "20 %");
+  scale.show(ColourKind::stress);
+  EXPECT_EQ(scale.words(), "0.1 kPa");
+  scale.see(4321);
+  EXPECT_EQ(scale.words(), "5 kPa");
+  EXPECT_STREQ(scale.heading(), "stress (von Mises)");
+}
+
+TEST(ColourScale, HearsNothingOfWhatIsNotANumber) {
+  ColourScale scale;
   scale.see(std::numeric_limits<double>::quiet_NaN());
   scale.see(std::numeric_limits<double>::infinity());
   EXPECT_EQ(scale.words(), "1 mm");
