@@ -166,7 +166,7 @@ void Painter::draw_bodies(ViewModel& model, const Camera& camera, const PaintOpt
     }
     lit.shade(options.wire ? 0.0F : shade);
     lit.pale(options.wire ? 0.75F : 0.0F);
-    lit.touched(touches_);
+    if (i < first_section_) lit.touched(touches_);  // else it would darken what the section is to show
     const auto most = static_cast<float>(colour_scale_.most());
     if (options.colour == ColourKind::displacement && is_tissue(i)) lit.colour_by_way(most);
     if (is_of_physics(options.colour) && is_tissue(i)) lit.colour_by_field(most);
