@@ -109,7 +109,8 @@ class BreakField {
     set(value, 1.01 * promise.limit, RejectReason::out_of_range);
     set(value, -1.01 * promise.limit, RejectReason::out_of_range);
   }
-  void spoil(double& value, promise::UpTo promise) {
+  template <class T>
+  void spoil(T& value, promise::UpTo promise) {
     spoil(value, promise::Within{promise.limit});
     set(value, -std::numeric_limits<double>::denorm_min(), RejectReason::out_of_range);
   }

@@ -87,7 +87,10 @@ class Randomise {
   void fill(T& value, promise::Within promise) {
     value = static_cast<T>(size(promise.limit) * dice_.real(-1, 1));
   }
-  void fill(double& value, promise::UpTo promise) { value = size(promise.limit) * dice_.real(0, 1); }
+  template <class T>
+  void fill(T& value, promise::UpTo promise) {
+    value = static_cast<T>(size(promise.limit) * dice_.real(0, 1));
+  }
   void fill(double& value, promise::AboveZero promise) { value = size(promise.limit) * dice_.real(1e-3, 1); }
   template <std::size_t N>
   void fill(std::array<double, N>& values, promise::Unit promise) {
