@@ -112,7 +112,7 @@ class BreakField {
   template <class T>
   void spoil(T& value, promise::UpTo promise) {
     spoil(value, promise::Within{promise.limit});
-    set(value, -std::numeric_limits<double>::denorm_min(), RejectReason::out_of_range);
+    set(value, -std::numeric_limits<T>::denorm_min(), RejectReason::out_of_range);
   }
   void spoil(double& value, promise::AboveZero promise) {
     spoil(value, promise::UpTo{promise.limit});
