@@ -242,5 +242,53 @@ TEST(SmoothSkin, StaysClosedWhereCellsGo) {
   }
 }
 
+/// What tools touch of a body that breaks is what is drawn of it, and moves with what is left.
+TEST(SmoothSkin, IsTouchedWhereItIsDrawnWhileCellsBreak) {
+  SmoothImage image;
+  image.breaks = true;
+  const auto moving = make_body_model(image.body(), Precision::double_);
+  Boundary boundary(*moving, 0.04, true);
+  Dice dice(5);
+  const auto nodes = moving->body().nodes();
+  for (int round = 0; round < 6; ++round) {
+    for (int n = 0; n < 4; ++n) {
+      const Index torn = nodes[static_cast<std::size_t>(dice.between(0, double(nodes.size())))];
+      moving->place(torn, Vec3(0, 0, 1), Vec3::Zero());
+      moving->advance({.dt = 1e-9, .watch = true}, {});
+      boundary.follow();
+      for (const Index node : nodes) moving->place(node, Vec3::Zero(), Vec3::Zero());
+    }
+    for (std::uint64_t before = 0; before != boundary.revision();)
+      before = boundary.revision(), boundary.update();
+    EXPECT_GT(moving->breaks(), 0);
+    const auto sorted = [](std::vector<Vec3> all) {
+      std::sort(all.begin(), all.end(), [](const Vec3& a, const Vec3& b) {
+        return std::array{a.x(), a.y(), a.z()} < std::array{b.x(), b.y(), b.z()};
+      });
+      return all;
+    };
+    std::vector<Vec3> drawn, touched;
+    const Surface now = make_surface(*moving, std::nullopt, 0);
+    for (const auto& f : now.facets)
+      drawn.push_back((now.rest[f[0]] + now.rest[f[1]] + now.rest[f[2]] + now.rest[f[3]]) / 4);
+    for (std::uint32_t f = 0; f < boundary.most_facets(); ++f)
+      if (boundary.exists(f)) touched.push_back(boundary.centroid(f, *moving));
+    drawn = sorted(drawn), touched = sorted(touched);
+    ASSERT_EQ(drawn.size(), touched.size());
+    for (std::size_t n = 0; n < drawn.size(); ++n) ASSERT_LT((drawn[n] - touched[n]).norm(), 1e-9);
+    // As one piece, whatever its vertices were carried by before.
+    Eigen::Matrix3d A;
+    A << 0.9, -0.6, 0.1, 0.5, 1.1, -0.2, 0.05, 0.3, 0.8;
+    for (const Index node : nodes) {
+      const Vec3 rest = moving->body().rest_position(node);
+      moving->place(node, A * rest - rest, Vec3::Zero());
+    }
+    for (std::uint32_t f = 0; f < boundary.most_facets(); ++f)
+      for (std::size_t c = 0; boundary.exists(f) && c < 4; ++c)
+        EXPECT_LT((boundary.position(f, c, *moving) - A * boundary.rest(f, c)).norm(), 1e-13);
+    for (const Index node : nodes) moving->place(node, Vec3::Zero(), Vec3::Zero());
+  }
+}
+
 }  // namespace
 }  // namespace palpate::physics
