@@ -9,16 +9,7 @@
 #include "common/math/units.h"
 
 namespace palpate::deploy {
-namespace {
 
-namespace fs = std::filesystem;
-
-constexpr double camera_aside_deg = 55,
-                 camera_above_deg = 20;  // Why: from the side the dent and the tip are both seen
-constexpr double below = -0.5;           // outward z of a place that is seen from below only
-constexpr double camera_sizes = 1.4;     // away, in diagonals of the image
-
-/// A basic string of TOML.
 std::string in_quotes(const std::string& text) {
   std::string out = "\"";
   for (const char letter : text) {
@@ -31,12 +22,20 @@ std::string in_quotes(const std::string& text) {
   return out + "\"";
 }
 
-/// A line of a comment cannot end before its end.
 std::string in_comment(std::string text) {
   for (char& letter : text)
     if (static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f) letter = '?';
   return text;
 }
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double camera_aside_deg = 55,
+                 camera_above_deg = 20;  // Why: from the side the dent and the tip are both seen
+constexpr double below = -0.5;           // outward z of a place that is seen from below only
+constexpr double camera_sizes = 1.4;     // away, in diagonals of the image
 
 std::string in_mm(const Vec3& p) {
   const auto rounded_to_nm = [](double m) { return std::round(1e9 * m) * 1e-6 + 0.0; };  // + 0.0: no -0

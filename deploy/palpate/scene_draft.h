@@ -15,6 +15,11 @@ inline constexpr double step_safety = 0.9;  // [physics] safety of these scenes
 std::string scene_draft(const std::string& file, const std::string& words, const ImageTissue& tissue,
                         const TouchPlace& place, const PressPlan& plan);
 
+/// A basic string of TOML.
+std::string in_quotes(const std::string& text);
+/// A line of a comment cannot end before its end.
+std::string in_comment(std::string text);
+
 /// `volume` as a scene file at `scene` has to name it: from the folder of that where links allow, else in full.
 std::string named_from(const std::string& volume, const std::string& scene);
 

@@ -12,6 +12,7 @@ void add_simulate(CLI::App& app, int& exit_code);
 void add_export(CLI::App& app, int& exit_code);
 void add_import(CLI::App& app, int& exit_code);
 void add_new(CLI::App& app, int& exit_code);
+void add_view(CLI::App& app, int& exit_code);
 void add_info(CLI::App& app, int& exit_code);
 void add_plot(CLI::App& app, int& exit_code);
 void add_doctor(CLI::App& app, int& exit_code);
