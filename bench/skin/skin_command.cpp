@@ -104,6 +104,7 @@ void add_skin(CLI::App& app, int& exit_code) {
   command->add_option("volume", options->volume, "a volume file, from palpate import")->required();
   command->add_option("--keep", options->keep, "lowest and highest intensity that is tissue")
       ->required()
+      ->delimiter(',')
       ->expected(2);
   command->add_option("--partition", options->partition, "resampled to so many cells along x, y and z")
       ->expected(3);

@@ -12,6 +12,7 @@
 #include "common/process/checked_option.h"
 #include "common/record/part_file.h"
 #include "common/record/volume_facts.h"
+#include "common/scene/device_spec.h"
 #include "common/scene/load_scene.h"
 #include "common/scene/tool_spec.h"
 #include "deploy/palpate/info.h"
@@ -105,6 +106,21 @@ physics::FirstTouch tried(const std::string& text, const std::string& path, cons
   throw std::runtime_error(path + ": its path would miss the place; give another by --at x,y,z");
 }
 
+/// Where the path is at a time between its ends.
+Vec3 place_on(const std::vector<Waypoint>& path, double t) {
+  for (std::size_t n = 1; n < path.size(); ++n)
+    if (t <= path[n].t)
+      return path[n - 1].p + (t - path[n - 1].t) / (path[n].t - path[n - 1].t) * (path[n].p - path[n - 1].p);
+  return path.back().p;
+}
+
+/// The skin lies up to half a cell from the faces that the place was found on: the path is to touch when it says.
+void come_to_skin(const physics::FirstTouch& touch, TouchPlace& place, PressPlan& plan) {
+  const double off = (place_on(plan.path, touch.t) - place.at).dot(place.outward);
+  for (Waypoint& point : plan.path) point.p += off * place.outward;
+  place.at += off * place.outward;
+}
+
 void write_text(const std::string& text, const std::string& path) {
   PartFile beside(path);
   std::FILE* file = std::fopen(beside.part().c_str(), "w");
@@ -119,13 +135,18 @@ void write_new(const NewOptions& options) {
   const auto keep = keep_of(options);
   check_names(options);
   const ImageTissue tissue = find_tissue(volume_of(options.volume), keep, options.volume);
-  const TouchPlace place = place_of(options, tissue);
-  const PressPlan plan = plan_press(tissue, place, options.volume);
+  TouchPlace place = place_of(options, tissue);
+  PressPlan plan = plan_press(tissue, place, options.volume);
   const std::string words =
       keep ? "as given by --keep"
            : fmt::format("halfway between air and tissue by the histogram, and what is brighter");
-  const std::string text = scene_draft(named_from(options.volume, options.out), words, tissue, place, plan);
-  const physics::FirstTouch touch = tried(text, options.out, place, tissue.cells.spacing.norm());
+  const double cell = tissue.cells.spacing.norm();
+  const auto draft = [&] {
+    return scene_draft(named_from(options.volume, options.out), words, tissue, place, plan);
+  };
+  come_to_skin(tried(draft(), options.out, place, cell), place, plan);
+  const std::string text = draft();
+  const physics::FirstTouch touch = tried(text, options.out, place, cell);
   write_text(text, options.out);
   fmt::print(
       "tissue       intensity {:g} to {:g}, in cells of {:.3g} x {:.3g} x {:.3g} mm, {} of which move\n",

@@ -1,4 +1,4 @@
-// Whether the camera of the scene sees anything: against the ball round all bodies.
+// Whether the camera of the scene sees anything, against the ball round all bodies, and its section cuts any.
 
 #include <fmt/format.h>
 
@@ -10,8 +10,22 @@
 #include "physics_node/remarks/remarks.h"
 
 namespace palpate::physics {
+namespace {
 
-Remarks picture_remarks(const Scene& scene, const Bodies& bodies) {
+Remarks section_remarks(const Scene& scene, const Bodies& bodies) {
+  const auto& section = scene.render->section;
+  if (!section) return {};
+  Eigen::AlignedBox3d box;
+  for (const auto& body : bodies) box.extend(box_of(body->body()));
+  const double low = box.min()[section->axis], high = box.max()[section->axis];
+  if (box.isEmpty() || (section->at >= low && section->at <= high)) return {};
+  return {fmt::format(
+      "{}: [render] section at {} = {:.4g} mm meets no body, and nothing is cut open; they go from "
+      "{:.4g} to {:.4g} mm",
+      scene.path, section_name(section), 1e3 * section->at, 1e3 * low, 1e3 * high)};
+}
+
+Remarks camera_remarks(const Scene& scene, const Bodies& bodies) {
   const CameraSpec& camera = scene.render->camera;
   if (!camera.target && !camera.distance) return {};  // fitted to the bodies
   Eigen::AlignedBox3d box;
@@ -42,6 +56,14 @@ Remarks picture_remarks(const Scene& scene, const Bodies& bodies) {
                     "is in millimetres",
                     place, away, 2 * radius)};
   return {};
+}
+
+}  // namespace
+
+Remarks picture_remarks(const Scene& scene, const Bodies& bodies) {
+  Remarks all = camera_remarks(scene, bodies);
+  for (auto& line : section_remarks(scene, bodies)) all.push_back(std::move(line));
+  return all;
 }
 
 }  // namespace palpate::physics

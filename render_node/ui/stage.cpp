@@ -36,9 +36,10 @@ PanelWishes Stage::draw(const PanelFacts& facts, int width, int height, float se
   const float left = panels && !facts.folded ? panel_width_in(static_cast<float>(width), scale) : 0;
   camera_.set_picture(width, height, static_cast<int>(std::lround(left)));
   camera_.fit(box_with_floor());
-  options_.section = section_.value();
+  options_.section = section_in(model_.box());
   painter_.draw(model_, camera_, options_, width, height);
-  if (!panels && !facts.interactive) return {};
+  const bool coloured = options_.colour != ColourKind::own;
+  if (!panels && !facts.interactive && !coloured) return {};
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
   io.DeltaTime = seconds;
@@ -52,7 +53,7 @@ PanelWishes Stage::draw(const PanelFacts& facts, int width, int height, float se
                  : lay_out_panels(scene_, model_, shown, {threshold_, section_, options_.hidden}, scale);
   if (model_.anything_to_see()) {
     lay_out_measures(camera_, left, scale);
-    if (options_.colour != ColourKind::own) lay_out_legend(painter_.colour_scale(), scale);
+    if (coloured) lay_out_legend(painter_.colour_scale(), scale);
   }
   if (facts.interactive) lay_out_hindrances(hindrances(scene_, model_, facts.paused, facts.pointer), left);
   lay_out_words(facts.words, left);
@@ -60,6 +61,15 @@ PanelWishes Stage::draw(const PanelFacts& facts, int width, int height, float se
   ImGui::Render();
   panels_.draw();
   return wishes;
+}
+
+/// Beside all bodies a plane cuts nothing, and would only take them away.
+std::optional<SectionSpec> Stage::section_in(const Eigen::AlignedBox3d& box) const {
+  const auto& section = section_.value();
+  if (!section || box.isEmpty()) return section;
+  const double at = section->at;
+  if (at < box.min()[section->axis] || at > box.max()[section->axis]) return std::nullopt;
+  return section;
 }
 
 Eigen::AlignedBox3d Stage::box_with_floor() const {

@@ -30,6 +30,7 @@ class Stage {
  private:
   /// Of all bodies as they were first seen, down to the floor: what falls stays in sight.
   Eigen::AlignedBox3d box_with_floor() const;
+  std::optional<SectionSpec> section_in(const Eigen::AlignedBox3d& box) const;
 
   const Scene& scene_;
   ViewModel& model_;

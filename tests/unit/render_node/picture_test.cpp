@@ -273,6 +273,42 @@ TEST(Picture, ShowsWhatASectionOpens) {
   EXPECT_GT(difference(with, pixel(whole, at)), 4);
 }
 
+TEST(Picture, StaysWholeWhereASectionMeetsNothing) {
+  Scene scene = small_scene();
+  scene.bodies[0].lattice = LatticeKind::voxel;
+  const auto drawn = [&](std::optional<SectionSpec> section) {
+    scene.render->section = section;
+    Picture picture(scene);
+    show(picture, cube);
+    picture.draw(0);
+    return picture.image().rgb;
+  };
+  const auto whole = drawn(std::nullopt);
+  EXPECT_EQ(drawn(SectionSpec{1, 9.0}), whole);
+  EXPECT_EQ(drawn(SectionSpec{0, -9.0}), whole);
+  EXPECT_NE(drawn(SectionSpec{0, 0.0}), whole);
+}
+
+/// A picture in colours has to say what they mean, panels or not.
+TEST(Picture, HasALegendWithoutPanels) {
+  Scene scene = small_scene();
+  scene.render->show_panels = false;
+  const auto corner = [&](ColourKind colour) {
+    scene.render->colour = colour;
+    Picture picture(scene);
+    show(picture, cube);
+    picture.draw(0);
+    const Image& image = picture.image();
+    std::vector<std::uint8_t> seen;
+    for (int y = image.height * 3 / 4; y < image.height; ++y)
+      for (int x = image.width * 3 / 4; x < image.width; ++x)
+        seen.push_back(image.rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                                      static_cast<std::size_t>(x))]);
+    return seen;
+  };
+  EXPECT_NE(corner(ColourKind::own), corner(ColourKind::strain));
+}
+
 TEST(Picture, UploadsOnlyWhatMoved) {
   const auto large = cube_surface(80, side, skin);
   Picture picture(small_scene());

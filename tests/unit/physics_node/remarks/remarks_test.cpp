@@ -151,6 +151,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"CameraLooksAway",
                 {"render.camera={distance_mm=300,target_mm=[0,0,900]}"},
                 "looks past all bodies"},
+        Mistake{"SectionBesideAllBodies", {"render.section={axis=\"x\",at_mm=500}"}, "meets no body"},
         Mistake{"CameraFarAway", {"render.camera={distance_mm=300000}"}, "are a dot in the picture"}),
     [](const auto& which) { return which.param.name; });
 
