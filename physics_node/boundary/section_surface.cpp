@@ -133,7 +133,8 @@ class Layer {
         if (!cells_.is_filled(c.x(), c.y(), c.z())) continue;
         if (!cells_.is_deformable(c.x(), c.y(), c.z())) return {};
         if (!moves(c)) continue;
-        const double away = (place - cells_.centre_of(c.x(), c.y(), c.z())).cwiseQuotient(cells_.spacing).norm();
+        const double away =
+            (place - cells_.centre_of(c.x(), c.y(), c.z())).cwiseQuotient(cells_.spacing).norm();
         if (!best || away < least) best = c, least = away;
       }
     return best ? bearers_in_cell(body_, shift_, *best, place) : Bearers{};

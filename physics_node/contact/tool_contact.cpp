@@ -210,9 +210,8 @@ void ToolContact::find_shares(const Vec3& q) noexcept {
     for (std::uint32_t b = 0; b < by.n && shares_.size() < shares_.capacity(); ++b)
       shares_.push_back({by.node[b], by.weight[b] * corner.weight});
   }
-  if (!merged || !std::is_sorted(shares_.begin(), shares_.end(), [](const MassShare& a, const MassShare& b) {
-        return a.cell < b.cell;
-      }))
+  if (!merged || !std::is_sorted(shares_.begin(), shares_.end(),
+                                 [](const MassShare& a, const MassShare& b) { return a.cell < b.cell; }))
     merge_equal_masses(shares_);
 }
 

@@ -100,10 +100,10 @@ class ToolContact {
   double searched_when_ = -1e9;
   std::uint64_t searched_revision_ = 0;  // of the boundary
   std::vector<std::uint32_t> found_;
-  std::vector<Near> near_;       // of found_
-  std::vector<Corner> corners_;  // of near_, by number
+  std::vector<Near> near_;                                     // of found_
+  std::vector<Corner> corners_;                                // of near_, by number
   std::vector<std::pair<std::int64_t, std::uint32_t>> order_;  // to find equal corners
-  std::vector<Facet> facets_;  // of near_, as they are now
+  std::vector<Facet> facets_;                                  // of near_, as they are now
   std::vector<MassShare> shares_;
   std::uint64_t contact_set_ = 0;
 };

@@ -9,6 +9,7 @@
 namespace palpate::render {
 
 void ColourScale::see(double value) noexcept {
+  value *= 1 - 1e-6;  // Why: a round number comes as a float
   if (!(value > most_) || !std::isfinite(value)) return;
   const double ten = std::pow(10, std::floor(std::log10(value)));
   for (const double times : {1.0, 2.0, 5.0, 10.0})

@@ -214,7 +214,8 @@ INSTANTIATE_TEST_SUITE_P(
          "\"pitch_deg\" in camera of [render] is 91; write a number from -90 to 90"},
         {"threshold = 226", "threshold = \"bone\"", "102:13", "write a finite number"},
         {"\"wire\"", "\"wires\"", "103:18",
-         "write \"tool\", \"force\", \"panels\", \"wire\", \"fragments\" or \"displacement\""},
+         "write \"tool\", \"force\", \"panels\", \"wire\", \"fragments\", "
+         "\"displacement\", \"strain\" or \"stress\""},
         {"most_frames = 50", "most_frames = 1", "105:15", "write a whole number from 2 to 1000000"},
         {"most_frames_MB = 20", "most_frames_MB = nan", "106:18", "write a number from 1 to 1000000"},
         {"radius_mm = 20\n", "radius_mm = 1e300\n", "39:13",
