@@ -29,7 +29,7 @@ struct Command {
   CommandKind kind = CommandKind::pause;
   double value =
       0;  // pause: frames to go on by first, 0 or more; threshold: intensity; record: 0 or 1; device: 1 ends a fault;
-          // section: where it cuts the axis [m]
+      // section: where it cuts the axis [m]
   std::array<char, 64>
       name{};  // material, tool whose device it is about, axis of the section: section_name(), or what
                // colours are to say: name_of(ColourKind)

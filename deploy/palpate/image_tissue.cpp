@@ -5,9 +5,13 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "common/error/error.h"
+#include "common/record/volume_facts.h"
 #include "deploy/palpate/air_threshold.h"
+#include "deploy/palpate/info.h"
+#include "physics_node/forecast/memory_need.h"
 
 namespace palpate::deploy {
 namespace {
@@ -106,6 +110,25 @@ void check_tissue(const Cells& cells, const KeepWindow& keep, const std::string&
 }
 
 }  // namespace
+
+void check_volume(const std::string& path) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(path, none))
+    throw InputError(fmt::format("{}: no such file; give a volume that palpate import has written", path));
+  if (!is_volume(path))
+    throw InputError(fmt::format("{}: is no volume; give one that palpate import has written", path));
+}
+
+Volume read_volume_within_memory(const std::string& path, double bytes_a_cell) {
+  const VolumeFacts facts = volume_facts(path);
+  const double bytes = bytes_a_cell * facts.size[0] * facts.size[1] * facts.size[2];
+  if (bytes > physics::usable_memory())
+    throw InputError(fmt::format(
+        "{}: would take {:.2g} GB of memory, {:.2g} GB may be taken here; import the image with a coarser "
+        "--partition",
+        path, 1e-9 * bytes, 1e-9 * physics::usable_memory()));
+  return read_volume(path);
+}
 
 ImageTissue find_tissue(const Volume& volume, const std::optional<KeepWindow>& keep,
                         const std::string& path) {

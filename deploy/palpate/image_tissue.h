@@ -11,6 +11,11 @@
 
 namespace palpate::deploy {
 
+/// @throws InputError  no such file, or no volume that palpate import has written
+void check_volume(const std::string& path);
+/// @param bytes_a_cell  that the reader's work takes at most  @throws InputError  more memory than may be taken
+Volume read_volume_within_memory(const std::string& path, double bytes_a_cell);
+
 struct KeepWindow {
   double lo = 0, hi = 0;  // intensities of tissue, both ends included
 };

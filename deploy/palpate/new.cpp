@@ -11,14 +11,12 @@
 #include "common/math/units.h"
 #include "common/process/checked_option.h"
 #include "common/record/part_file.h"
-#include "common/record/volume_facts.h"
 #include "common/scene/device_spec.h"
 #include "common/scene/load_scene.h"
 #include "common/scene/tool_spec.h"
-#include "deploy/palpate/info.h"
+#include "deploy/palpate/image_tissue.h"
 #include "deploy/palpate/scene_draft.h"
 #include "deploy/palpate/subcommands.h"
-#include "physics_node/forecast/memory_need.h"
 #include "physics_node/remarks/first_touch.h"
 
 namespace palpate::deploy {
@@ -42,24 +40,8 @@ void check_names(const NewOptions& options) {
   if (fs::exists(fs::symlink_status(options.out, none)))
     throw InputError(
         fmt::format("--out {}: is there already; give another name, or take it away", options.out));
-  if (!fs::is_regular_file(options.volume, none))
-    throw InputError(
-        fmt::format("{}: no such file; give a volume that palpate import has written", options.volume));
-  if (!is_volume(options.volume))
-    throw InputError(
-        fmt::format("{}: is no volume; give one that palpate import has written", options.volume));
+  check_volume(options.volume);
   check_can_write(options.out);
-}
-
-Volume volume_of(const std::string& path) {
-  const VolumeFacts facts = volume_facts(path);
-  const double bytes = bytes_of_work * facts.size[0] * facts.size[1] * facts.size[2];
-  if (bytes > physics::usable_memory())
-    throw InputError(fmt::format(
-        "{}: would take {:.2g} GB of memory, {:.2g} GB may be taken here; import the image with a coarser "
-        "--partition",
-        path, 1e-9 * bytes, 1e-9 * physics::usable_memory()));
-  return read_volume(path);
 }
 
 std::optional<KeepWindow> keep_of(const NewOptions& options) {
@@ -134,7 +116,8 @@ void write_new(const NewOptions& options) {
   keep_as_private_as({options.volume});
   const auto keep = keep_of(options);
   check_names(options);
-  const ImageTissue tissue = find_tissue(volume_of(options.volume), keep, options.volume);
+  const ImageTissue tissue =
+      find_tissue(read_volume_within_memory(options.volume, bytes_of_work), keep, options.volume);
   TouchPlace place = place_of(options, tissue);
   PressPlan plan = plan_press(tissue, place, options.volume);
   const std::string words =

@@ -14,18 +14,15 @@
 #include "common/math/units.h"
 #include "common/process/checked_option.h"
 #include "common/record/volume.h"
-#include "common/record/volume_facts.h"
 #include "common/scene/load_scene.h"
 #include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
 #include "deploy/palpate/become_program.h"
 #include "deploy/palpate/image_tissue.h"
-#include "deploy/palpate/info.h"
 #include "deploy/palpate/install_paths.h"
 #include "deploy/palpate/scene_draft.h"
 #include "deploy/palpate/subcommands.h"
 #include "physics_node/appearance/appearance.h"
-#include "physics_node/forecast/memory_need.h"
 #include "render_node/picture.h"
 #include "render_node/ui/window.h"
 
@@ -44,22 +41,9 @@ struct ViewOptions {
 };
 
 void check(const ViewOptions& options) {
-  std::error_code none;
-  if (!fs::is_regular_file(options.volume, none))
-    throw InputError(
-        fmt::format("{}: no such file; give a volume that palpate import has written", options.volume));
-  if (!is_volume(options.volume))
-    throw InputError(
-        fmt::format("{}: is no volume; give one that palpate import has written", options.volume));
+  check_volume(options.volume);
   if (!options.keep.empty() && options.keep[0] > options.keep[1])
     throw InputError("--keep: give the lowest intensity first");
-  const VolumeFacts facts = volume_facts(options.volume);
-  const double bytes = bytes_of_work * facts.size[0] * facts.size[1] * facts.size[2];
-  if (bytes > physics::usable_memory())
-    throw InputError(
-        fmt::format("{}: would take {:.2g} GB of memory, {:.2g} GB may be taken here; import the image "
-                    "with a coarser --partition",
-                    options.volume, 1e-9 * bytes, 1e-9 * physics::usable_memory()));
 }
 
 /// As it is stored, or of every second, third ... cell.
@@ -147,7 +131,7 @@ int view(const ViewOptions& options) {
   check(options);
   const std::string stem = fs::path(options.volume).stem().string();
   const fs::path out = options.out.empty() ? fs::path("out") / ("view_" + stem) : fs::path(options.out);
-  const Volume volume = read_volume(options.volume);
+  const Volume volume = read_volume_within_memory(options.volume, bytes_of_work);
   const KeepWindow keep = options.keep.empty() ? find_tissue(volume, std::nullopt, options.volume).keep
                                                : KeepWindow{options.keep[0], options.keep[1]};
   const auto is_kept = [&keep](float value) {
