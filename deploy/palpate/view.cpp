@@ -56,7 +56,7 @@ std::array<int, 3> partition_of(const std::array<int, 3>& size) {
   return partition;
 }
 
-/// A scene without a hand. Eight cells in its middle may move, since a body must have some that do.
+/// A scene without a hand. Some cells in its middle may move, since a body must have some that do.
 std::string scene_text(const ViewOptions& options, const std::string& scene, const KeepWindow& keep,
                        const std::array<int, 3>& partition) {
   return fmt::format(R"(# {}: written by palpate view.
@@ -71,7 +71,7 @@ shape      = "volume"
 file       = {}
 partition  = [{}, {}, {}]
 keep       = [{:.9g}, {:.9g}]
-deformable = {{ center = "gravity", nearest = 8 }}
+deformable = {{ center = "gravity", nearest = 200 }}
 material   = "still"
 
 [material.still]

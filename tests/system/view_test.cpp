@@ -69,7 +69,7 @@ TEST_F(View, SaysWhatIsWrongInOneLine) {
   };
   expect(test::quoted(folder / "none.h5"), "no such file; give a volume that palpate import has written");
   std::ofstream(folder / "text.h5") << "no volume";
-  expect(test::quoted(folder / "text.h5"), "is no volume");
+  expect(test::quoted(folder / "text.h5"), "is not an HDF5 file");
   expect(test::quoted(folder / "my \"head\".h5") + " --keep 9,1", "give the lowest intensity first");
   expect(test::quoted(folder / "my \"head\".h5") + " --keep 99998,99999 --headless --out " +
              test::quoted(folder / "seen"),
