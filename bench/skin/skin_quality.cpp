@@ -6,6 +6,8 @@
 #include <numbers>
 #include <unordered_map>
 
+#include "physics_node/body/border_cells.h"
+
 namespace palpate::bench {
 namespace {
 
@@ -20,18 +22,8 @@ class Image {
   Image(const Cells& cells, double lo, double hi) : cells_(cells), lo_(lo), hi_(hi) {}
 
   double phi(const Vec3& p) const {
-    const Vec3 at = in_cells(p);
-    const Vec3 lowest = at.array().floor();
-    const Vec3 t = at - lowest;
-    double sum = 0;
-    for (int c = 0; c < 8; ++c) {
-      const Vec3i step(c & 1, c >> 1 & 1, c >> 2);
-      const Vec3i cell = (lowest.cast<int>() + step).cwiseMax(0).cwiseMin(cells_.size - Vec3i::Ones());
-      double weight = 1;
-      for (int a = 0; a < 3; ++a) weight *= step[a] != 0 ? t[a] : 1 - t[a];
-      sum += weight * static_cast<double>(cells_.intensity[cells_.index(cell.x(), cell.y(), cell.z())]);
-    }
-    return std::min(sum - lo_, hi_ - sum);
+    const double intensity = physics::intensity_between(cells_, p);
+    return std::min(intensity - lo_, hi_ - intensity);
   }
   Vec3 gradient(const Vec3& p) const {
     constexpr double step = 1e-3;

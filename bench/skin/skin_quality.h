@@ -1,5 +1,6 @@
 #pragma once
-// How good a skin of an image is: how far from where the tissue ends, whether it is closed, and whether it goes through itself.
+// How good a skin of an image is: how far from where the tissue ends, whether it is closed, and whether it goes
+// through itself.
 
 #include "physics_node/body/cells.h"
 #include "physics_node/boundary/surface.h"

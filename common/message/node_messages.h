@@ -27,8 +27,8 @@ inline constexpr std::uint32_t n_command_kinds = 10;
 struct Command {
   std::uint64_t id = 0;  // grows per writer; a repeated id is ignored
   CommandKind kind = CommandKind::pause;
-  // pause: frames to go on by first, 0 or more; threshold: intensity; record: 0 or 1; device: 1 ends a fault; section: where it
-  // cuts the axis [m]
+  // pause: frames to go on by first, 0 or more; threshold: intensity; record: 0 or 1; device: 1 ends a fault;
+  // section: where it cuts the axis [m]
   double value = 0;
   // material, tool whose device it is about, axis of the section: section_name(), or what colours are to say:
   // name_of(ColourKind)

@@ -8,8 +8,8 @@
 
 namespace palpate {
 
-/// own: what it looks like. displacement: how far it is from where it lies at rest. strain: how much it is out of shape. stress: von
-/// Mises'. Physics computes the last two (tissue_field.h), the eye the first.
+/// own: what it looks like. displacement: how far it is from where it lies at rest. strain: how much it is out of
+/// shape. stress: von Mises'. Physics computes the last two (tissue_field.h), the eye the first.
 enum class ColourKind : std::uint8_t { own, displacement, strain, stress };
 inline constexpr std::array<std::string_view, 4> colour_names = {"own", "displacement", "strain", "stress"};
 

@@ -19,7 +19,8 @@ enum class TetElements { plain, nodal_pressure, second_order };
 /// whole: a cell is in the shape or not, by its centre. filled: those at its border are as stiff as the share of them that is in.
 enum class BorderCells { whole, filled };
 
-/// What is drawn and felt of a body of cells: their outer faces, or a smooth skin where the tissue ends between their centres.
+/// What is drawn and felt of a body of cells: their outer faces, or a smooth skin where the tissue ends between their
+/// centres.
 enum class SkinKind { bricks, smooth };
 
 /// rest: as it is built, without stress. balanced: where it rests under its weight.

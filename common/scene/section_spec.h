@@ -23,8 +23,8 @@ std::string_view section_name(const std::optional<SectionSpec>& section) noexcep
 /// What a Command says. Nothing: none, or another name.
 std::optional<SectionSpec> section_of(std::string_view name, double at) noexcept;
 
-/// The bodies whose section is shown, those of cells, in their order. To the eye each is one more body: number k stands behind
-/// those of the scene and its connections. @return no more than there are numbers for
+/// The bodies whose section is shown, those of cells, in their order. To the eye each is one more body: number k
+/// stands behind those of the scene and its connections. @return no more than there are numbers for
 std::vector<std::size_t> bodies_with_section(const Scene& scene);
 
 }  // namespace palpate

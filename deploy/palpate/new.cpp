@@ -103,15 +103,6 @@ void come_to_skin(const physics::FirstTouch& touch, TouchPlace& place, PressPlan
   place.at += off * place.outward;
 }
 
-void write_text(const std::string& text, const std::string& path) {
-  PartFile beside(path);
-  std::FILE* file = std::fopen(beside.part().c_str(), "w");
-  const bool written = file != nullptr && std::fputs(text.c_str(), file) >= 0;
-  if (file == nullptr || std::fclose(file) != 0 || !written)
-    throw InputError(path + ": cannot be written; make room or name another place");
-  beside.commit();
-}
-
 void write_new(const NewOptions& options) {
   keep_as_private_as({options.volume});
   const auto keep = keep_of(options);
@@ -130,7 +121,7 @@ void write_new(const NewOptions& options) {
   come_to_skin(tried(draft(), options.out, place, cell), place, plan);
   const std::string text = draft();
   const physics::FirstTouch touch = tried(text, options.out, place, cell);
-  write_text(text, options.out);
+  write_scene(text, options.out);
   fmt::print(
       "tissue       intensity {:g} to {:g}, in cells of {:.3g} x {:.3g} x {:.3g} mm, {} of which move\n",
       tissue.keep.lo, tissue.keep.hi, mm_from_m(tissue.cells.spacing.x()),

@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 
+#include "common/error/error.h"
 #include "common/math/angles.h"
 #include "common/math/units.h"
+#include "common/record/part_file.h"
 
 namespace palpate::deploy {
 
@@ -166,6 +169,15 @@ std::string named_from(const std::string& volume, const std::string& scene) {
   if (!trouble && !named.empty() && fs::equivalent((folder / named).lexically_normal(), volume, trouble))
     return named.string();
   return fs::absolute(volume).string();
+}
+
+void write_scene(const std::string& text, const std::string& path) {
+  PartFile beside(path);
+  std::FILE* file = std::fopen(beside.part().c_str(), "w");
+  const bool written = file != nullptr && std::fputs(text.c_str(), file) >= 0;
+  if (file == nullptr || std::fclose(file) != 0 || !written)
+    throw InputError(path + ": cannot be written; make room or name another place");
+  beside.commit();
 }
 
 }  // namespace palpate::deploy

@@ -15,6 +15,9 @@ inline constexpr double step_safety = 0.9;  // [physics] safety of these scenes
 std::string scene_draft(const std::string& file, const std::string& words, const ImageTissue& tissue,
                         const TouchPlace& place, const PressPlan& plan);
 
+/// Writes it whole, or not at all. @throws InputError
+void write_scene(const std::string& text, const std::string& path);
+
 /// A basic string of TOML.
 std::string in_quotes(const std::string& text);
 /// A line of a comment cannot end before its end.

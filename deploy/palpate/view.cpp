@@ -102,24 +102,23 @@ constexpr Look looks[] = {{"front", 0, 0, {}},
 
 void draw_pictures(const Scene& scene, const fs::path& out) {
   const physics::World world(scene);
+  physics::Appearance appearance(world, std::nullopt);
   Eigen::AlignedBox3d box;
   for (const Look& look : looks) {
     Scene seen = scene;
     seen.render->camera.yaw = look.yaw;
     seen.render->camera.pitch = look.pitch;
-    physics::Appearance appearance(world, std::nullopt);
     if (look.cut) seen.render->section = SectionSpec{*look.cut, box.center()[*look.cut]};
     appearance.set_section(seen.render->section);
+    appearance.publish_anew(0);  // each picture begins with nothing
     render::Picture picture(seen);
-    const physics::SurfaceSinks sinks = {
-        [&](const BodySurface& chunk) {
-          for (std::uint32_t n = 0; n < chunk.n_vertices; ++n)
-            box.extend(Vec3(chunk.position[n][0], chunk.position[n][1], chunk.position[n][2]));
-          picture.take(chunk);
-        },
-        [&](const SurfaceChange& page) { picture.take(page); }};
-    appearance.poll();
-    appearance.write_surfaces(sinks);
+    appearance.write_surfaces(
+        {[&](const BodySurface& chunk) {
+           for (std::uint32_t n = 0; n < chunk.n_vertices; ++n)
+             box.extend(Vec3(chunk.position[n][0], chunk.position[n][1], chunk.position[n][2]));
+           picture.take(chunk);
+         },
+         [&](const SurfaceChange& page) { picture.take(page); }});
     appearance.write_blocks([&](const VertexBlock& block) { picture.take(block); });
     picture.draw(0);
     picture.save_png((out / (std::string(look.name) + ".png")).string());
@@ -148,10 +147,7 @@ int view(const ViewOptions& options) {
   const std::array<int, 3> partition = partition_of(volume.size);
   const std::string text = scene_text(options, scene_path, keep, partition);
   const Scene scene = parse_scene(text, scene_path);
-  std::FILE* file = std::fopen(scene_path.c_str(), "w");
-  const bool written = file != nullptr && std::fputs(text.c_str(), file) >= 0;
-  if (file == nullptr || std::fclose(file) != 0 || !written)
-    throw InputError(scene_path + ": cannot be written; make room or name another place by --out");
+  write_scene(text, scene_path);
   fmt::print("tissue       intensity {:g} to {:g}, in {} x {} x {} cells\n", keep.lo, keep.hi, partition[0],
              partition[1], partition[2]);
   std::fflush(stdout);

@@ -33,8 +33,8 @@ class MovedBlocks {
   /// All blocks are written again next time.
   void resend();
 
-  /// Gives the sink every block in which a vertex moved by more than a hundredth of a millimetre, changed its flags, or the
-  /// field by a hundredth of the largest in the block.
+  /// Gives the sink every block in which a vertex moved by more than a hundredth of a millimetre, changed its flags,
+  /// or the field by a hundredth of the largest in the block.
   /// @param field  that colours show; null: none
   /// @param block  what does not depend on the block is filled in  @return blocks
   int write(const NumberedSurface& surface, const BodyModel& moving, const TissueField* field,

@@ -5,8 +5,8 @@
 //   strain = sqrt(2/3 E':E'),  E' = E - tr E / 3  equivalent strain; of a bar of constant volume its engineering strain, when small
 //   stress = sqrt(3/2 s':s'),  s = P F^T / J      von Mises' of Cauchy's stress, of the elastic law alone: without dampers and what relaxes
 //
-// H is the mean of the cells, or by volume of the tetrahedra of first order, around a node that live; of a cell in its middle. Strain is of whatever
-// has cells or tetrahedra; stress of finite elements that do not yield.
+// H is the mean of the cells, or by volume of the tetrahedra of first order, around a node that live; of a cell in
+// its middle. Strain is of whatever has cells or tetrahedra; stress of finite elements that do not yield.
 
 #include <memory>
 #include <optional>

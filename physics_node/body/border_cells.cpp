@@ -10,41 +10,17 @@
 namespace palpate::physics {
 namespace {
 
-/// The intensity of an image between the centres of its cells; beyond the outermost it stays.
-class Between {
- public:
-  explicit Between(const Cells& cells) : cells_(cells) {}
-
-  double at(const Vec3& p) const {
-    const Vec3 in_cells = ((p - cells_.corner).array() / cells_.spacing.array() - 0.5).matrix();
-    double sum = 0;
-    const Vec3 lowest = in_cells.array().floor();
-    const Vec3 t = in_cells - lowest;
-    for (int c = 0; c < 8; ++c) {
-      const Vec3i step(c & 1, c >> 1 & 1, c >> 2);
-      const Vec3i cell = (lowest.cast<int>() + step).cwiseMax(0).cwiseMin(cells_.size - Vec3i::Ones());
-      double weight = 1;
-      for (int a = 0; a < 3; ++a) weight *= step[a] != 0 ? t[a] : 1 - t[a];
-      sum += weight * static_cast<double>(cells_.intensity[cells_.index(cell.x(), cell.y(), cell.z())]);
-    }
-    return sum;
-  }
-
- private:
-  const Cells& cells_;
-};
-
 /// Is there tissue at a place of the world?
 class Tissue {
  public:
   Tissue(const BodySpec& body, const Cells& cells)
-      : body_(body), image_(std::get_if<VolumeShape>(&body.shape)), between_(cells) {}
+      : body_(body), image_(std::get_if<VolumeShape>(&body.shape)), cells_(cells) {}
 
   bool at(const Vec3& p) const {
     for (const CavitySpec& cavity : body_.cavities)
       if (std::visit([&p](const auto& where) { return holds(where, p); }, cavity.where)) return false;
     if (image_ == nullptr) return holds(body_, p - body_.at, 0.0);
-    const double intensity = between_.at(p);
+    const double intensity = intensity_between(cells_, p);
     return intensity >= image_->keep_min && intensity <= image_->keep_max;
   }
 
@@ -53,7 +29,7 @@ class Tissue {
  private:
   const BodySpec& body_;
   const VolumeShape* image_;
-  Between between_;
+  const Cells& cells_;
 };
 
 /// At n^3 places, which all lie at another distance from each face of the cell: of a grid along the axes n^2 would lie in a plane
@@ -117,6 +93,21 @@ void give_away(const Sliver& sliver, Cells& cells) {
 }
 
 }  // namespace
+
+double intensity_between(const Cells& cells, const Vec3& p) {
+  const Vec3 in_cells = ((p - cells.corner).array() / cells.spacing.array() - 0.5).matrix();
+  double sum = 0;
+  const Vec3 lowest = in_cells.array().floor();
+  const Vec3 t = in_cells - lowest;
+  for (int c = 0; c < 8; ++c) {
+    const Vec3i step(c & 1, c >> 1 & 1, c >> 2);
+    const Vec3i cell = (lowest.cast<int>() + step).cwiseMax(0).cwiseMin(cells.size - Vec3i::Ones());
+    double weight = 1;
+    for (int a = 0; a < 3; ++a) weight *= step[a] != 0 ? t[a] : 1 - t[a];
+    sum += weight * static_cast<double>(cells.intensity[cells.index(cell.x(), cell.y(), cell.z())]);
+  }
+  return sum;
+}
 
 void fill_border_cells(const BodySpec& body, Cells& cells) {
   const Tissue tissue(body, cells);

@@ -13,6 +13,10 @@ namespace palpate::physics {
 /// Why: less would be a cell that nothing but rounding moves.
 inline constexpr float least_share = 1.0F / 32;
 
+/// Of an image at a place of the world, linear along each axis between the centres of cells; beyond the outermost it
+/// stays.
+double intensity_between(const Cells& cells, const Vec3& p);
+
 /// Fills `share` of cells whose `filled` and `deformable` are known. Of an image, the shape is where the intensity between the centres
 /// of cells, linear along each axis, lies in the window that is kept; where its edge cuts tissue off, cells are whole. Seen
 /// cells have at least least_share, others that or nothing: what lies in less belongs to the cells beside it, so that nothing is lost.

@@ -26,8 +26,8 @@ struct Cells {
   /// How much of each cell that moves is tissue, of cells not seen, too, that the shape reaches into; EMPTY: all of the deformable ones
   /// (border_cells.h).                                                             (size)
   std::vector<float> share;
-  /// Where the tissue ends between the centres of a filled cell and of an empty one beside it; EMPTY: its faces are its skin
-  /// (skin_crossings.h).                                                            (by `face`)
+  /// Where the tissue ends between the centres of a filled cell and of an empty one beside it; EMPTY: its faces are
+  /// its skin (skin_crossings.h).                                                            (by `face`)
   std::vector<SkinCrossing> crossings;
   std::vector<float> intensity;         // of each cell; empty where there is no image
   std::vector<TransferPoint> transfer;  // colours; empty where there is no image

@@ -4,8 +4,9 @@
 //   phi = min(I - lo, hi - I)                    of an image that is kept from lo to hi
 //   s   = phi_in / (phi_in + |phi_out|)          from the centre of the filled cell to that of the empty one
 //
-// Where both are kept, the empty one went for another reason (a piece of its own, another wall), and s is as for what mirrors it.
-// Of a shape, and where a cavity was taken away, s is where its wall lies. Beyond the image it ends at the face of the cell.
+// Where both are kept, the empty one went for another reason (a piece of its own, another wall), and s is as for what
+// mirrors it. Of a shape, and where a cavity was taken away, s is where its wall lies. Beyond the image it ends at
+// the face of the cell.
 
 #include "common/scene/scene_fwd.h"
 #include "physics_node/body/cells.h"

@@ -8,8 +8,8 @@
 
 namespace palpate::physics {
 
-/// The place moves as the mean of its masses by their weights, which sum up to 1 and may be below 0 where the place lies
-/// outside of what they span. A force on it is shared out by the same weights, and so does the same work.
+/// The place moves as the mean of its masses by their weights, which sum up to 1 and may be below 0 where the place
+/// lies outside of what they span. A force on it is shared out by the same weights, and so does the same work.
 struct Bearers {
   std::array<double, 8> weight{};
   std::array<Index, 8> node{};

@@ -162,7 +162,8 @@ Vec3 Boundary::centroid(std::uint32_t facet, const NodeMotion& moving) const noe
   return sum / 4;
 }
 
-/// Of a smooth skin by the masses at its corners, which is off by what tissue strains in half a cell: to leave out what is far.
+/// Of a smooth skin by the masses at its corners, which is off by what tissue strains in half a cell: to leave out
+/// what is far.
 Vec3 Boundary::nearly_centroid(std::uint32_t facet, const NodeMotion& moving) const noexcept {
   Vec3 sum = Vec3::Zero();
   for (std::size_t n = 0; n < 4; ++n) {

@@ -52,7 +52,8 @@ class Boundary {
   // Of one facet. Its corners 2 and 3 are one where it is a triangle.
   bool exists(std::uint32_t facet) const noexcept;
   bool is_triangle(std::uint32_t facet) const noexcept;
-  /// Facets that meet in a corner have the same number of it; below the capacity of the body it is that of the mass that it is.
+  /// Facets that meet in a corner have the same number of it; below the capacity of the body it is that of the mass
+  /// that it is.
   std::int64_t corner(std::uint32_t facet, std::size_t corner) const noexcept;
   /// Who carries a corner; nobody: rigid scenery.
   Bearers bearers(std::uint32_t facet, std::size_t corner) const noexcept;

@@ -1,6 +1,6 @@
 #pragma once
-// Who carries the vertices of a smooth skin while its body breaks. Where the cell goes that carried one, the next that lives around
-// its corner takes it on, at the same place of the body at rest.
+// Who carries the vertices of a smooth skin while its body breaks. Where the cell goes that carried one, the next
+// that lives around its corner takes it on, at the same place of the body at rest.
 
 #include <optional>
 #include <span>

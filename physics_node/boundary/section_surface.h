@@ -1,6 +1,6 @@
 #pragma once
-// What a plane across an axis shows of a body of cells where it cuts it open: of each cell that it goes through a square, in the grey
-// of its intensity. The squares lie in the body at rest and move with it.
+// What a plane across an axis shows of a body of cells where it cuts it open: of each cell that it goes through a
+// square, in the grey of its intensity. The squares lie in the body at rest and move with it.
 
 #include "common/scene/section_spec.h"
 #include "physics_node/boundary/live_elements.h"

@@ -1,12 +1,14 @@
 #pragma once
-// A smooth skin of a body of cells: naive surface nets. The facets are the faces of cells as ever; their corners have moved from
-// the lattice to where the tissue ends.
+// A smooth skin of a body of cells: naive surface nets. The facets are the faces of cells as ever; their corners have
+// moved from the lattice to where the tissue ends.
 //
-// At a corner of cells the faces between what is filled and what is empty make fans: faces that share an edge there. Where four
-// faces meet in an edge, the two of the same filled cell go together. Each fan has one vertex, the mean of the places
-// where its faces' lines between centres cross the border of the tissue; so it is never farther than half a cell from its
-// corner. It moves with the cell that holds it, or else with the nearest of its fan, by trilinear weights, which then go beyond it.
-// Source: Gibson 1998 (surface nets), Nielson 2004 (dual fans); weights as in free-form deformation, Sederberg & Parry 1986.
+// At a corner of cells the faces between what is filled and what is empty make fans: faces that share an edge there.
+// Where four faces meet in an edge, the two of the same filled cell go together. Each fan has one vertex, the mean of
+// the places where its faces' lines between centres cross the border of the tissue; so it is never farther than half
+// a cell from its corner. It moves with the cell that holds it, or else with the nearest of its fan, by trilinear
+// weights, which then go beyond it.
+// Source: Gibson 1998 (surface nets), Nielson 2004 (dual fans); weights as in free-form deformation, Sederberg &
+// Parry 1986.
 
 #include <array>
 #include <optional>
@@ -15,7 +17,8 @@
 
 namespace palpate::physics {
 
-/// The fans at a corner, by which of the eight cells there are filled. Octant bits 0, 1, 2: the cell lies toward +x, +y, +z.
+/// The fans at a corner, by which of the eight cells there are filled. Octant bits 0, 1, 2: the cell lies toward +x,
+/// +y, +z.
 struct SkinFans {
   int n = 0;
   std::array<std::uint8_t, 8> of_octant{};  // of a filled cell: the one that its facets are of

@@ -141,7 +141,8 @@ class Builder {
     return std::move(surface_);
   }
 
-  /// A square that is not flat is drawn and felt as two triangles on either side of its corners 0 and 2: the nearer ones.
+  /// A square that is not flat is drawn and felt as two triangles on either side of its corners 0 and 2: the nearer
+  /// ones.
   void turn_to_shorter(std::array<std::uint32_t, 4>& c) const {
     const auto square = [&](std::size_t a, std::size_t b) {
       return (surface_.rest[c[a]] - surface_.rest[c[b]]).squaredNorm();

@@ -2,8 +2,9 @@
 // A rigid shape without mass that a given force presses on the faces of a body: how deep it goes, and what each node bears.
 //
 // Every face near the shape is divided into samples of an area A_s (at rest), which move with the corners of the face by their bilinear
-// weights, and those with the nodes that carry them (bearers.h); w is the product. d_s is the signed distance of one from the shape, o_s its gradient. In a step of dt, when the elements have moved the nodes to
-// x, the forces p_s o_s on the samples and the depth z of the shape solve
+// weights, and those with the nodes that carry them (bearers.h); w is the product. d_s is the signed distance of one
+// from the shape, o_s its gradient. In a step of dt, when the elements have moved the nodes to x, the forces p_s o_s
+// on the samples and the depth z of the shape solve
 //
 //   p_s = k A_s c_s max(0, -d_s) at x + dt^2 f / m and z,   f_i = sum_s w_si p_s o_s,   - sum_s p_s o_s . n = F
 //
@@ -194,8 +195,8 @@ class FacePress {
   std::vector<Corner> corners_;                         // of faces, by vertex
   std::vector<std::pair<Index, std::uint32_t>> order_;  // of bearings, by node
   std::vector<Sample> samples_;
-  // Of the samples: those that press or are no clearer than near_within_. No vertex has moved by more than moved_by_ since all were looked
-  // at, at the depth seen_z_. [m]
+  // Of the samples: those that press or are no clearer than near_within_. No vertex has moved by more than moved_by_
+  // since all were looked at, at the depth seen_z_. [m]
   std::vector<std::uint32_t> near_;
   double near_within_ = 0, seen_z_ = 0, moved_by_ = 0;
   std::vector<NodalForce> forces_;

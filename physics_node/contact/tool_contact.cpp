@@ -202,17 +202,13 @@ void ToolContact::find_shares(const Vec3& q) noexcept {
     if (w <= 0) continue;
     for (const std::uint32_t corner : facet.corner) corners_[corner].weight += w / (4 * sum);
   }
-  bool merged = true;
   for (const Corner& corner : corners_) {
     if (corner.weight <= 0) continue;
     const Bearers by = surface_.bearers(corner.facet, corner.of_facet);
-    merged = merged && by.n <= 1;
     for (std::uint32_t b = 0; b < by.n && shares_.size() < shares_.capacity(); ++b)
       shares_.push_back({by.node[b], by.weight[b] * corner.weight});
   }
-  if (!merged || !std::is_sorted(shares_.begin(), shares_.end(),
-                                 [](const MassShare& a, const MassShare& b) { return a.cell < b.cell; }))
-    merge_equal_masses(shares_);
+  merge_equal_masses(shares_);
 }
 
 std::uint32_t ToolContact::write_facets(const Vec3& p, std::uint32_t body, PatchFacet* out,

@@ -53,7 +53,8 @@ class LitProgram {
   void colour_by_way(float most) const;
   /// Coloured by the field of a vertex, up to so much, likewise.
   void colour_by_field(float most) const;
-  /// What rests beyond the plane is not drawn (section_cut.h), while GL_CLIP_DISTANCE0 is enabled; all is after begin().
+  /// What rests beyond the plane is not drawn (section_cut.h), while GL_CLIP_DISTANCE0 is enabled; all is after
+  /// begin().
   void cut_open(const Eigen::Vector4f& cut) const;
   /// By tools; none after begin().
   void touched(std::span<const Touch> touches) const;

@@ -1,6 +1,7 @@
 #pragma once
 // OUT/frames/frame_00001.png and so on, within the budget that the scene gives them. A disk that takes no
-// more costs pictures, never the session. Pictures are written beside: who draws waits only if the one before is not done.
+// more costs pictures, never the session. Pictures are written beside: who draws waits only if the one before is not
+// done.
 
 #include <cstdint>
 #include <filesystem>

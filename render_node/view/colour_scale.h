@@ -1,7 +1,7 @@
 #pragma once
-// What the colours of tissue say that show how far it is from where it lies at rest, how it strains or what stress is in it: from its own
-// colour at 0 through yellow, orange and red to violet at `most`, a round number that only grows, so that a colour keeps its meaning
-// while one looks.
+// What the colours of tissue say that show how far it is from where it lies at rest, how it strains or what stress is
+// in it: from its own colour at 0 through yellow, orange and red to violet at `most`, a round number that only grows,
+// so that a colour keeps its meaning while one looks.
 
 #include <array>
 #include <cstdint>

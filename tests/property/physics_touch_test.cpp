@@ -123,7 +123,8 @@ TEST(Touch, OfASphereIsHertz) {
 }
 
 /// Slid by three cells under the same force, slowly: how the depth changes on the way.
-/// An image of a half space that leans, pressed square to it: how the skin lies in the cells should not be felt. [m] of depth
+/// An image of a half space that leans, pressed square to it: how the skin lies in the cells should not be felt. [m]
+/// of depth
 double depth_on_slope(double degrees, SkinKind skin, BorderCells border) {
   const double angle = degrees * std::numbers::pi / 180;
   const Vec3 out(std::sin(angle), 0, std::cos(angle)), at(0.1, 0.2, 8.6);  // [mm]

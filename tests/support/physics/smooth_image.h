@@ -52,7 +52,8 @@ struct SmoothImage {
   }
 };
 
-/// Edges that are not passed as often one way as the other, edges of four facets, and vertices whose facets do not hang together.
+/// Edges that are not passed as often one way as the other, edges of four facets, and vertices whose facets do not
+/// hang together.
 struct Defects {
   int open_edges = 0, edges_of_four = 0, bad_vertices = 0;
 };

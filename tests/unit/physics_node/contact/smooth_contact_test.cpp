@@ -1,4 +1,5 @@
-// Tools on a smooth skin: what its vertices bear goes to the masses that carry them, and a tip slides over a ball as over a ball.
+// Tools on a smooth skin: what its vertices bear goes to the masses that carry them, and a tip slides over a ball as
+// over a ball.
 #include <gtest/gtest.h>
 
 #include <cmath>
