@@ -147,6 +147,24 @@ void refuse_filled(TableReader& reader, const BodySpec& spec) {
     reader.complain("border_cells", "border_cells = \"filled\" is of tissue; leave it out of a tool");
 }
 
+/// What a body that is awake in parts cannot do: what rests is to be put back where it rests.
+void refuse_awake(TableReader& reader, const ReadContext& context, const BodySpec& spec) {
+  const auto* image = std::get_if<VolumeShape>(&spec.shape);
+  if (image == nullptr || !image->deformable.awake) return;
+  const auto refuse = [&](const std::string& what) {
+    reader.complain("deformable", fmt::format("\"awake_mm\" in {}, but {}", reader.title(), what));
+  };
+  if (spec.model != ElementModel::fem) return refuse("it is of springs; write model = \"fem\"");
+  for (const MaterialSpec& material : context.scene.materials)
+    if (const std::string what = beyond_elastic(material); !what.empty() && has_material(spec, material.name))
+      refuse(fmt::format("[material.{}] {}; leave one of them out", material.name, what));
+  if (context.scene.physics->integrator == Integrator::backward_euler)
+    refuse("\"backward_euler\" solves for all of it; leave \"integrator\" in [physics] out");
+  if (spec.start == StartKind::balanced) refuse("its weight is balanced as it stands; leave \"start\" out");
+  for (const char* key : {"handle", "velocity_m_per_s"})
+    if (reader.has(key)) refuse(fmt::format("it stands where it is; leave \"{}\" out", key));
+}
+
 void refuse_springs(TableReader& reader, const ReadContext& context, const BodySpec& spec) {
   for (const MaterialSpec& material : context.scene.materials) {
     if (!has_material(spec, material.name)) continue;
@@ -168,6 +186,7 @@ void read_elements(TableReader& reader, ReadContext& context, BodySpec& spec) {
     spec.start = static_cast<StartKind>(*word);
   if (const auto word = reader.read_word("border_cells", {"whole", "filled"}))
     spec.border.cells = static_cast<BorderCells>(*word);
+  refuse_awake(reader, context, spec);
   if (spec.model == ElementModel::surface) return read_membrane(reader, context, spec);
   refuse_membrane_keys(reader);
   if (std::holds_alternative<MeshShape>(spec.shape)) return read_tetrahedra(reader, context, spec);

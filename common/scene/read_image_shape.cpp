@@ -45,10 +45,16 @@ DeformableRegion read_deformable(TableReader& body, ReadContext& context) {
   if (value == nullptr || value->value_or(std::string()) == "all") return region;
   if (!value->is_table()) {
     body.complain_value("deformable", *value,
-                        "\"all\" or { center_voxel = [i, j, k] or center = \"gravity\", radius_voxels = n }");
+                        "\"all\", { awake_mm = r } or { center_voxel = [i, j, k] or center = \"gravity\", "
+                        "radius_voxels = n }");
     return region;
   }
   TableReader reader(*value->as_table(), fmt::format("deformable of {}", body.title()), context.complaints);
+  if (reader.has("awake_mm")) {
+    region.awake = reader.read_length_mm("awake_mm");
+    reader.refuse_left_over();
+    return region;
+  }
   region.all = false;
   read_center(reader, region);
   read_extent(reader, region);

@@ -38,8 +38,9 @@ struct DeformableRegion {
   bool all = true;                    // or the kept cells within radius_voxels (Chebyshev) of the centre
   std::array<int, 3> center_voxel{};  // in the partition used
   int radius_voxels = 10;
-  bool gravity_center = false;   // centre: of gravity of all kept cells, not center_voxel
-  std::optional<int> nearest{};  // instead of the radius: so many kept cells, the nearest to the centre
+  bool gravity_center = false;    // centre: of gravity of all kept cells, not center_voxel
+  std::optional<int> nearest{};   // instead of the radius: so many kept cells, the nearest to the centre
+  std::optional<double> awake{};  // of all: only what is within this of where it is pressed is stepped [m]
 };
 /// Pictures of parallel planes, the lowest first.
 struct SliceStack {

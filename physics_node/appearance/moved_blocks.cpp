@@ -23,6 +23,7 @@ void MovedBlocks::begin(std::size_t n_vertices) {
   sent_.assign(n_vertices, nowhere);
   sent_flags_.assign(n_vertices, 0);
   sent_field_.assign(n_vertices, 0.0F);
+  sent_at_rest_.assign(n_vertices / max_block_vertices + 1, 0);
 }
 
 void MovedBlocks::grow(const NumberedSurface& surface) {
@@ -30,9 +31,13 @@ void MovedBlocks::grow(const NumberedSurface& surface) {
     sent_.push_back(float_of(surface.rest(n)));
   sent_flags_.resize(surface.n_vertices(), 0);
   sent_field_.resize(surface.n_vertices(), 0.0F);
+  sent_at_rest_.resize(surface.n_vertices() / max_block_vertices + 1, 0);
 }
 
-void MovedBlocks::resend() { std::fill(sent_.begin(), sent_.end(), nowhere); }
+void MovedBlocks::resend() {
+  std::fill(sent_.begin(), sent_.end(), nowhere);
+  std::fill(sent_at_rest_.begin(), sent_at_rest_.end(), std::uint8_t{0});
+}
 
 /// Scenery has no flags and no field.
 void MovedBlocks::look_at(const NumberedSurface& surface, const BodyModel& moving, const TissueField* field,
@@ -73,6 +78,10 @@ int MovedBlocks::write(const NumberedSurface& surface, const BodyModel& moving, 
   for (std::size_t first = 0; first < surface.n_vertices(); first += max_block_vertices) {
     const std::size_t last = std::min<std::size_t>(first + max_block_vertices, surface.n_vertices());
     if (!surface.may_move(first, last)) continue;
+    const bool rests = moving.parts() != nullptr && surface.rests(first, last, *moving.parts());
+    std::uint8_t& was_sent = sent_at_rest_[first / max_block_vertices];
+    if (rests && was_sent != 0) continue;
+    was_sent = rests ? 1 : 0;
     look_at(surface, moving, field, first, last);
     if (!changed(surface, moving, first, last)) continue;
     block.block = static_cast<std::uint32_t>(first / max_block_vertices);

@@ -49,6 +49,8 @@ class MovedBlocks {
   std::vector<Array3f> sent_;             // positions as last written  (n_vertices)
   std::vector<std::uint8_t> sent_flags_;  // (n_vertices)
   std::vector<float> sent_field_;         // (n_vertices)
+  std::vector<std::uint8_t>
+      sent_at_rest_;  // of each block, 1: it was written since all of it rests, or needs not be
   // Of the block that is looked at.
   std::vector<Index> cells_;           // of its vertices that move
   std::vector<Condition> conditions_;  // of these

@@ -90,6 +90,16 @@ NumberedSurface::NumberedSurface(Surface surface)
   if (!bearers_.empty()) bearers_.resize(rest_.size());
 }
 
+bool NumberedSurface::rests(std::size_t first, std::size_t last, const AwakeParts& parts) const {
+  for (std::size_t n = first; n < last; ++n) {
+    if (cell_[n] < 0) continue;
+    if (bearers_.empty() ? !parts.rests(cell_[n])
+                         : !bearers_[n].all([&](Index node) { return parts.rests(node); }))
+      return false;
+  }
+  return true;
+}
+
 /// @return number here of each vertex of `next`. Most come in the order of their numbers; what is looked for elsewhere is found by its
 /// mass and where it rests.
 std::vector<std::uint32_t> NumberedSurface::numbers_of(const Surface& next, SurfaceDelta& delta) const {

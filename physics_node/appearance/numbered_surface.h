@@ -46,6 +46,8 @@ class NumberedSurface {
   bool is_rigid() const { return is_rigid_; }                     // no vertex moves
   /// Is there a vertex in [first, last) that moves? Never false if there is.
   bool may_move(std::size_t first, std::size_t last) const { return first < n_leading_ || last > n_first_; }
+  /// Does all of [first, last) stand where it rests, since its part of the body sleeps?
+  bool rests(std::size_t first, std::size_t last, const AwakeParts& parts) const;
   const Vec3& rest(std::size_t vertex) const { return rest_[vertex]; }  // where it lies without any load [m]
   /// Position now: of a moving vertex from the body, of the scenery from rest.
   Vec3 position(std::size_t vertex, const NodeMotion& moving) const {

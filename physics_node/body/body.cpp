@@ -129,6 +129,12 @@ void give_handle(const BodySpec& spec, Body& body) {
   body.tip = spec.at;
 }
 
+/// Of a body that is awake in parts [m].
+std::optional<double> awake_radius_of(const BodySpec& spec) {
+  const auto* image = std::get_if<VolumeShape>(&spec.shape);
+  return image != nullptr ? image->deformable.awake : std::nullopt;
+}
+
 /// The lattice of an fcc body in an image, and how bright it is at each mass.
 void lay_in_image(const BodySpec& spec, Body& body) {
   const Cells image = make_cells(spec);
@@ -159,6 +165,7 @@ Body build_body(const BodySpec& spec, const std::vector<MaterialSpec>& materials
   if (spec.lattice == LatticeKind::voxel) {
     body.cells = make_cells(spec);
     body.lattice = voxel_lattice(*body.cells);
+    if (awake_radius_of(spec)) index_masses(body.lattice, Rows::in_segments);
   } else if (std::holds_alternative<VolumeShape>(spec.shape)) {
     lay_in_image(spec, body);
   } else {
@@ -170,6 +177,7 @@ Body build_body(const BodySpec& spec, const std::vector<MaterialSpec>& materials
                     spec.place.text(), spec.name));
   }
   give_materials(body, spec, materials);
+  if (body.solid) body.solid->awake_radius = awake_radius_of(spec).value_or(0.0);
   hold_masses(spec, body);
   give_handle(spec, body);
   return body;

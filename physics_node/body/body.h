@@ -99,6 +99,10 @@ inline bool is_of_finite_elements(const Body& body) {
 }
 /// Its faces bear a small tip rather than its nodes.
 inline bool bears_by_faces(const Body& body) { return body.solid || body.mesh; }
+/// Is only a part of it stepped, and the rest stands?
+inline bool is_awake_in_parts(const Body& body) { return body.solid && body.solid->awake_radius > 0; }
+/// Does it stay where it is, whoever pushes it?
+inline bool is_anchored(const Body& body) { return body.n_held > 0 || is_awake_in_parts(body); }
 /// viscosity / modulus of finite elements and of surfaces [s]
 inline double damper_time(const Body& body) {
   return body.mesh ? body.mesh->model.beta : body.solid ? body.solid->beta : 0;

@@ -51,6 +51,7 @@ struct SolidElements {
   std::vector<std::uint8_t>
       failure_of;  // of a cell, as stiffness: an index of failures and of yields; EMPTY with both (n_cells)
   FastCells fast;
+  double awake_radius = 0;  // only cells this near to where it is pressed are stepped; 0: all [m]
 };
 
 }  // namespace palpate::physics

@@ -1,6 +1,7 @@
 #pragma once
 // The masses that carry a place of a surface.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -26,6 +27,11 @@ struct Bearers {
     Vec3 sum = Vec3::Zero();
     for (std::uint32_t i = 0; i < n; ++i) sum += weight[i] * at(node[i]);
     return sum;
+  }
+  /// Is it so of all of them? @param is  bool(node)
+  template <class Is>
+  bool all(const Is& is) const noexcept {
+    return std::all_of(node.begin(), node.begin() + n, is);
   }
   bool operator==(const Bearers&) const = default;
 };

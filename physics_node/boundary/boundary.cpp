@@ -28,8 +28,9 @@ Boundary::Boundary(const BodyModel& moving, double bucket_size, bool follows)
   std::vector<std::pair<std::size_t, std::uint32_t>> rigid;
   for (std::uint32_t f = 0; f < surface_.facets.size(); ++f) {
     const auto& corners = surface_.facets[f];
-    const bool moves =
-        std::any_of(corners.begin(), corners.end(), [&](auto c) { return c < surface_.n_moving(); });
+    const bool moves = moving.parts() == nullptr && std::any_of(corners.begin(), corners.end(), [&](auto c) {
+                         return c < surface_.n_moving();
+                       });
     if (moves) {
       moving_facets_.push_back(f);
     } else {
@@ -80,7 +81,7 @@ void Boundary::facets_near(const Vec3& p, double radius, const NodeMotion& movin
   const auto n_loaded = static_cast<std::uint32_t>(surface_.facets.size());
   for (std::uint32_t n = 0; n < n_used_; ++n) take(n_loaded + n);
   if (bucket_facets_.empty()) return;
-  const Vec3 reach = Vec3::Constant(radius);
+  const Vec3 reach = Vec3::Constant(radius + (moving.parts() != nullptr ? moving.parts()->most_moved : 0));
   const Eigen::Array3i lo = ((p - reach - low_) / bucket_size_).array().floor().cast<int>().max(0);
   const Eigen::Array3i hi =
       ((p + reach - low_) / bucket_size_).array().floor().cast<int>().min(n_buckets_.array() - 1);

@@ -115,8 +115,9 @@ class Boundary {
   double bucket_size_;
   Vec3 low_ = Vec3::Zero();
   Vec3i n_buckets_ = Vec3i::Ones();
-  std::vector<std::uint32_t> moving_facets_;  // at least one corner moves
-  std::vector<std::uint32_t> bucket_start_;   // facets of bucket b: bucket_facets_[start[b] .. start[b + 1])
+  std::vector<std::uint32_t>
+      moving_facets_;  // may be anywhere: of a body awake in parts none, all are near to where they rest
+  std::vector<std::uint32_t> bucket_start_;  // facets of bucket b: bucket_facets_[start[b] .. start[b + 1])
   std::vector<std::uint32_t> bucket_facets_;
 
   std::unique_ptr<LiveSkin> skin_;     // of one that is smooth and follows breaks; else null

@@ -41,7 +41,7 @@ inline double half_space_stiffness(const Body& body, double a) noexcept {
 
 /// Does it always come back to its rest shape? Then the plane at zero force is the surface at rest.
 inline bool remembers_rest(const Body& body) noexcept {
-  return body.n_held > 0 && !may_change_for_good(body);
+  return is_anchored(body) && !may_change_for_good(body);
 }
 
 }  // namespace palpate::physics

@@ -45,7 +45,7 @@ void refuse_coarse(const ToolSpec& tool, double size, const Body& body) {
 }
 
 /// Of what nothing holds none: it swings about where it goes, and what it lies on is not known to its modes.
-int modes_of(const Body& body) noexcept { return body.n_held > 0 ? static_cast<int>(max_tissue_modes) : 0; }
+int modes_of(const Body& body) noexcept { return is_anchored(body) ? static_cast<int>(max_tissue_modes) : 0; }
 
 }  // namespace
 

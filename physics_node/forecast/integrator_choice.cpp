@@ -27,6 +27,10 @@ std::string what_needs_steps(const Scene& scene) {
     if (!what.empty() && std::ranges::any_of(scene.bodies, has_it))
       return fmt::format("[material.{}] {}", material.name, what);
   }
+  for (const BodySpec& body : scene.bodies)
+    if (const auto* image = std::get_if<VolumeShape>(&body.shape);
+        image != nullptr && image->deformable.awake)
+      return fmt::format("body \"{}\" is awake in parts, step by step", body.name);
   for (const ToolSpec& tool : scene.tools) {
     if (is_solid_tip(tool.shape)) return fmt::format("tool \"{}\" presses faces step by step", tool.name);
     if (tool.shape == ToolShape::scalpel)

@@ -8,7 +8,7 @@
 namespace palpate::physics {
 namespace {
 
-constexpr Index lanes = 16;  // rows start on a multiple of this, the widest vector in floats
+constexpr Index lanes = row_segment;                   // storage cells of x = 0 are a multiple of this
 constexpr std::size_t fewest_masses_per_chunk = 4096;  // below, a second thread does not pay
 constexpr std::size_t most_chunks = 32;
 
@@ -157,7 +157,7 @@ Lattice make_lattice(LatticeKind kind, const Vec3i& extent, const Vec3& origin, 
   return lattice;
 }
 
-void index_masses(Lattice& lattice) {
+void index_masses(Lattice& lattice, Rows rows) {
   lattice.masses.clear();
   lattice.rows.clear();
   const Index row_cells = lattice.kind == LatticeKind::fcc ? lattice.pitch : lattice.pitch / 2;
@@ -165,13 +165,12 @@ void index_masses(Lattice& lattice) {
     if (lattice.mass_share[static_cast<std::size_t>(cell)] <= 0) continue;
     lattice.masses.push_back(cell);
     // A short gap in a row is stepped over: its empty cells stay empty, and runs never share a vector of cells.
+    const bool split = rows == Rows::in_segments;
     const bool extends = !lattice.rows.empty() && lattice.rows.back().first / row_cells == cell / row_cells &&
-                         cell < lattice.rows.back().first + lattice.rows.back().count + lanes;
-    if (extends) {
-      lattice.rows.back().count = cell - lattice.rows.back().first + 1;
-    } else {
-      lattice.rows.push_back({cell, 1, lattice.row_kind(cell)});
-    }
+                         cell < lattice.rows.back().first + (split ? 0 : lattice.rows.back().count) + lanes;
+    const Index first = split ? cell / lanes * lanes : cell;
+    if (!extends) lattice.rows.push_back({first, 0, lattice.row_kind(cell)});
+    lattice.rows.back().count = cell - lattice.rows.back().first + 1;
   }
   cut_into_chunks(lattice);
 }

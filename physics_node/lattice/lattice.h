@@ -92,7 +92,12 @@ double elements_per_mass(LatticeKind kind, std::size_t half_direction);
 Lattice make_lattice(LatticeKind kind, const Vec3i& extent, const Vec3& origin, const Vec3& step,
                      const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity());
 
+/// Storage cells of the widest vector of floats.
+inline constexpr Index row_segment = 16;
+
+enum class Rows { whole, in_segments };  // of row_segment storage cells, which may act or rest on their own
+
 /// Fills rows, chunks and masses from mass_share > 0.
-void index_masses(Lattice& lattice);
+void index_masses(Lattice& lattice, Rows rows = Rows::whole);
 
 }  // namespace palpate::physics

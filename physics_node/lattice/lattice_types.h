@@ -19,7 +19,8 @@ inline constexpr Mask element_bits = (Mask{1} << max_directions) - 1;
 constexpr Mask cell_bit(unsigned octant) noexcept { return Mask{1} << (max_directions + octant); }
 inline constexpr Mask cell_bits = Mask{0xFF} << max_directions;
 
-/// A run of storage cells that begins and ends with a mass and has no gap as long as a vector of cells.
+/// A run of storage cells that begins and ends with a mass and has no gap as long as a vector of cells. Of a lattice in segments it
+/// may begin before its first mass, and is no longer than a vector.
 struct RowSegment {
   Index first = 0;
   Index count = 0;

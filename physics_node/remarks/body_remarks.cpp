@@ -49,7 +49,7 @@ void add_holds(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
         remarks.push_back(who(scene, b) +
                           ": a box of \"fixed\" holds none of its masses; lengths are in millimetres");
     }
-    if (body.n_held > 0 || is_joined(scene, spec.name)) continue;
+    if (is_anchored(body) || is_joined(scene, spec.name)) continue;
     if (falls_for_ever(scene))
       remarks.push_back(
           who(scene, b) +

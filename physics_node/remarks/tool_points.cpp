@@ -39,7 +39,7 @@ std::vector<Vec3> tool_points(const ToolSpec& tool, const Scene& scene, const Bo
 
 bool any_flies(const Scene& scene, const Bodies& bodies) {
   return std::any_of(bodies.begin(), bodies.end(), [&](const auto& body) {
-    return !is_tool(scene, body->body()) && body->body().n_held == 0 &&
+    return !is_tool(scene, body->body()) && !is_anchored(body->body()) &&
            (!scene.gravity.isZero() || !body->body().velocity.isZero());
   });
 }

@@ -52,7 +52,7 @@ nlohmann::json body_part(const BodyModel& moving, const Fragments* fragments) {
 
 /// Can its momentum be known from what is booked?
 bool keeps_momentum(const Body& body) {
-  return body.n_held == 0 && body.handle.empty() &&
+  return !is_anchored(body) && body.handle.empty() &&
          std::all_of(body.laws.begin(), body.laws.end(), [](const ElementLaw& law) {
            return law.drag == 0 && (!law.damped || law.damper == Damper::axial);
          });

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "physics_node/body/body.h"
+#include "physics_node/step/awake_parts.h"
 #include "physics_node/step/node_field.h"
 
 namespace palpate::physics {
@@ -30,6 +31,8 @@ class NodeMotion {
   Vec3 position(Index cell) const noexcept { return body_->rest_position(cell) + displacements_[cell]; }
   Vec3 displacement(Index cell) const noexcept { return displacements_[cell]; }  // from rest [m]
   Vec3 velocity(Index cell) const noexcept { return velocities_[cell]; }         // [m/s]
+  /// Of a body that is awake in parts; else null, and any node may move.
+  const AwakeParts* parts() const noexcept { return parts_; }
 
   /// Some masses at the beginning of the step just integrated: place x, velocity v, and the velocity v_move at which it moved
   /// them. With the explicit integrators v is the mean of v_move before and after the elements acted, so that an impulse that
@@ -58,10 +61,12 @@ class NodeMotion {
     displacements_ = displacements;
     velocities_ = velocities;
   }
+  void show(const AwakeParts& parts) { parts_ = &parts; }
 
  private:
   const Body* body_;
   NodeField displacements_, velocities_;
+  const AwakeParts* parts_ = nullptr;
 };
 
 /// Gathers pushes on one body and hands them over in batches. Contract: allocates when it is made only.

@@ -19,8 +19,10 @@ HexActing::HexActing(const HexGrid& grid)
   slabs_.reserve(most_slabs + 1);
 }
 
-void HexActing::follow(const HexGrid& grid, std::span<const RowState> rows) noexcept {
-  for (std::size_t r = 0; r < grid.runs.size(); ++r) {
+void HexActing::follow(const HexGrid& grid, std::span<const RowState> rows,
+                       std::span<const std::uint8_t> runs) noexcept {
+  std::ranges::copy(runs, acts_.begin());
+  for (std::size_t r = 0; runs.empty() && r < grid.runs.size(); ++r) {
     const auto of_run = grid.rows_of(r);
     acts_[r] = std::any_of(of_run.begin(), of_run.end(), [&rows](Index row) {
       const RowState state = rows[static_cast<std::size_t>(row)];

@@ -17,7 +17,9 @@ class HexActing {
   explicit HexActing(const HexGrid& grid);
 
   /// Cost: what exists, so only when rows have changed. Contract: allocates nothing.
-  void follow(const HexGrid& grid, std::span<const RowState> rows) noexcept;
+  /// @param runs  1: acts, of a body that is awake in parts; else EMPTY, and rows decide
+  void follow(const HexGrid& grid, std::span<const RowState> rows,
+              std::span<const std::uint8_t> runs) noexcept;
 
   bool acts(Index run) const noexcept { return acts_[static_cast<std::size_t>(run)] != 0; }
   const std::uint8_t* flags() const noexcept { return acts_.data(); }  // by run, 1: acts

@@ -5,7 +5,7 @@
 namespace palpate::physics {
 namespace {
 
-constexpr Index lanes = 16;  // of the widest vector
+constexpr Index lanes = row_segment;
 
 /// Layers of cells and masses, by the planes of z in which they begin.
 std::vector<HexLayer> layers_of(const HexGrid& grid, const Lattice& lattice) {
@@ -84,13 +84,12 @@ HexGrid make_hex_grid(const Body& body) {
   const Index half = lattice.pitch / 2;
   for (const Index cell : lattice.masses) {
     if (body.solid->stiffness[static_cast<std::size_t>(cell)] <= 0) continue;
+    const bool split = body.solid->awake_radius > 0;
     const bool extends = !grid.runs.empty() && grid.runs.back().first / half == cell / half &&
-                         cell < grid.runs.back().first + grid.runs.back().count + lanes;
-    if (extends) {
-      grid.runs.back().count = cell - grid.runs.back().first + 1;
-    } else {
-      grid.runs.push_back({cell, 1, to_the_right(lattice, cell)});
-    }
+                         cell < grid.runs.back().first + (split ? 0 : grid.runs.back().count) + lanes;
+    const Index first = split ? cell / lanes * lanes : cell;
+    if (!extends) grid.runs.push_back({first, 0, to_the_right(lattice, cell)});
+    grid.runs.back().count = cell - grid.runs.back().first + 1;
   }
   std::size_t run = 0;
   for (const RowSegment& row : lattice.rows) {

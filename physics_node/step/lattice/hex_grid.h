@@ -10,7 +10,8 @@
 namespace palpate::physics {
 
 /// Cells in a row along x whose lowest corners are consecutive storage cells: every second cell of the row, since masses of
-/// even and of odd x are stored apart. Gaps shorter than a vector are stepped over, by cells of no stiffness.
+/// even and of odd x are stored apart. Gaps shorter than a vector are stepped over, by cells of no stiffness. Where a body is awake in
+/// parts, runs are segments as rows are (lattice.h), and may begin with such cells.
 struct HexRun {
   Index first = 0;  // storage cell of the lowest corner of its first cell
   Index count = 0;

@@ -95,26 +95,26 @@ MeasuredHexahedra measure_hexahedra(const Body& body, const HexGrid& grid, const
   sum.force_of_rate.assign(sum.force.size(), Vec3::Zero());
   sum.power.assign(grid.runs.size(), 0);
   const HexCellMeter<Real> meter(body, state, v);
-  for_each_cell(body, grid, state,
-                [&](double now_stiff, const std::array<Index, 8>& corner, std::size_t run) {
-                  const bool is_fast = state.fast.has_cell(corner[0]);
-                  if (is_fast != (which == CellsOf::fast)) return;
-                  const auto c = static_cast<std::size_t>(corner[0]);
-                  const double soon = broken_soon.empty() ? 0 : broken_soon[c];
-                  const double stiffness = now_stiff - soon * static_cast<double>(body.solid->stiffness[c]);
-                  const MeasuredCell now = meter.at(corner);
-                  const auto& out = now.forces;
-                  sum.elastic += stiffness * out.energy;
-                  sum.lost_before += stiffness * now.lost_before;
-                  sum.power[run] += stiffness * now.power;
-                  if (is_fast) sum.power_of_cell.push_back(stiffness * now.power);
-                  for (std::size_t a = 0; a < 8; ++a) {
-                    const auto node = static_cast<std::size_t>(corner[a]);
-                    sum.force[node] += stiffness * Vec3(out.f[0][a], out.f[1][a], out.f[2][a]);
-                    sum.force_of_rate[node] +=
-                        stiffness * Vec3(now.of_rate[0][a], now.of_rate[1][a], now.of_rate[2][a]);
-                  }
-                });
+  for_each_strained_cell(
+      body, grid, state, [&](double now_stiff, const std::array<Index, 8>& corner, std::size_t run) {
+        const bool is_fast = state.fast.has_cell(corner[0]);
+        if (is_fast != (which == CellsOf::fast)) return;
+        const auto c = static_cast<std::size_t>(corner[0]);
+        const double soon = broken_soon.empty() ? 0 : broken_soon[c];
+        const double stiffness = now_stiff - soon * static_cast<double>(body.solid->stiffness[c]);
+        const MeasuredCell now = meter.at(corner);
+        const auto& out = now.forces;
+        sum.elastic += stiffness * out.energy;
+        sum.lost_before += stiffness * now.lost_before;
+        sum.power[run] += stiffness * now.power;
+        if (is_fast) sum.power_of_cell.push_back(stiffness * now.power);
+        for (std::size_t a = 0; a < 8; ++a) {
+          const auto node = static_cast<std::size_t>(corner[a]);
+          sum.force[node] += stiffness * Vec3(out.f[0][a], out.f[1][a], out.f[2][a]);
+          sum.force_of_rate[node] +=
+              stiffness * Vec3(now.of_rate[0][a], now.of_rate[1][a], now.of_rate[2][a]);
+        }
+      });
   return sum;
 }
 
@@ -123,15 +123,33 @@ double measure_elastic(const Body& body, const HexGrid& grid, const LatticeState
                        const HexFailure<Real>* failure) noexcept {
   double sum = 0;
   const HexCellMeter<Real> meter(body, state, state.v);
-  for_each_cell(body, grid, state, [&](double stiffness, const std::array<Index, 8>& corner, std::size_t) {
-    if (failure != nullptr)
-      stiffness -= failure->due_of(state, corner[0]) *
-                   static_cast<double>(body.solid->stiffness[static_cast<std::size_t>(corner[0])]);
-    sum += stiffness * meter.at(corner).forces.energy;
-  });
+  for_each_strained_cell(
+      body, grid, state, [&](double stiffness, const std::array<Index, 8>& corner, std::size_t) {
+        if (failure != nullptr)
+          stiffness -= failure->due_of(state, corner[0]) *
+                       static_cast<double>(body.solid->stiffness[static_cast<std::size_t>(corner[0])]);
+        sum += stiffness * meter.at(corner).forces.energy;
+      });
   return sum;
 }
 
+template <class Real>
+double measure_elastic(const Body& body, const HexGrid& grid, const LatticeState<Real>& state,
+                       std::span<const Index> runs) noexcept {
+  double sum = 0;
+  const HexCellMeter<Real> meter(body, state, state.v);
+  for (const Index r : runs)
+    for_each_cell_of(body, grid, state, static_cast<std::size_t>(r),
+                     [&](double stiffness, const std::array<Index, 8>& corner, std::size_t) {
+                       sum += stiffness * meter.at(corner).forces.energy;
+                     });
+  return sum;
+}
+
+template double measure_elastic(const Body&, const HexGrid&, const LatticeState<float>&,
+                                std::span<const Index>) noexcept;
+template double measure_elastic(const Body&, const HexGrid&, const LatticeState<double>&,
+                                std::span<const Index>) noexcept;
 template double measure_elastic(const Body&, const HexGrid&, const LatticeState<float>&,
                                 const HexFailure<float>*) noexcept;
 template double measure_elastic(const Body&, const HexGrid&, const LatticeState<double>&,

@@ -40,24 +40,37 @@ std::array<RelaxationTerm<Real>, most_relaxations> relaxation_terms(const Body& 
 /// Bound of the tangent of law and terms at rest [Pa].
 double hex_bound_at_rest(const Body& body);
 
-/// Calls visit(stiffness, corners, run) for each cell that lives, corners as storage cells.
+/// Calls visit(stiffness, corners, run) for each cell of a run that lives, corners as storage cells.
+template <class Real, class Visit>
+void for_each_cell_of(const Body& body, const HexGrid& grid, const LatticeState<Real>& state, std::size_t r,
+                      const Visit& visit) {
+  const HexRun& run = grid.runs[r];
+  for (Index i = run.first; i < run.first + run.count; ++i) {
+    auto stiffness = static_cast<double>(body.solid->stiffness[static_cast<std::size_t>(i)]);
+    if (state.failed.damage.size() > 0)
+      stiffness *= 1 - static_cast<double>(state.failed.damage[static_cast<std::size_t>(i)]);
+    if (stiffness <= 0) continue;
+    std::array<Index, 8> corner;
+    for (Index a = 0; a < 8; ++a)
+      corner[static_cast<std::size_t>(a)] =
+          i + (a & 1) * run.right + (a >> 1 & 1) * grid.up_y + (a >> 2) * grid.up_z;
+    visit(stiffness, corner, r);
+  }
+}
+
+/// The same of all runs.
 template <class Real, class Visit>
 void for_each_cell(const Body& body, const HexGrid& grid, const LatticeState<Real>& state,
                    const Visit& visit) {
-  for (std::size_t r = 0; r < grid.runs.size(); ++r) {
-    const HexRun& run = grid.runs[r];
-    for (Index i = run.first; i < run.first + run.count; ++i) {
-      auto stiffness = static_cast<double>(body.solid->stiffness[static_cast<std::size_t>(i)]);
-      if (state.failed.damage.size() > 0)
-        stiffness *= 1 - static_cast<double>(state.failed.damage[static_cast<std::size_t>(i)]);
-      if (stiffness <= 0) continue;
-      std::array<Index, 8> corner;
-      for (Index a = 0; a < 8; ++a)
-        corner[static_cast<std::size_t>(a)] =
-            i + (a & 1) * run.right + (a >> 1 & 1) * grid.up_y + (a >> 2) * grid.up_z;
-      visit(stiffness, corner, r);
-    }
-  }
+  for (std::size_t r = 0; r < grid.runs.size(); ++r) for_each_cell_of(body, grid, state, r, visit);
+}
+
+/// Of all that may hold energy: where the body is awake in parts, of those.
+template <class Real, class Visit>
+void for_each_strained_cell(const Body& body, const HexGrid& grid, const LatticeState<Real>& state,
+                            const Visit& visit) {
+  for (std::size_t r = 0; r < grid.runs.size(); ++r)
+    if (state.acts.empty() || state.acts[r] != 0) for_each_cell_of(body, grid, state, r, visit);
 }
 
 enum class CellsOf { rest, fast };  // see FastCells; without any, all are the rest
@@ -87,6 +100,10 @@ MeasuredHexahedra measure_hexahedra(const Body& body, const HexGrid& grid, const
 template <class Real>
 double measure_elastic(const Body& body, const HexGrid& grid, const LatticeState<Real>& state,
                        const HexFailure<Real>* failure) noexcept;
+/// Of the cells of some runs. Contract: takes no memory. [J]
+template <class Real>
+double measure_elastic(const Body& body, const HexGrid& grid, const LatticeState<Real>& state,
+                       std::span<const Index> runs) noexcept;
 /// Of a body without fast cells, with the velocities of the state.
 template <class Real>
 MeasuredHexahedra measure_hexahedra(const Body& body, const HexGrid& grid, const LatticeState<Real>& state) {

@@ -71,10 +71,13 @@ template <class Real>
 void Hexahedra<Real>::follow_rows(const Body& body, LatticeState<Real>& state) noexcept {
   if (row_changes_ == state.row_changes) return;
   row_changes_ = state.row_changes;
-  acting_.follow(grid_, state.row_state);
-  if (body.solid->beta == 0) return;
-  for (std::size_t run = 0; run < grid_.runs.size(); ++run)
-    if (!acting_.acts(static_cast<Index>(run))) power_[run] = damped_[run] = 0;
+  acting_.follow(grid_, state.row_state, state.acts);
+  for (std::size_t run = 0; run < grid_.runs.size(); ++run) {
+    if (acting_.acts(static_cast<Index>(run))) continue;
+    if (!state.acts.empty())
+      elastic_[run] = stiffest_[run] = 0, least_J_[run] = 1;  // beside others of its row
+    if (body.solid->beta != 0) power_[run] = damped_[run] = 0;
+  }
 }
 
 template <class Real>

@@ -1,10 +1,11 @@
 #include "physics_node/step/lattice/lattice_body.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-#include "common/math/state_hash.h"
 #include "physics_node/step/good_state.h"
+#include "physics_node/step/lattice/awake_region.h"
 #include "physics_node/step/lattice/bounce.h"
 #include "physics_node/step/lattice/cut_elements.h"
 #include "physics_node/step/lattice/hex_marks.h"
@@ -56,6 +57,10 @@ class LatticeBody final : public BodyModel, private PendingStep {
     if (integrator == Integrator::velocity_verlet)
       for (auto& axis : state_.v_half) axis = ZeroedArray<Real>(n_cells());
     if (integrator == Integrator::backward_euler) implicit_ = make_implicit<Real>(body_);
+    if (is_awake_in_parts(body_)) {
+      region_ = std::make_unique<AwakeRegion<Real>>(body_);
+      NodeMotion::show(region_->parts());
+    }
     reset();
   }
 
@@ -70,15 +75,15 @@ class LatticeBody final : public BodyModel, private PendingStep {
   double power(std::span<const NodalForce> forces) const noexcept override {
     double sum = 0;
     for (const auto& nodal : forces)
-      if (state_.inverse_mass[static_cast<std::size_t>(nodal.cell)] > 0)
-        sum += nodal.force.dot(vector_of(moving_velocity(state_), nodal.cell));
+      if (!stands(nodal.cell)) sum += nodal.force.dot(vector_of(moving_velocity(state_), nodal.cell));
     return sum;
   }
 
   void kick(std::span<const NodalForce> forces, double dt) noexcept override {
+    if (region_) wake_where_pressed(forces);
     for (const auto& nodal : forces) {
       const auto c = static_cast<std::size_t>(nodal.cell);
-      if (state_.inverse_mass[c] == 0) continue;
+      if (stands(nodal.cell)) continue;
       sleep_.wake_cell(body_, state_, nodal.cell);
       if (state_.fast.has(nodal.cell)) {
         kick_fast(nodal, dt);
@@ -110,53 +115,69 @@ class LatticeBody final : public BodyModel, private PendingStep {
   void remember_velocities() noexcept override {
     if (v_before_[0].size() == 0) return;
     const Three<Real>& moving = moving_velocity(state_);
-    for (std::size_t r = 0; r < body_.lattice.rows.size(); ++r) {
-      const RowSegment& row = body_.lattice.rows[r];
+    for (const RowSegment& row : body_.lattice.rows) {
       for (std::size_t a = 0; a < 3; ++a)
         std::copy_n(moving[a].data() + row.first, row.count, v_before_[a].data() + row.first);
     }
   }
 
   Bounces bounce_off(const Plane& plane, double e, double dt) noexcept override {
-    if (implicit_) return {};  // its step has ended on the right side
+    if (implicit_ || region_) return {};  // its step has ended on the right side; or it stands
     return bounce(body_, state_, moving_velocity(state_), v_before_, plane, e, dt, momentum_);
   }
 
-  void sleep_and_wake(double frame_seconds) noexcept override { sleep_.look(body_, state_, frame_seconds); }
-  void wake_all() noexcept override { sleep_.wake_all(body_, state_); }
+  void sleep_and_wake(double frame_seconds) noexcept override {
+    if (region_) return region_->look(body_, state_, frame_seconds);
+    sleep_.look(body_, state_, frame_seconds);
+  }
+  void wake_all() noexcept override {
+    if (!region_) sleep_.wake_all(body_, state_);
+  }
   double sleeping_fraction() const noexcept override {
-    return static_cast<double>(sleep_.sleeping_masses()) / static_cast<double>(body_.lattice.n_masses());
+    const Index n = body_.lattice.n_masses();
+    const Index asleep = region_ ? n - region_->moving_nodes() : sleep_.sleeping_masses();
+    return static_cast<double>(asleep) / static_cast<double>(n);
   }
 
   bool is_finite() const noexcept override {
     // NaN and infinity survive multiplication by zero, so one sum tells of all.
     Real sum = 0;
-    for (std::size_t r = 0; r < body_.lattice.rows.size(); ++r) {
-      if (state_.row_state[r] == RowState::asleep) continue;
+    each_row([&](std::size_t r) {
+      if (state_.row_state[r] == RowState::asleep) return;
       const auto first = static_cast<std::size_t>(body_.lattice.rows[r].first);
       const std::size_t last = first + static_cast<std::size_t>(body_.lattice.rows[r].count);
       for (std::size_t a = 0; a < 3; ++a)
         for (std::size_t i = first; i < last; ++i) sum += Real(0) * (state_.u[a][i] + state_.v[a][i]);
-    }
+    });
     return sum == Real(0);
   }
 
   Watch watch() const noexcept override {
     Watch sum;
-    for (const RowLedger& row : state_.ledger) {
+    each_row([&](std::size_t r) {
+      const RowLedger& row = state_.ledger[r];
       sum.kinetic += row.kinetic;
       sum.between += row.between;
       sum.elastic += row.elastic;
       sum.fallen += row.fallen;
       sum.fallen_before += row.fallen_before;
       sum.speed = std::max(sum.speed, row.speed2);
-    }
+    });
+    if (region_) sum.elastic += region_->rim().watched_elastic();
     sum.speed = std::sqrt(sum.speed);
     return sum;
   }
 
-  void save(bool good) noexcept override { saved_.next(good).take(body_, state_); }
+  /// Where it is awake in parts nothing is saved: it goes back to rest.
+  void save(bool good) noexcept override {
+    if (!region_) saved_.next(good).take(body_, state_);
+  }
   void restore() noexcept override {
+    if (region_) {
+      region_->clear(body_, state_);
+      state_.forget_last_step();
+      return;
+    }
     sleep_.wake_all(body_, state_);
     saved_.good().bring_back(body_, state_);
     save(false);
@@ -165,6 +186,7 @@ class LatticeBody final : public BodyModel, private PendingStep {
   void reset() noexcept override {
     sleep_.wake_all(body_, state_);
     state_.reset(body_);
+    if (region_) region_->clear(body_, state_);
     for (std::size_t n = 0; n < start_.size(); ++n)
       for (std::size_t a = 0; a < 3; ++a)
         state_.u[a][static_cast<std::size_t>(body_.nodes()[n])] =
@@ -181,7 +203,8 @@ class LatticeBody final : public BodyModel, private PendingStep {
 
   void place(Index cell, const Vec3& displacement, const Vec3& velocity) noexcept override {
     const auto c = static_cast<std::size_t>(cell);
-    if (state_.inverse_mass[c] == 0) return;
+    if (region_) wake_where_pressed(std::array{NodalForce{cell, Vec3::UnitX()}});
+    if (stands(cell)) return;
     sleep_.wake_cell(body_, state_, cell);
     for (std::size_t a = 0; a < 3; ++a) {
       state_.u[a][c] = static_cast<Real>(displacement[static_cast<Eigen::Index>(a)]);
@@ -226,11 +249,24 @@ class LatticeBody final : public BodyModel, private PendingStep {
   }
 
   Energies energies(const Vec3& gravity) const override {
-    return elements_->energies(body_, state_, gravity);
+    Energies sum = elements_->energies(body_, state_, region_ ? Vec3(Vec3::Zero()) : gravity);
+    if (region_) region_->rim().add(state_, sum);
+    return sum;
   }
-  double energy_now() const noexcept override { return elements_->energy_now(body_, state_); }
-  Losses due() const override { return elements_->due(body_, state_); }
-  Losses losses() const override { return measure_losses(state_); }
+  double energy_now() const noexcept override {
+    return elements_->energy_now(body_, state_) + (region_ ? region_->rim().elastic(state_) : 0);
+  }
+  Losses due() const override {
+    Losses sum = elements_->due(body_, state_);
+    if (region_) sum.viscous += region_->rim().due(state_);
+    return sum;
+  }
+  Losses losses() const override {
+    if (!region_) return measure_losses(state_);
+    Losses sum = region_->losses();
+    each_row([&](std::size_t r) { add_losses(state_.ledger[r], sum); });
+    return sum;
+  }
   Momenta momenta() const override { return momenta_with(state_.v).momenta; }
   bool touched() const noexcept override { return momentum_.hits() > 0; }
   void restart_momentum() noexcept override { momentum_.restart(momenta_with(moving_velocity(state_))); }
@@ -243,32 +279,11 @@ class LatticeBody final : public BodyModel, private PendingStep {
     return counts;
   }
 
-  std::uint64_t hash(std::uint64_t seed) const noexcept override {
-    for (const auto& row : body_.lattice.rows) {
-      const auto first = static_cast<std::size_t>(row.first);
-      const auto count = static_cast<std::size_t>(row.count);
-      for (std::size_t a = 0; a < 3; ++a) {
-        seed = hash_state(&state_.u[a][first], count * sizeof(Real), seed);
-        seed = hash_state(&state_.v[a][first], count * sizeof(Real), seed);
-      }
-      seed = hash_state(&state_.mask[first], count * sizeof(Mask), seed);
-      for (const auto& array : state_.remembered)
-        seed = hash_state(&array[first], count * sizeof(Real), seed);
-      for (const auto* array : state_.failed.arrays())
-        if (array->size() > 0) seed = hash_state(&(*array)[first], count * sizeof(Real), seed);
-      for (const auto& array : state_.plastic.memory)
-        seed = hash_state(&array[first], count * sizeof(Real), seed);
-      if (!any_yields(body_)) continue;
-      for (std::size_t d = 0; d < static_cast<std::size_t>(body_.lattice.n_half); ++d) {
-        seed = hash_state(&state_.l_c[d][first], count * sizeof(Real), seed);
-        seed = hash_state(&state_.hardening[d][first], count * sizeof(Real), seed);
-      }
-    }
-    return seed;
-  }
+  std::uint64_t hash(std::uint64_t seed) const noexcept override { return hash_of(body_, state_, seed); }
 
  private:
   StepOutcome integrate(const ExplicitStep& step, std::span<const NodalForce> forces) noexcept {
+    if (region_) return integrate_region(step, forces);
     if (step.verlet && step.dt != state_.dt_before) begin_leapfrog();
     momentum_.step(step.gravity, step.verlet && !state_.v_half_known ? 0.5 * step.dt : step.dt, step.dt);
     const StepOutcome outcome = elements_->step(body_, state_, step);  // sleeping rows are skipped
@@ -277,6 +292,40 @@ class LatticeBody final : public BodyModel, private PendingStep {
       for (const Index corner : gone.corners) sleep_.wake_cell(body_, state_, corner);
     kick(forces, step.dt);
     return outcome;
+  }
+
+  /// Without gravity: its weight is balanced.
+  StepOutcome integrate_region(ExplicitStep step, std::span<const NodalForce> forces) noexcept {
+    step.gravity = Vec3::Zero();
+    momentum_.step(step.gravity, step.dt, step.dt);
+    StepOutcome outcome;
+    if (region_->moving_nodes() > 0) {
+      region_->rim().act(state_, step.dt, step.watch);
+      outcome = elements_->step(body_, state_, step);
+    }
+    kick(forces, step.dt);
+    return outcome;
+  }
+
+  void wake_where_pressed(std::span<const NodalForce> forces) noexcept {
+    bool fresh = false;
+    for (const NodalForce& nodal : forces)
+      if (nodal.force != Vec3::Zero()) fresh |= region_->note(body_, nodal.cell, nodal.force.norm());
+    if (fresh) region_->look(body_, state_, 0);
+  }
+
+  /// Held, or asleep where it is awake in parts and too far from where it is pressed.
+  bool stands(Index cell) const noexcept {
+    return state_.inverse_mass[static_cast<std::size_t>(cell)] == 0 || (region_ && !region_->moves(cell));
+  }
+
+  /// Calls visit(row) for all rows that may be awake.
+  template <class Visit>
+  void each_row(const Visit& visit) const noexcept {
+    if (region_)
+      for (const Index row : region_->rows()) visit(static_cast<std::size_t>(row));
+    else
+      for (std::size_t r = 0; r < body_.lattice.rows.size(); ++r) visit(r);
   }
 
   void solve(const ExplicitStep& step, const StepForces& forces) noexcept override {
@@ -339,7 +388,7 @@ class LatticeBody final : public BodyModel, private PendingStep {
 
   void push_one(const NodalPush& one, double dt) noexcept {
     const auto c = static_cast<std::size_t>(one.cell);
-    if (state_.inverse_mass[c] == 0) return;
+    if (stands(one.cell)) return;
     sleep_.wake_cell(body_, state_, one.cell);
     const bool verlet = state_.v_half[0].size() > 0;
     momentum_.push(one.dv / static_cast<double>(state_.inverse_mass[c]),
@@ -378,6 +427,7 @@ class LatticeBody final : public BodyModel, private PendingStep {
   MomentumAccount momentum_;
   GoodState<SavedState<Real>> saved_;
   std::unique_ptr<ImplicitSolver<Real>> implicit_;  // only for backward_euler
+  std::unique_ptr<AwakeRegion<Real>> region_;       // only of a body that is awake in parts
   double pending_dt_ = 0;                           // of a step that is solved and not over; 0: none [s]
 };
 

@@ -76,13 +76,7 @@ Losses measure_due(const Body& body, const LatticeState<Real>& state) {
 template <class Real>
 Losses measure_losses(const LatticeState<Real>& state) {
   Losses sum;
-  for (const RowLedger& row : state.ledger) {
-    sum.viscous += row.viscous;
-    sum.plastic += row.plastic;
-    sum.numerical += row.numerical;
-    sum.broken += row.broken;
-    sum.breaks += row.breaks;
-  }
+  for (const RowLedger& row : state.ledger) add_losses(row, sum);
   return sum;
 }
 

@@ -17,6 +17,14 @@ template <class Real>
 Losses measure_due(const Body& body, const LatticeState<Real>& state);
 
 /// What elements have given away since the start.
+/// Adds what a row has given away.
+inline void add_losses(const RowLedger& row, Losses& sum) noexcept {
+  sum += {.viscous = row.viscous,
+          .plastic = row.plastic,
+          .numerical = row.numerical,
+          .broken = row.broken,
+          .breaks = row.breaks};
+}
 template <class Real>
 Losses measure_losses(const LatticeState<Real>& state);
 

@@ -13,7 +13,7 @@ namespace palpate::physics {
 /// the rows beside it, when the forces on one of its masses are out of balance by 0.08 m/s^2; so the error of a mass in a
 /// mode of f hertz stays below 0.08 / (2 pi f)^2 metres, 20 um at 10 Hz. Whoever pushes a row wakes it.
 /// Only bodies that something holds sleep: a free one must keep its momentum. What relaxes does not: it creeps slower than any
-/// threshold.
+/// threshold. A body that is awake in parts (awake_region.h) has rows of its own kind.
 class Sleep {
  public:
   explicit Sleep(const Body& body);

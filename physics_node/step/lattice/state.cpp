@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/math/state_hash.h"
 #include "physics_node/step/fem/hex_plastic.h"
 #include "physics_node/step/fem/hex_relaxation.h"
 #include "physics_node/step/lattice/element_slots.h"
@@ -76,6 +77,30 @@ void LatticeState<Real>::reset(const Body& body) {
 }
 
 template <class Real>
+std::uint64_t hash_of(const Body& body, const LatticeState<Real>& state, std::uint64_t seed) noexcept {
+  for (const auto& row : body.lattice.rows) {
+    const auto first = static_cast<std::size_t>(row.first);
+    const auto count = static_cast<std::size_t>(row.count);
+    for (std::size_t a = 0; a < 3; ++a) {
+      seed = hash_state(&state.u[a][first], count * sizeof(Real), seed);
+      seed = hash_state(&state.v[a][first], count * sizeof(Real), seed);
+    }
+    seed = hash_state(&state.mask[first], count * sizeof(Mask), seed);
+    for (const auto& array : state.remembered) seed = hash_state(&array[first], count * sizeof(Real), seed);
+    for (const auto* array : state.failed.arrays())
+      if (array->size() > 0) seed = hash_state(&(*array)[first], count * sizeof(Real), seed);
+    for (const auto& array : state.plastic.memory)
+      seed = hash_state(&array[first], count * sizeof(Real), seed);
+    if (!any_yields(body)) continue;
+    for (std::size_t d = 0; d < static_cast<std::size_t>(body.lattice.n_half); ++d) {
+      seed = hash_state(&state.l_c[d][first], count * sizeof(Real), seed);
+      seed = hash_state(&state.hardening[d][first], count * sizeof(Real), seed);
+    }
+  }
+  return seed;
+}
+
+template <class Real>
 bool has_yielded(const Body& body, const LatticeState<Real>& state, Index cell) noexcept {
   const auto n_half = static_cast<std::size_t>(body.lattice.n_half);
   const auto& offset = body.lattice.offset[static_cast<std::size_t>(body.lattice.row_kind(cell))];
@@ -103,6 +128,8 @@ double yielded_share(const Body& body, const LatticeState<Real>& state, Index ce
   return static_cast<double>(yielded) / alive;
 }
 
+template std::uint64_t hash_of(const Body&, const LatticeState<float>&, std::uint64_t) noexcept;
+template std::uint64_t hash_of(const Body&, const LatticeState<double>&, std::uint64_t) noexcept;
 template struct LatticeState<float>;
 template struct LatticeState<double>;
 template bool has_yielded(const Body&, const LatticeState<float>&, Index) noexcept;

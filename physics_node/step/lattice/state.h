@@ -83,15 +83,21 @@ struct LatticeState {
   std::array<SlotList<Real>, max_row_kinds> all, level, up;  // constant: see ElementContext
   std::vector<RowState> row_state;                           // by row
   std::uint64_t row_changes = 0;                             // how often row_state was another one
-  std::vector<RowLedger> ledger;                             // by row
-  std::int64_t breaks = 0;                                   // of all rows, when the masks were last mirrored
-  FreshBreaks fresh;                                         // of the last step; only where elements may go
+  std::vector<std::uint8_t>
+      acts;  // of each run, 1: acts; only of a body that is awake in parts, else rows decide
+  std::vector<RowLedger> ledger;  // by row
+  std::int64_t breaks = 0;        // of all rows, when the masks were last mirrored
+  FreshBreaks fresh;              // of the last step; only where elements may go
 
   explicit LatticeState(const Body& body);
   void reset(const Body& body);
   /// No step came before this state: what the next one begins with is what there is.
   void forget_last_step() noexcept { v_half_known = v_seen_known = false, dt_before = 0; }
 };
+
+/// Of displacement, velocity, live elements and plastic state of all masses, continued from `seed`.
+template <class Real>
+std::uint64_t hash_of(const Body& body, const LatticeState<Real>& state, std::uint64_t seed) noexcept;
 
 /// The velocity that moved the masses in the last step, whose momentum forces change and nothing else.
 template <class Real>
