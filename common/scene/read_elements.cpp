@@ -160,6 +160,8 @@ void refuse_awake(TableReader& reader, const ReadContext& context, const BodySpe
       refuse(fmt::format("[material.{}] {}; leave one of them out", material.name, what));
   if (context.scene.physics->integrator == Integrator::backward_euler)
     refuse("\"backward_euler\" solves for all of it; leave \"integrator\" in [physics] out");
+  if (!context.scene.physics->sleep)
+    refuse("what is not near to a tool sleeps; leave \"sleep\" in [physics] out");
   if (spec.start == StartKind::balanced) refuse("its weight is balanced as it stands; leave \"start\" out");
   for (const char* key : {"handle", "velocity_m_per_s"})
     if (reader.has(key)) refuse(fmt::format("it stands where it is; leave \"{}\" out", key));

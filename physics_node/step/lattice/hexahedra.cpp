@@ -20,6 +20,20 @@ HexKind kind_of(const Body& body, bool exact) {
           .exact = exact};
 }
 
+/// Calls visit(node, inverse mass) for all nodes that may move.
+template <class Real, class Visit>
+void for_each_moving_node(const Body& body, const LatticeState<Real>& state, const Visit& visit) {
+  const auto look_at = [&](Index node) {
+    if (const double w = body.inverse_mass[static_cast<std::size_t>(node)]; w > 0) visit(node, w);
+  };
+  if (!is_awake_in_parts(body)) return std::ranges::for_each(body.nodes(), look_at), void();
+  for (std::size_t r = 0; r < body.lattice.rows.size(); ++r) {
+    const RowSegment& row = body.lattice.rows[r];
+    for (Index i = row.first; state.row_state[r] != RowState::asleep && i < row.first + row.count; ++i)
+      look_at(i);
+  }
+}
+
 }  // namespace
 
 template <class Real>
@@ -181,15 +195,13 @@ Energies Hexahedra<Real>::energies(const Body& body, const LatticeState<Real>& s
   Energies e;
   e.elastic = now.elastic;
   double power = 0;
-  for (const Index i : body.nodes()) {
-    const double w = body.inverse_mass[static_cast<std::size_t>(i)];
-    if (w == 0) continue;
+  for_each_moving_node(body, state, [&](Index i, double w) {
     const Vec3 v = vector_of(state.v, i);
     e.gravitational -= gravity.dot(vector_of(state.u, i)) / w;
-    if (state.fast.has(i)) continue;
+    if (state.fast.has(i)) return;
     e.kinetic += 0.5 / w * v.squaredNorm();
     power += v.dot(gravity) / w + v.dot(now.force[static_cast<std::size_t>(i)]);
-  }
+  });
   e.between = e.kinetic + 0.5 * state.dt_before * power;
   if (fast_) fast_->add(body, grid_, state, gravity, now, e);
   return e;
@@ -198,10 +210,8 @@ Energies Hexahedra<Real>::energies(const Body& body, const LatticeState<Real>& s
 template <class Real>
 double Hexahedra<Real>::energy_now(const Body& body, const LatticeState<Real>& state) const noexcept {
   double energy = measure_elastic(body, grid_, state, failure_.get());
-  for (const Index i : body.nodes()) {
-    const double w = body.inverse_mass[static_cast<std::size_t>(i)];
-    if (w > 0) energy += 0.5 / w * vector_of(state.v, i).squaredNorm();
-  }
+  for_each_moving_node(body, state,
+                       [&](Index i, double w) { energy += 0.5 / w * vector_of(state.v, i).squaredNorm(); });
   return energy;
 }
 

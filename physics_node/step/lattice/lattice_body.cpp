@@ -12,6 +12,7 @@
 #include "physics_node/step/lattice/hexahedra.h"
 #include "physics_node/step/lattice/implicit_step.h"
 #include "physics_node/step/lattice/measure.h"
+#include "physics_node/step/lattice/node_kicks.h"
 #include "physics_node/step/lattice/saved_state.h"
 #include "physics_node/step/lattice/sleep.h"
 #include "physics_node/step/lattice/springs.h"
@@ -82,30 +83,19 @@ class LatticeBody final : public BodyModel, private PendingStep {
   void kick(std::span<const NodalForce> forces, double dt) noexcept override {
     if (region_) wake_where_pressed(forces);
     for (const auto& nodal : forces) {
-      const auto c = static_cast<std::size_t>(nodal.cell);
       if (stands(nodal.cell)) continue;
       sleep_.wake_cell(body_, state_, nodal.cell);
-      if (state_.fast.has(nodal.cell)) {
-        kick_fast(nodal, dt);
-        continue;
-      }
-      const bool verlet = state_.v_half[0].size() > 0;
-      const Three<Real>& moving = moving_velocity(state_);
-      momentum_.push(dt * nodal.force, position(nodal.cell) - dt * vector_of(moving, nodal.cell), dt);
-      for (std::size_t a = 0; a < 3; ++a) {
-        const Real dv =
-            static_cast<Real>(dt * nodal.force[static_cast<Eigen::Index>(a)]) * state_.inverse_mass[c];
-        // With velocity_verlet v is half a step ahead of the velocity that moves the mass.
-        state_.v[a][c] += verlet ? Real(1.5) * dv : dv;
-        state_.u[a][c] += static_cast<Real>(dt) * dv;
-        if (verlet) state_.v_half[a][c] += dv;
-      }
+      kick_node(body_, state_, nodal, dt, momentum_);
     }
   }
 
   void push(std::span<const NodalPush> pushes, double dt) noexcept override {
     if (implicit_) dt = 0;
-    for (const NodalPush& one : pushes) push_one(one, dt);
+    for (const NodalPush& one : pushes) {
+      if (stands(one.cell)) continue;
+      sleep_.wake_cell(body_, state_, one.cell);
+      push_node(body_, state_, one, dt, v_before_, momentum_);
+    }
   }
 
   void prepare_for(Disturbance from_outside) override {
@@ -353,28 +343,6 @@ class LatticeBody final : public BodyModel, private PendingStep {
             .least_corner_J = looked.least_corner_J};
   }
 
-  /// Nodes that are stepped on their own have moved as the last forces would have it: see hex_fast.h.
-  void kick_fast(const NodalForce& nodal, double dt) noexcept {
-    const auto c = static_cast<std::size_t>(nodal.cell);
-    const auto w = static_cast<double>(state_.inverse_mass[c]);
-    std::array<Real, 3> a;
-    for (std::size_t i = 0; i < 3; ++i)
-      a[i] = static_cast<Real>(w * nodal.force[static_cast<Eigen::Index>(i)]);
-    const std::array<Real, 3> left = state_.fast.learn(nodal.cell, a);
-    Vec3 done, late;
-    for (std::size_t i = 0; i < 3; ++i) {
-      late[static_cast<Eigen::Index>(i)] = dt / w * static_cast<double>(left[i]);
-      done[static_cast<Eigen::Index>(i)] = dt / w * static_cast<double>(a[i] - left[i]);
-    }
-    const Vec3 x = position(nodal.cell), v = vector_of(state_.v, nodal.cell);
-    momentum_.hit(done, x - dt * v);
-    momentum_.push(late, x - dt * (v + state_.fast.lead(nodal.cell)), dt);
-    for (std::size_t i = 0; i < 3; ++i) {
-      state_.v[i][c] += static_cast<Real>(dt) * left[i];
-      state_.u[i][c] += static_cast<Real>(dt * dt) * left[i];
-    }
-  }
-
   MomentumAccount::Start momenta_with(const Three<Real>& v) const noexcept {
     MomentumAccount::Start sum = measure_momenta(body_, state_.u, v);
     if (state_.dt_before > 0)
@@ -384,23 +352,6 @@ class LatticeBody final : public BodyModel, private PendingStep {
         sum.momenta.angular += position(node).cross(mv);
       }
     return sum;
-  }
-
-  void push_one(const NodalPush& one, double dt) noexcept {
-    const auto c = static_cast<std::size_t>(one.cell);
-    if (stands(one.cell)) return;
-    sleep_.wake_cell(body_, state_, one.cell);
-    const bool verlet = state_.v_half[0].size() > 0;
-    momentum_.push(one.dv / static_cast<double>(state_.inverse_mass[c]),
-                   position(one.cell) - dt * vector_of(moving_velocity(state_), one.cell), dt);
-    for (std::size_t a = 0; a < 3; ++a) {
-      const double d = one.dv[static_cast<Eigen::Index>(a)];
-      state_.v[a][c] += static_cast<Real>(d);
-      state_.u[a][c] += static_cast<Real>(dt * d);
-      if (verlet) state_.v_half[a][c] += static_cast<Real>(d);
-      // The impulse acts before the elements do: who reads the mean of this and the velocity after them finds all of it.
-      if (v_before_[a].size() > 0) v_before_[a][c] += static_cast<Real>(d);
-    }
   }
 
   /// With another step the velocity half a step ago is another one: the step starts from the one now. Its momentum is another

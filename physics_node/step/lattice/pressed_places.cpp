@@ -7,7 +7,7 @@ namespace palpate::physics {
 namespace {
 
 // Why: tissue that is let go has swung out by then, and what is left is booked as lost.
-constexpr double patience = 0.5;  // [s]
+constexpr double forgotten_after = 0.5;  // [s]
 
 }  // namespace
 
@@ -52,7 +52,7 @@ void PressedPlaces::look(double seconds) noexcept {
     return false;
   };
   for (std::size_t p = places_.size(); p-- > 0;) {
-    if (places_[p].idle < patience && !has_met_another(p)) continue;
+    if (places_[p].idle < forgotten_after && !has_met_another(p)) continue;
     places_.erase(places_.begin() + static_cast<std::ptrdiff_t>(p));
     noted_.pop_back();
   }

@@ -20,7 +20,9 @@ void copy_cells(const Body& body, const FailedCells<Real>& from, FailedCells<Rea
 }  // namespace
 
 template <class Real>
-SavedState<Real>::SavedState(const Body& body, const LatticeState<Real>& state) : ledger_(state.ledger) {
+SavedState<Real>::SavedState(const Body& body, const LatticeState<Real>& state) {
+  if (is_awake_in_parts(body)) return;
+  ledger_ = state.ledger;
   const auto n = static_cast<std::size_t>(body.lattice.n_cells());
   for (auto& axis : u_) axis = ZeroedArray<Real>(n);
   remembered_.resize(state.remembered.size());

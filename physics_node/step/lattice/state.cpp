@@ -52,8 +52,10 @@ void LatticeState<Real>::reset(const Body& body) {
     const bool held = body.inverse_mass[c] == 0;
     for (std::size_t a = 0; a < 3; ++a) {
       const auto start = static_cast<Real>(body.velocity[static_cast<Eigen::Index>(a)]);
-      u[a][c] = f[a][c] = 0;
-      v[a][c] = held ? Real(0) : start;
+      // Only what was written: untouched pages stay free.
+      if (u[a][c] != 0) u[a][c] = 0;
+      if (f[a][c] != 0) f[a][c] = 0;
+      if (const Real begins = held ? Real(0) : start; v[a][c] != begins) v[a][c] = begins;
     }
     mask[c] = body.lattice.mask[c];
     for (auto& array : remembered) array[c] = 0;
@@ -62,7 +64,7 @@ void LatticeState<Real>::reset(const Body& body) {
     if (!plastic.memory.empty() && plastic.memory.back()[c] != 0)
       for (auto& array : plastic.memory) array[c] = 0;
     for (std::size_t h = 0; yields && h < static_cast<std::size_t>(body.lattice.n_half); ++h) {
-      if (l_c[h][c] != 0) l_c[h][c] = 0;  // only what was written: untouched pages stay free
+      if (l_c[h][c] != 0) l_c[h][c] = 0;
       if (hardening[h][c] != 0) hardening[h][c] = 0;
     }
   }
@@ -78,9 +80,13 @@ void LatticeState<Real>::reset(const Body& body) {
 
 template <class Real>
 std::uint64_t hash_of(const Body& body, const LatticeState<Real>& state, std::uint64_t seed) noexcept {
-  for (const auto& row : body.lattice.rows) {
+  for (std::size_t r = 0; r < body.lattice.rows.size(); ++r) {
+    // Of a body that is awake in parts the rest stands where it rests.
+    if (is_awake_in_parts(body) && state.row_state[r] == RowState::asleep) continue;
+    const RowSegment& row = body.lattice.rows[r];
     const auto first = static_cast<std::size_t>(row.first);
     const auto count = static_cast<std::size_t>(row.count);
+    if (is_awake_in_parts(body)) seed = hash_state(&row.first, sizeof(row.first), seed);
     for (std::size_t a = 0; a < 3; ++a) {
       seed = hash_state(&state.u[a][first], count * sizeof(Real), seed);
       seed = hash_state(&state.v[a][first], count * sizeof(Real), seed);
