@@ -144,7 +144,6 @@ ImageTissue find_tissue(const Volume& volume, const std::optional<KeepWindow>& k
   found.partition = partition_for(volume, edge);
   found.cells = tissue_of(resample(volume, found.partition), found.keep, true);
   check_tissue(found.cells, found.keep, path);
-  found.mirrored = volume.orientation && volume.orientation->determinant() < 0;
   found.tip_radius = std::max(wanted, found.cells.spacing.maxCoeff());
   return found;
 }

@@ -23,7 +23,6 @@ struct KeepWindow {
 struct ImageTissue {
   KeepWindow keep;
   std::array<int, 3> partition{};
-  bool mirrored = false;  // the world turns x of the image round
   physics::Cells
       cells;  // of the partition: the largest part of the tissue, the middle of the image in the origin; nothing of it deforms
   double tip_radius = 0;  // that suits it: the cells follow it [m]

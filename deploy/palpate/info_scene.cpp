@@ -127,14 +127,19 @@ std::string forecast_text(const Scene& scene, const physics::World& world) {
   using namespace physics;
   double bytes = bytes_of_program;
   std::vector<double> masses;
+  double all = 0;
   for (std::size_t b = 0; b < world.n_bodies(); ++b) {
     const BodySpec& spec = scene.bodies[b];
     const MemoryNeed need = memory_need(spec, scene);
     const auto built = static_cast<double>(world.body(b).body().n_nodes());
-    masses.push_back(built);
+    masses.push_back(stepped_masses(world.body(b).body()));
+    all += built;
     bytes += need.bytes - bytes_of_masses(need.masses, spec, scene) + bytes_of_masses(built, spec, scene);
   }
-  std::string text = fmt::format("masses       {:.0f}\n", std::accumulate(masses.begin(), masses.end(), 0.0));
+  const double stepped = std::accumulate(masses.begin(), masses.end(), 0.0);
+  std::string text = fmt::format("masses       {:.0f}", all);
+  if (stepped < all) text += fmt::format(", of which about {:.2g} are awake under a finger", stepped);
+  text += "\n";
   text += fmt::format("memory       about {:.2g} GB of {:.2g} GB that may be taken here\n", 1e-9 * bytes,
                       1e-9 * usable_memory());
   const double stable_dt = world.stable_step_seconds();

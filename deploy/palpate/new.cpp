@@ -123,9 +123,10 @@ void write_new(const NewOptions& options) {
   const physics::FirstTouch touch = tried(text, options.out, place, cell);
   write_scene(text, options.out);
   fmt::print(
-      "tissue       intensity {:g} to {:g}, in cells of {:.3g} x {:.3g} x {:.3g} mm, {} of which move\n",
+      "tissue       intensity {:g} to {:g}, in cells of {:.3g} x {:.3g} x {:.3g} mm, {} of which are awake "
+      "at a time\n",
       tissue.keep.lo, tissue.keep.hi, mm_from_m(tissue.cells.spacing.x()),
-      mm_from_m(tissue.cells.spacing.y()), mm_from_m(tissue.cells.spacing.z()), plan.n_moving);
+      mm_from_m(tissue.cells.spacing.y()), mm_from_m(tissue.cells.spacing.z()), plan.n_awake);
   fmt::print(
       "touch        after {:.4g} s at ({:.4g}, {:.4g}, {:.4g}) mm, then {:.3g} mm in, with a tip of {:.3g} "
       "mm\n",

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "common/error/error.h"
@@ -25,8 +26,9 @@ constexpr double press_to_thickness = 0.25;  // Why: thinner tissue would be squ
 constexpr double soft_modulus = 5e3, soft_density = 1000;  // [Pa, kg/m^3]
 constexpr double viscosity_over_cell =
     150;  // [Pa s/m]. Why: swinging dies within some periods, and the step stays that of the modulus
-constexpr int largest_region = 8,
-              smallest_region = 3;  // [cells] from its middle. Why: four tips; a tip and a half
+constexpr int largest_radius = 10,
+              smallest_radius =
+                  4;  // [cells]. Why: five tips, and two, with which the rim errs by 3 % at most
 constexpr double wanted_factor =
     1.25;  // of real time. Why: hand and eye want the other core, and a forecast is good to a factor of two
 // Of a step with a tip on the faces of cells of half its radius, beside what the cells take, on one busy core: 0.07
@@ -34,21 +36,28 @@ constexpr double wanted_factor =
 constexpr double contact_step_s = 1e-4;
 constexpr double come_s = 1, press_s = 1, hold_s = 1, leave_s = 2;
 
-/// Cells of tissue that move with so large a region, and their nodes.
+/// Cells of tissue that are awake within so far of a cell, and their nodes: they wake in segments along x, whose ends lie anywhere.
 struct Region {
   int cells = 0;
   double nodes = 0;
 };
-Region region_of(const Cells& cells, const Vec3i& middle, int radius) {
+Region region_of(const Cells& cells, const Vec3i& middle, double within) {
   Region region;
   std::set<std::array<int, 3>> nodes;
-  for (int k = middle.z() - radius; k <= middle.z() + radius; ++k)
-    for (int j = middle.y() - radius; j <= middle.y() + radius; ++j)
-      for (int i = middle.x() - radius; i <= middle.x() + radius; ++i) {
+  const Vec3i reach = (within / cells.spacing.array()).ceil().cast<int>();
+  for (int k = middle.z() - reach.z(); k <= middle.z() + reach.z(); ++k)
+    for (int j = middle.y() - reach.y(); j <= middle.y() + reach.y(); ++j) {
+      const double aside =
+          std::hypot(cells.spacing.y() * (j - middle.y()), cells.spacing.z() * (k - middle.z()));
+      if (aside >= within) continue;
+      const double along = std::sqrt(within * within - aside * aside) / cells.spacing.x();
+      const int half = static_cast<int>(std::ceil(along)) + physics::row_segment;
+      for (int i = middle.x() - half; i <= middle.x() + half; ++i) {
         if (!cells.is_filled(i, j, k)) continue;
         ++region.cells;
         for (int c = 0; c < 8; ++c) nodes.insert({i + (c & 1), j + (c >> 1 & 1), k + (c >> 2)});
       }
+    }
   region.nodes = static_cast<double>(nodes.size());
   return region;
 }
@@ -108,19 +117,18 @@ PressPlan plan_press(const ImageTissue& tissue, const TouchPlace& place, const s
   plan.material = soft_tissue(cells);
   plan.depth = std::min(press_to_tip * tissue.tip_radius, press_to_thickness * place.thickness);
   plan.path = path_of(place, tissue.tip_radius, plan.depth);
-  plan.center_voxel = {tissue.mirrored ? cells.size.x() - 1 - place.cell.x() : place.cell.x(), place.cell.y(),
-                       place.cell.z()};
   const Pace pace(plan.material, cells.spacing.minCoeff());
   const auto all = static_cast<int>(cells.n_filled());
-  for (int radius = largest_region; radius >= smallest_region; --radius) {
-    const Region region = region_of(cells, place.cell, radius);
+  for (int radius = largest_radius; radius >= smallest_radius; --radius) {
+    const double awake = radius * cells.spacing.minCoeff();
+    const Region region = region_of(cells, place.cell, awake);
     if (region.cells >= all) continue;  // Why: nothing would hold it
-    plan.radius_voxels = radius;
-    plan.n_moving = region.cells;
+    plan.awake = awake;
+    plan.n_awake = region.cells;
     plan.real_time_factor = pace.factor(region.nodes);
     if (plan.real_time_factor >= wanted_factor) return plan;
   }
-  if (plan.radius_voxels > 0) return plan;
+  if (plan.awake > 0) return plan;
   throw InputError(
       fmt::format("{}: its tissue, of {:.3g} x {:.3g} x {:.3g} mm cells, is hardly larger than the tip, and "
                   "nothing would "

@@ -1,7 +1,6 @@
 #pragma once
-// How a tip presses a place of an image, and which cells there move so that two cores keep up.
+// How a tip presses a place of an image, and how much about it is awake so that two cores keep up.
 
-#include <array>
 #include <vector>
 
 #include "common/scene/device_spec.h"
@@ -12,16 +11,15 @@
 namespace palpate::deploy {
 
 struct PressPlan {
-  MaterialSpec material;              // soft tissue
-  double depth = 0;                   // of the hand below the surface at rest [m]
-  std::vector<Waypoint> path;         // from outside to the surface, in, held, and back
-  std::array<int, 3> center_voxel{};  // as the image counts
-  int radius_voxels = 0;              // of the region that moves
-  int n_moving = 0;                   // cells in it
-  double real_time_factor = 0;        // forecast, on one thread, pressed
+  MaterialSpec material;        // soft tissue
+  double depth = 0;             // of the hand below the surface at rest [m]
+  std::vector<Waypoint> path;   // from outside to the surface, in, held, and back
+  double awake = 0;             // radius about the tip [m]
+  int n_awake = 0;              // cells in it
+  double real_time_factor = 0;  // forecast, on one thread, pressed
 };
 
-/// @throws InputError  no region both moves and is held by tissue around it
+/// @throws InputError  no part is awake and held by tissue around it
 PressPlan plan_press(const ImageTissue& tissue, const TouchPlace& place, const std::string& path);
 
 }  // namespace palpate::deploy

@@ -77,21 +77,20 @@ keep       = [{:.6g}, {:.6g}]          # {}
 largest_component = true               # what is apart from the largest piece is left out
 at_mm      = [0, 0, 0]
 material   = "soft"
-# {} cells around the place move and the rest is rigid and holds them: {:.2g} times real time by forecast, pressed, on
-# one thread. A larger radius is truer and slower; palpate info forecasts it without contact.
-deformable = {{ center_voxel = [{}, {}, {}], radius_voxels = {} }}
+# All of it gives way wherever it is touched; what is near to the finger is computed, here {} cells, and a soft rim stands for
+# the rest: {:.2g} times real time by forecast, pressed, on one thread.
+deformable = {{ awake_mm = {:.4g} }}
 )",
       in_quotes(file), tissue.partition[0], tissue.partition[1], tissue.partition[2],
-      in_mm(tissue.cells.spacing), tissue.keep.lo, tissue.keep.hi, words, plan.n_moving,
-      plan.real_time_factor, plan.center_voxel[0], plan.center_voxel[1], plan.center_voxel[2],
-      plan.radius_voxels);
+      in_mm(tissue.cells.spacing), tissue.keep.lo, tissue.keep.hi, words, plan.n_awake, plan.real_time_factor,
+      mm_from_m(plan.awake));
 }
 
 std::string material_lines(const MaterialSpec& soft) {
   return fmt::format(
       R"([material.soft]
 # An image does not say how stiff tissue is. 5 kPa lies between fat and resting muscle; 2 to 20 are all soft tissue.
-# All of `keep` that moves is of it, bone too: modulus_by_intensity in place of modulus_kPa tells them apart.
+# All of `keep` is of it, bone too: modulus_by_intensity in place of modulus_kPa tells them apart.
 density_kg_per_m3 = {:.6g}
 modulus_kPa       = {:.6g}
 poisson_ratio     = {:.6g}

@@ -135,6 +135,18 @@ std::optional<double> awake_radius_of(const BodySpec& spec) {
   return image != nullptr ? image->deformable.awake : std::nullopt;
 }
 
+/// What is awake is held by the rest: there must be one.
+void refuse_loose(const BodySpec& spec, const Body& body) {
+  if (!is_awake_in_parts(body) || body.n_held > 0) return;
+  Eigen::AlignedBox3d box;
+  for (const Index node : body.nodes()) box.extend(body.rest_position(node));
+  if (body.solid->awake_radius < 0.5 * box.diagonal().norm()) return;
+  throw InputError(fmt::format(
+      "{}: awake_mm = {:.4g} reaches across body \"{}\", whose diagonal is {:.4g} mm, and nothing "
+      "would hold it; give fixed = [\"-z\"], or a smaller awake_mm",
+      spec.place.text(), 1e3 * body.solid->awake_radius, spec.name, 1e3 * box.diagonal().norm()));
+}
+
 /// The lattice of an fcc body in an image, and how bright it is at each mass.
 void lay_in_image(const BodySpec& spec, Body& body) {
   const Cells image = make_cells(spec);
@@ -180,6 +192,7 @@ Body build_body(const BodySpec& spec, const std::vector<MaterialSpec>& materials
   if (body.solid) body.solid->awake_radius = awake_radius_of(spec).value_or(0.0);
   hold_masses(spec, body);
   give_handle(spec, body);
+  refuse_loose(spec, body);
   return body;
 }
 

@@ -44,8 +44,11 @@ void refuse_coarse(const ToolSpec& tool, double size, const Body& body) {
           boxes ? "side" : "radius"));
 }
 
-/// Of what nothing holds none: it swings about where it goes, and what it lies on is not known to its modes.
-int modes_of(const Body& body) noexcept { return is_anchored(body) ? static_cast<int>(max_tissue_modes) : 0; }
+/// Of what nothing holds none: it swings about where it goes, and what it lies on is not known to its modes. Of what is awake in parts none:
+/// modes are of all of a body.
+int modes_of(const Body& body) noexcept {
+  return body.n_held > 0 && !is_awake_in_parts(body) ? static_cast<int>(max_tissue_modes) : 0;
+}
 
 }  // namespace
 

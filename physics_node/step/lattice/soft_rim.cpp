@@ -69,7 +69,7 @@ void SoftRim<Real>::find(const Body& body, const HexGrid& grid, std::span<const 
     const HexRun& run = grid.runs[static_cast<std::size_t>(r)];
     const std::array<Index, 6> beside{run.right - 1, run.right, -grid.up_y, grid.up_y, -grid.up_z, grid.up_z};
     for (Index i = run.first; i < run.first + run.count; ++i) {
-      if (stiffness[static_cast<std::size_t>(i)] <= 0) continue;
+      if ((marks[static_cast<std::size_t>(i)] & cell_acts) == 0) continue;
       for (std::size_t face = 0; face < 6; ++face) {
         const auto other = static_cast<std::size_t>(i + beside[face]);
         if (stiffness[other] <= 0 || (marks[other] & cell_acts) != 0) continue;

@@ -98,6 +98,7 @@ std::vector<SceneTable> all_tables() {
       {"a box of fixed", "", least + "fixed = [{ ", "min_mm = [0, 0, 0]\nmax_mm = [9, 9, 9]\n", "}]\n"},
       in_body("deformable", "[body.deformable]", "", "center_voxel = [1, 1, 1]\n"),
       in_body("deformable", "[body.deformable]", "", "center = \"gravity\"\n"),
+      in_body("deformable", "model = \"fem\"\n[body.deformable]", "", "awake_mm = 20\n"),
       in_body("regions", "[[body.regions]]", "", "material = \"n\"\n" + box),
       in_body("regions", "[[body.regions]]", "", "material = \"n\"\n" + round),
       in_body("regions", "[[body.regions]]", "", "material = \"n\"\nintensity = [0, 1]\n"),

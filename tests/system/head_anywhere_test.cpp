@@ -1,0 +1,73 @@
+// scenes/head_anywhere.toml: one head, pressed at four places, of which only what is near to the finger is computed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "common/math/vec3.h"
+#include "tests/system/command_run.h"
+#include "tests/system/shell.h"
+
+namespace palpate {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* head = "/usr/share/doc/invesalius-examples/examples/Cranium.inv3";
+
+class HeadAnywhere : public CommandRun {
+ protected:
+  /// The largest force on the hand between two times, and its direction.
+  Vec3 largest_between(double from, double to) const {
+    std::ifstream file(folder / "out" / "tool_finger.csv");
+    Vec3 largest = Vec3::Zero();
+    std::string line;
+    while (std::getline(file, line)) {
+      double t = 0;
+      Vec3 x, f;
+      if (std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf,%lf", &t, &x.x(), &x.y(), &x.z(), &f.x(), &f.y(),
+                      &f.z()) != 7)
+        continue;
+      if (t >= from && t < to && f.norm() > largest.norm()) largest = f;
+    }
+    return largest;
+  }
+};
+
+TEST_F(HeadAnywhere, GivesWayAtCheekForeheadEarAndNape) {
+  ASSERT_TRUE(fs::exists(head)) << "install the Debian package invesalius-examples";
+  fs::create_directories(folder / "data");
+  fs::create_directories(folder / "scenes");
+  ASSERT_EQ(palpate(std::string("import ") + head + " --out " + test::quoted(folder / "data" / "cranium.h5")),
+            0)
+      << log;
+  fs::copy_file(fs::path(SCENES) / "head_anywhere.toml", folder / "scenes" / "head_anywhere.toml");
+  ASSERT_EQ(palpate("simulate " + test::quoted(folder / "scenes" / "head_anywhere.toml") +
+                    " --no-frames --out " + test::quoted(folder / "out")),
+            0)
+      << log;
+  // Skin pushes outward: the face looks to +y, its right ear to -x.
+  const Vec3 cheek = largest_between(0.8, 1.1), forehead = largest_between(2.5, 2.8),
+             ear = largest_between(4.5, 4.8), nape = largest_between(6.3, 6.6);
+  for (const Vec3& force : {cheek, forehead, ear, nape}) {
+    EXPECT_GT(force.norm(), 0.02) << force.transpose();
+    EXPECT_LT(force.norm(), 1.0) << force.transpose();
+  }
+  EXPECT_GT(cheek.y(), 0.8 * cheek.norm());
+  EXPECT_GT(forehead.y(), 0.7 * forehead.norm());
+  EXPECT_LT(ear.x(), -0.8 * ear.norm());
+  EXPECT_LT(nape.y(), -0.7 * nape.norm());
+  // On the way from one to the next nothing is felt.
+  for (const double t : {1.8, 3.5, 5.4}) EXPECT_LT(largest_between(t, t + 0.1).norm(), 0.01) << t;
+  const auto summary = read_json((folder / "out" / "summary.json").string());
+  EXPECT_LT(summary["energy"]["balance_error"].get<double>(), 0.01);
+  EXPECT_EQ(summary["guard"]["restored"].get<int>(), 0);
+  EXPECT_GT(summary["bodies"]["head"]["sleeping_fraction"].get<double>(), 0.97);
+  EXPECT_GT(summary["bodies"]["head"]["masses"].get<int>(), 130'000);
+}
+
+}  // namespace
+}  // namespace palpate
