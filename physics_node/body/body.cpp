@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -160,6 +161,16 @@ void lay_in_image(const BodySpec& spec, Body& body) {
 }
 
 }  // namespace
+
+double stepped_masses(const Body& body) noexcept {
+  const auto all = static_cast<double>(body.n_nodes());
+  if (!is_awake_in_parts(body)) return all;
+  // Half a ball, in rows along x that wake in segments of two vectors' length: they reach half a segment further at both ends.
+  const double R = body.solid->awake_radius;
+  const Vec3& h = body.lattice.step;
+  const double rows = std::numbers::pi * R * R / (h.y() * h.z());
+  return std::min(all, 0.5 * rows * (4.0 / 3 * R / h.x() + 2 * row_segment));
+}
 
 Body build_body(const BodySpec& spec, const std::vector<MaterialSpec>& materials) {
   Body body;

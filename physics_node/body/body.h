@@ -101,6 +101,8 @@ inline bool is_of_finite_elements(const Body& body) {
 inline bool bears_by_faces(const Body& body) { return body.solid || body.mesh; }
 /// Is only a part of it stepped, and the rest stands?
 inline bool is_awake_in_parts(const Body& body) { return body.solid && body.solid->awake_radius > 0; }
+/// Of a body, those that are stepped: all, or where it is awake in parts about as many as wake under one finger on a flat skin.
+double stepped_masses(const Body& body) noexcept;
 /// Does it stay where it is, whoever pushes it?
 inline bool is_anchored(const Body& body) { return body.n_held > 0 || is_awake_in_parts(body); }
 /// viscosity / modulus of finite elements and of surfaces [s]

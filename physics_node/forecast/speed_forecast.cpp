@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <string>
 
@@ -95,16 +94,6 @@ double steps_a_frame(const Scene& scene, double stable_dt) {
   const bool placed = scene.physics->place.line != 0 || !scene.physics->place.file.empty();
   throw InputError(fmt::format("{}: {}: give softer or heavier material, a wider spacing, or a longer step",
                                placed ? scene.physics->place.text() : scene.path, numbers));
-}
-
-double stepped_masses(const Body& body) noexcept {
-  const auto all = static_cast<double>(body.n_nodes());
-  if (!is_awake_in_parts(body)) return all;
-  // Half a ball, in rows along x that wake in segments of two vectors' length: they reach half a segment further at both ends.
-  const double R = body.solid->awake_radius;
-  const Vec3& h = body.lattice.step;
-  const double rows = std::numbers::pi * R * R / (h.y() * h.z());
-  return std::min(all, 0.5 * rows * (4.0 / 3 * R / h.x() + 2 * row_segment));
 }
 
 SpeedForecast forecast_speed(const Scene& scene, std::span<const double> masses, double stable_dt) {

@@ -18,9 +18,6 @@ struct SpeedForecast {
       0;  // simulated per wall time on one thread; 0: nothing moves, or it is not known (backward_euler)
 };
 
-/// Of a body, those that are stepped: all, or where it is awake in parts about as many as wake under one finger on a flat skin.
-double stepped_masses(const Body& body) noexcept;
-
 /// @param masses     in each body of the scene, that are stepped
 /// @param stable_dt  stable step [s]; infinite where nothing limits it
 SpeedForecast forecast_speed(const Scene& scene, std::span<const double> masses, double stable_dt);

@@ -181,6 +181,26 @@ TEST_F(AwakeParts, BeginAnewAfterAReset) {
   EXPECT_EQ(world.state_hash(), pressed);
 }
 
+TEST_F(AwakeParts, BeginAnewAtRestWhereTheGuardActs) {
+  World world(scene_of(awake(12)));
+  Hand hand;
+  const auto loaded = world.state_hash();
+  hand.frames(world, 60, 0.1);
+  const Body& body = world.body(0).body();
+  for (const Index node : body.nodes())
+    if ((body.rest_position(node) - Vec3(0, 0, top)).norm() < 0.003)
+      world.body(0).place(node, Vec3(0, 0, NAN), Vec3::Zero());
+  world.frame({});
+  EXPECT_EQ(world.report().restored, 1);
+  EXPECT_TRUE(world.body(0).is_finite());
+  EXPECT_EQ(sleeping(world), 1);
+  EXPECT_EQ(world.state_hash(), loaded);
+  hand.frames(world, 200, 0.1);
+  EXPECT_EQ(world.report().restored, 1);
+  EXPECT_LT(sleeping(world), 1);
+  EXPECT_GT(depth_of(world), 0.001);
+}
+
 TEST_F(AwakeParts, WakeWhereAnotherPlaceIsPressed) {
   World world(scene_of(awake(12)));
   Hand hand;

@@ -28,7 +28,7 @@ class AwakeRegion {
   bool moves(Index node) const noexcept { return (marks_[static_cast<std::size_t>(node)] & node_moves) != 0; }
   /// @param seconds  since the last call; 0: a new place was noted
   void look(const Body& body, LatticeState<Real>& state, double seconds) noexcept;
-  /// All falls asleep where it rests; nothing is booked. @return what the state must be after a reset or a restore
+  /// All falls asleep where it rests, after a reset or where the guard acts; nothing is booked.
   void clear(const Body& body, LatticeState<Real>& state) noexcept;
 
   SoftRim<Real>& rim() noexcept { return rim_; }
