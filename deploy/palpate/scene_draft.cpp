@@ -75,6 +75,7 @@ file       = {}
 partition  = [{}, {}, {}]              # cells of {} mm
 keep       = [{:.6g}, {:.6g}]          # {}
 largest_component = true               # what is apart from the largest piece is left out
+border_cells = "filled"                # cells that the skin goes through are as stiff as they are full
 at_mm      = [0, 0, 0]
 material   = "soft"
 # All of it gives way wherever it is touched; what is near to the finger is computed, here {} cells, and a soft rim stands for

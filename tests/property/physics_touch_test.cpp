@@ -163,6 +163,62 @@ TEST(Touch, OfASlopeIsThatOfAPlane) {
   }
 }
 
+/// Halves of facets that look away from the mean of those around them.
+int flipped(const Boundary& surface, const NodeMotion& moving) {
+  const auto& facets = surface.surface().facets;
+  std::vector<Vec3> around(surface.surface().n_vertices(), Vec3::Zero());
+  const auto halves = [&](std::uint32_t f, const auto& visit) {
+    std::array<Vec3, 4> x;
+    for (std::size_t c = 0; c < 4; ++c) x[c] = surface.position(f, c, moving);
+    visit(Vec3((x[1] - x[0]).cross(x[2] - x[0])));
+    if (!surface.is_triangle(f)) visit(Vec3((x[2] - x[0]).cross(x[3] - x[0])));
+  };
+  for (std::uint32_t f = 0; f < facets.size(); ++f)
+    halves(f, [&](const Vec3& area) {
+      for (const std::uint32_t v : facets[f]) around[v] += area;
+    });
+  int n = 0;
+  for (std::uint32_t f = 0; f < facets.size(); ++f) {
+    Vec3 mean = Vec3::Zero();
+    for (const std::uint32_t v : facets[f]) mean += around[v];
+    halves(f, [&](const Vec3& area) { n += area.dot(mean) <= 0 ? 1 : 0; });
+  }
+  return n;
+}
+
+/// However the skin lies in the cells, a finger that goes in by 8 mm folds no triangle of it.
+TEST(Touch, FoldsNoTriangleOfASmoothSkin) {
+  for (const double degrees : {0.0, 8.0, 17.0, 30.0}) {
+    const double angle = degrees * std::numbers::pi / 180;
+    const Vec3 out(std::sin(angle), 0, std::cos(angle)), at(0.1, 0.2, 8.6);  // [mm]
+    SmoothImage image;
+    image.size = {36, 30, 24};
+    image.phi = [=](const Vec3& p) { return (at - p).dot(out); };
+    image.border = BorderCells::filled;
+    image.fixed = {false, false, false, false, true, false};
+    bench::DrivenBody body(image.body(), Precision::single_);
+    const Boundary surface(body.model(), 0.02);
+    EXPECT_EQ(flipped(surface, body.model()), 0);
+    FacePress press(surface, body.model(), RigidShape::sphere(0.010));
+    const ShapePose pose = pose_along(1e-3 * at, out);
+    std::vector<std::uint32_t> near;
+    for (std::uint32_t f = 0; f < surface.surface().facets.size(); ++f)
+      if ((surface.settled_centroid(f) - pose.tip).norm() < 0.03) near.push_back(f);
+    double force = 0;
+    body.after_step = [&](double dt) {
+      if (press.depth() < 0.008) force += 10 * dt;  // [N/s]
+      press.list(pose, near);
+      press.press(pose, force, dt);
+      body.model().kick(press.forces(), dt);
+    };
+    body.run(0.6, [](const Vec3&, double) { return Vec3(Vec3::Zero()); });
+    std::printf("leans by %4.1f degrees: %.2f N, %.2f mm deep, %d triangles folded, least J %.2f\n", degrees,
+                force, 1e3 * press.depth(), flipped(surface, body.model()), body.least_corner_J());
+    EXPECT_GT(press.depth(), 0.0075);
+    EXPECT_EQ(flipped(surface, body.model()), 0) << degrees;
+  }
+}
+
 TEST(Touch, SlidesOverFacesWithoutAHop) {
   World world(scene_of(block(5)));
   Hand hand;

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "common/math/vec3.h"
+#include "common/report/json_file.h"
 #include "tests/system/command_run.h"
 #include "tests/system/shell.h"
 
