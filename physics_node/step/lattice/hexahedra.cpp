@@ -85,13 +85,16 @@ template <class Real>
 void Hexahedra<Real>::follow_rows(const Body& body, LatticeState<Real>& state) noexcept {
   if (row_changes_ == state.row_changes) return;
   row_changes_ = state.row_changes;
+  // Beside runs of its row that act, one that rests is asked for nothing: it must hold nothing.
+  for (std::size_t run = 0; run < state.acts.size(); ++run)
+    if (state.acts[run] == 0 && acting_.acts(static_cast<Index>(run))) {
+      elastic_[run] = stiffest_[run] = 0, least_J_[run] = 1;
+      if (body.solid->beta != 0) power_[run] = damped_[run] = 0;
+    }
   acting_.follow(grid_, state.row_state, state.acts);
-  for (std::size_t run = 0; run < grid_.runs.size(); ++run) {
-    if (acting_.acts(static_cast<Index>(run))) continue;
-    if (!state.acts.empty())
-      elastic_[run] = stiffest_[run] = 0, least_J_[run] = 1;  // beside others of its row
-    if (body.solid->beta != 0) power_[run] = damped_[run] = 0;
-  }
+  if (body.solid->beta == 0 || !state.acts.empty()) return;
+  for (std::size_t run = 0; run < grid_.runs.size(); ++run)
+    if (!acting_.acts(static_cast<Index>(run))) power_[run] = damped_[run] = 0;
 }
 
 template <class Real>

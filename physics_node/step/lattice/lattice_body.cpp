@@ -292,6 +292,8 @@ class LatticeBody final : public BodyModel, private PendingStep {
     if (region_->moving_nodes() > 0) {
       region_->rim().act(state_, step.dt, step.watch);
       outcome = elements_->step(body_, state_, step);
+    } else {
+      state_.forget_last_step();  // whoever wakes has had none
     }
     kick(forces, step.dt);
     return outcome;
