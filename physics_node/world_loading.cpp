@@ -81,10 +81,21 @@ std::vector<Body> build_bodies(const Scene& scene) {
   return built;
 }
 
+/// What rests of a body that is awake in parts cannot be met: it is alone but for tools that are no bodies.
+void refuse_company(const Scene& scene, const std::vector<Body>& built) {
+  for (std::size_t b = 0; b < built.size(); ++b)
+    if (is_awake_in_parts(built[b]) && built.size() > 1)
+      throw InputError(
+          fmt::format("{}: body \"{}\" has awake_mm, and there is another, \"{}\": only tools that are no "
+                      "bodies touch it; leave that out, or write deformable = \"all\"",
+                      scene.bodies[b].place.text(), built[b].name, built[b == 0 ? 1 : 0].name));
+}
+
 }  // namespace
 
 World::World(const Scene& scene, int spare_cores) : scene_(scene) {
   std::vector<Body> built = build_bodies(scene);
+  refuse_company(scene, built);
   if (std::ranges::any_of(scene.tools, cuts))
     for (std::size_t b = 0; b < built.size(); ++b) make_ready_for_cuts(scene.bodies[b], built[b]);
   const Integrator integrator = settle_steps(built);

@@ -1,8 +1,6 @@
 // [[body]]
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "common/message/messages.h"
 #include "common/scene/body_spec.h"
 #include "common/scene/material_spec.h"
@@ -81,11 +79,6 @@ BodySpec read_body(TableReader& reader, ReadContext& context) {
   return spec;
 }
 
-bool is_awake_in_parts(const BodySpec& body) {
-  const auto* image = std::get_if<VolumeShape>(&body.shape);
-  return image != nullptr && image->deformable.awake.has_value();
-}
-
 void read_bodies(TableReader& root, ReadContext& context) {
   for (const auto* table : tables_of_list(root, "body", max_bodies)) {
     TableReader reader(*table, list_title(*table, "body"), context.complaints);
@@ -95,11 +88,6 @@ void read_bodies(TableReader& root, ReadContext& context) {
   const auto* list = root.find("body");
   if (list == nullptr || (list->is_array() && list->as_array()->empty()))
     root.complain("body", "the scene has no body; add a [[body]] with name, shape and material");
-  const auto& bodies = context.scene.bodies;
-  if (bodies.size() > 1 && std::ranges::any_of(bodies, is_awake_in_parts))
-    root.complain("body",
-                  "a body with \"awake_mm\" is touched by tools alone; leave the other bodies out, or write "
-                  "deformable = \"all\"");
 }
 
 }  // namespace palpate

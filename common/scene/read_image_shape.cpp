@@ -50,14 +50,21 @@ DeformableRegion read_deformable(TableReader& body, ReadContext& context) {
     return region;
   }
   TableReader reader(*value->as_table(), fmt::format("deformable of {}", body.title()), context.complaints);
+  region.awake = reader.read_length_mm("awake_mm");
   if (reader.has("awake_mm")) {
-    region.awake = reader.read_length_mm("awake_mm");
-    reader.refuse_left_over();
-    return region;
+    for (const char* key : {"center_voxel", "center", "radius_voxels", "nearest"}) {
+      reader.allow({key});
+      if (reader.has(key))
+        reader.complain(key,
+                        fmt::format("\"{}\" beside \"awake_mm\", with which all cells move; leave one of "
+                                    "them out",
+                                    key));
+    }
+  } else {
+    region.all = false;
+    read_center(reader, region);
+    read_extent(reader, region);
   }
-  region.all = false;
-  read_center(reader, region);
-  read_extent(reader, region);
   reader.refuse_left_over();
   return region;
 }

@@ -109,6 +109,25 @@ std::vector<Waypoint> path_of(const TouchPlace& place, double tip_radius, double
   return path;
 }
 
+/// A tenth of the tissue, or a cell, on the side of the image that the finger presses towards.
+Eigen::AlignedBox3d opposite(const Cells& cells, const TouchPlace& place) {
+  Eigen::Index axis = 0;
+  place.outward.cwiseAbs().maxCoeff(&axis);
+  Vec3i lo = cells.size, hi = Vec3i::Constant(-1);
+  for (int k = 0; k < cells.size.z(); ++k)
+    for (int j = 0; j < cells.size.y(); ++j)
+      for (int i = 0; i < cells.size.x(); ++i)
+        if (cells.is_filled(i, j, k)) lo = lo.cwiseMin(Vec3i(i, j, k)), hi = hi.cwiseMax(Vec3i(i, j, k));
+  const int depth = std::max(1, (hi[axis] - lo[axis] + 1) / 10);
+  (place.outward[axis] > 0 ? hi[axis] : lo[axis]) =
+      place.outward[axis] > 0 ? lo[axis] + depth - 1 : hi[axis] - depth + 1;
+  const auto corner = [&](const Vec3i& cell) {
+    return Vec3(cells.corner + cells.spacing.cwiseProduct(cell.cast<double>()));
+  };
+  const Vec3 slack = 0.25 * cells.spacing;  // Why: nodes at its border are in it
+  return {corner(lo) - slack, corner(hi + Vec3i::Ones()) + slack};
+}
+
 }  // namespace
 
 PressPlan plan_press(const ImageTissue& tissue, const TouchPlace& place, const std::string& path) {
@@ -117,6 +136,7 @@ PressPlan plan_press(const ImageTissue& tissue, const TouchPlace& place, const s
   plan.material = soft_tissue(cells);
   plan.depth = std::min(press_to_tip * tissue.tip_radius, press_to_thickness * place.thickness);
   plan.path = path_of(place, tissue.tip_radius, plan.depth);
+  plan.held = opposite(cells, place);
   const Pace pace(plan.material, cells.spacing.minCoeff());
   const auto all = static_cast<int>(cells.n_filled());
   for (int radius = largest_radius; radius >= smallest_radius; --radius) {

@@ -1,6 +1,7 @@
 #pragma once
 // How a tip presses a place of an image, and how much about it is awake so that two cores keep up.
 
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "common/scene/device_spec.h"
@@ -14,6 +15,7 @@ struct PressPlan {
   MaterialSpec material;        // soft tissue
   double depth = 0;             // of the hand below the surface at rest [m]
   std::vector<Waypoint> path;   // from outside to the surface, in, held, and back
+  Eigen::AlignedBox3d held;     // of the tissue what lies opposite, in the world [m]
   double awake = 0;             // radius about the tip [m]
   int n_awake = 0;              // cells in it
   double real_time_factor = 0;  // forecast, on one thread, pressed

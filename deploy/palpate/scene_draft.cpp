@@ -81,10 +81,12 @@ material   = "soft"
 # All of it gives way wherever it is touched; what is near to the finger is computed, here {} cells, and a soft rim stands for
 # the rest: {:.2g} times real time by forecast, pressed, on one thread.
 deformable = {{ awake_mm = {:.4g} }}
+# What lies opposite is held.
+fixed      = [{{ min_mm = [{}], max_mm = [{}] }}]
 )",
       in_quotes(file), tissue.partition[0], tissue.partition[1], tissue.partition[2],
       in_mm(tissue.cells.spacing), tissue.keep.lo, tissue.keep.hi, words, plan.n_awake, plan.real_time_factor,
-      mm_from_m(plan.awake));
+      mm_from_m(plan.awake), in_mm(plan.held.min()), in_mm(plan.held.max()));
 }
 
 std::string material_lines(const MaterialSpec& soft) {
@@ -106,6 +108,7 @@ std::string hand_lines(const ImageTissue& tissue, const TouchPlace& place, const
 name              = "finger"
 shape             = "point"
 radius_mm         = {:.4g}
+force_model       = "tissue"            # presses by the hand's own motion
 stiffness_N_per_m = 400
 damping_N_s_per_m = 1
 device            = "hand"

@@ -136,16 +136,23 @@ std::optional<double> awake_radius_of(const BodySpec& spec) {
   return image != nullptr ? image->deformable.awake : std::nullopt;
 }
 
-/// What is awake is held by the rest: there must be one.
+/// What is awake is held by the rest: there must be enough of it. Why half the second of three extents: a rim is then on all sides of a
+/// place but one, in a plate too.
 void refuse_loose(const BodySpec& spec, const Body& body) {
   if (!is_awake_in_parts(body) || body.n_held > 0) return;
   Eigen::AlignedBox3d box;
   for (const Index node : body.nodes()) box.extend(body.rest_position(node));
-  if (body.solid->awake_radius < 0.5 * box.diagonal().norm()) return;
-  throw InputError(fmt::format(
-      "{}: awake_mm = {:.4g} reaches across body \"{}\", whose diagonal is {:.4g} mm, and nothing "
-      "would hold it; give fixed = [\"-z\"], or a smaller awake_mm",
-      spec.place.text(), 1e3 * body.solid->awake_radius, spec.name, 1e3 * box.diagonal().norm()));
+  Vec3 extent = box.sizes();
+  std::sort(extent.begin(), extent.end());
+  const double awake = 2 * (body.solid->awake_radius + 3 * body.spacing());
+  if (awake <= 0.5 * extent[1]) return;
+  throw InputError(
+      fmt::format("{}: awake_mm = {:.4g} leaves too little of body \"{}\", of {:.3g} x {:.3g} x {:.3g} mm, "
+                  "to hold what is "
+                  "awake; give fixed = [\"-z\"] or a box, or at most awake_mm = {:.3g}",
+                  spec.place.text(), 1e3 * body.solid->awake_radius, spec.name, 1e3 * box.sizes().x(),
+                  1e3 * box.sizes().y(), 1e3 * box.sizes().z(),
+                  std::max(0.0, 1e3 * (0.25 * extent[1] - 3 * body.spacing()))));
 }
 
 /// The lattice of an fcc body in an image, and how bright it is at each mass.

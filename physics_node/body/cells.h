@@ -71,5 +71,7 @@ Cells make_cells(const BodySpec& body);
 
 /// Keeps only the largest 6-connected component of `filled`. @return how many components there were
 int keep_largest_component(Cells& cells);
+/// How many 6-connected pieces the filled cells are.
+int n_pieces(const Cells& cells);
 
 }  // namespace palpate::physics

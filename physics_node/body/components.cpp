@@ -57,4 +57,13 @@ int keep_largest_component(Cells& cells) {
   return static_cast<int>(n_labels);
 }
 
+int n_pieces(const Cells& cells) {
+  std::vector<std::uint32_t> labels(cells.filled.size(), 0);
+  std::vector<std::size_t> stack;
+  std::uint32_t n_labels = 0;
+  for (std::size_t n = 0; n < cells.filled.size(); ++n)
+    if (cells.filled[n] != 0 && labels[n] == 0) flood(cells, n, ++n_labels, labels, stack);
+  return static_cast<int>(n_labels);
+}
+
 }  // namespace palpate::physics

@@ -17,6 +17,8 @@
 namespace palpate::physics {
 namespace {
 
+constexpr double least_awake_cells = 4;
+
 std::string who(const Scene& scene, std::size_t b) {
   return fmt::format("{}: body \"{}\"", scene.bodies[b].place.text(), scene.bodies[b].name);
 }
@@ -49,6 +51,17 @@ void add_holds(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
         remarks.push_back(who(scene, b) +
                           ": a box of \"fixed\" holds none of its masses; lengths are in millimetres");
     }
+    if (is_awake_in_parts(body) && body.solid->awake_radius < least_awake_cells * body.spacing())
+      remarks.push_back(
+          fmt::format("{}: awake_mm = {:.3g} is less than {:g} of its cells, within which the rim errs; "
+                      "write {:.3g} or more",
+                      who(scene, b), 1e3 * body.solid->awake_radius, least_awake_cells,
+                      1e3 * least_awake_cells * body.spacing()));
+    if (is_awake_in_parts(body) && n_pieces(*body.cells) > 1)
+      remarks.push_back(who(scene, b) +
+                        " is of several pieces, and what hangs on nothing flies off while it is awake; write "
+                        "largest_component = "
+                        "true");
     if (is_anchored(body) || is_joined(scene, spec.name)) continue;
     if (falls_for_ever(scene))
       remarks.push_back(

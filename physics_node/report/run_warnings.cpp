@@ -110,12 +110,14 @@ const Kind kinds[] = {
      },
      [](const World& w) {
        const EnergyLedger ledger = w.watched_ledger();
+       bool in_parts = false;
+       for (std::size_t b = 0; b < w.n_bodies(); ++b)
+         in_parts = in_parts || is_awake_in_parts(w.body(b).body());
        return fmt::format(
-           "the steps have generated {:.2g} J and contact {:.2g} J, {:.2g} % of the {:.2g} J exchanged; set "
-           "a smaller "
-           "physics.step_ms",
-           std::max(0.0, -ledger.numerical), std::max(0.0, -ledger.contact),
-           100 * generated(ledger) / ledger.exchanged, ledger.exchanged);
+           "{} have generated {:.2g} J and contact {:.2g} J, {:.2g} % of the {:.2g} J exchanged; set a {}",
+           in_parts ? "tissue that wakes and the steps" : "the steps", std::max(0.0, -ledger.numerical),
+           std::max(0.0, -ledger.contact), 100 * generated(ledger) / ledger.exchanged, ledger.exchanged,
+           in_parts ? "larger awake_mm" : "smaller physics.step_ms");
      }},
     {[](const World& w) noexcept {
        return w.collisions() != nullptr && w.collisions()->tally().overflows > 0;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "common/error/error.h"
 #include "physics_node/contact/point_tool.h"
 #include "physics_node/world.h"
 #include "tests/support/image/scratch_folder.h"
@@ -164,6 +165,53 @@ TEST_F(AwakeParts, AreTheSameBitsOnAnyNumberOfThreads) {
     if (threads == 1) first = world.state_hash();
     EXPECT_EQ(world.state_hash(), first) << threads << " threads";
   }
+}
+
+/// A stick moves masses by impulses.
+TEST_F(AwakeParts, AreWokenByAStick) {
+  const auto stick = [](Recipe recipe) {
+    recipe.world =
+        "[[tool]]\nname = \"rod\"\nshape = \"stick\"\nradius_mm = 6\nlength_mm = 60\ndevice = \"hand\"\n"
+        "[device.hand]\ndriver = \"simulated\"\nwaypoints = [[0, 0, 0, 50], [1, 0, 0, 40]]\n";
+    return recipe;
+  };
+  const auto pressed = [&](const Recipe& recipe, double& awake) {
+    World world(scene_of(recipe));
+    double force = 0;
+    for (int n = 0; n < 300; ++n) {
+      ToolState state;
+      state.tick = static_cast<std::uint64_t>(n) + 1;
+      const double down = std::min(0.002, 1e-5 * n);
+      state.p_WT = state.proxy = {-0.03, 0.0003, top + 0.006 - down};
+      state.engaged = 1;
+      const std::optional<ToolState> hand = state;
+      world.frame(std::span(&hand, 1));
+      force = world.tool(0).borne().norm();
+    }
+    awake = 1 - sleeping(world);
+    EXPECT_EQ(world.report().restored, 0);
+    EXPECT_LT(world.ledger().balance_error(), 0.05);
+    return force;
+  };
+  double part = 0, whole = 0;
+  const double all = pressed(stick(block("\"all\"")), whole);
+  EXPECT_GT(all, 0.1);
+  EXPECT_NEAR(pressed(stick(awake(25)), part), all, 0.1 * all);
+  EXPECT_GT(part, 0.02);
+  EXPECT_LT(part, 0.6);
+}
+
+TEST_F(AwakeParts, AreRefusedWhereTooLittleIsLeftToHoldThem) {
+  Recipe recipe = awake(20);
+  recipe.body = "";
+  EXPECT_THROW(World{scene_of(recipe)}, InputError);
+  recipe = awake(12);
+  recipe.body = "";
+  EXPECT_NO_THROW(World{scene_of(recipe)});
+  Recipe beside = awake(12);
+  beside.world +=
+      "[[body]]\nname = \"c\"\nshape = \"box\"\nsize_mm = [9, 9, 9]\nspacing_mm = 3\nmaterial = \"m\"\n";
+  EXPECT_THROW(World{scene_of(beside)}, InputError);
 }
 
 TEST_F(AwakeParts, BeginAnewAfterAReset) {

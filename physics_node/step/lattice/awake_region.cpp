@@ -47,8 +47,24 @@ void AwakeRegion<Real>::each_corner(const Body& body, Index r, const Visit& visi
 }
 
 template <class Real>
-bool AwakeRegion<Real>::note(const Body& body, Index node, double force) noexcept {
-  return places_.note(body.rest_position(node), force);
+void AwakeRegion<Real>::wake(const Body& body, LatticeState<Real>& state,
+                             std::span<const NodalForce> forces) noexcept {
+  bool fresh = false;
+  for (const NodalForce& nodal : forces)
+    if (nodal.force != Vec3::Zero()) fresh |= places_.note(body.rest_position(nodal.cell), nodal.force);
+  if (fresh) look(body, state, 0);
+}
+
+template <class Real>
+void AwakeRegion<Real>::wake(const Body& body, LatticeState<Real>& state, std::span<const NodalPush> pushes,
+                             double dt) noexcept {
+  bool fresh = false;
+  for (const NodalPush& one : pushes) {
+    const auto w = static_cast<double>(state.inverse_mass[static_cast<std::size_t>(one.cell)]);
+    if (w > 0 && dt > 0 && one.dv != Vec3::Zero())
+      fresh |= places_.note(body.rest_position(one.cell), one.dv / (w * dt));
+  }
+  if (fresh) look(body, state, 0);
 }
 
 /// To the nearest point of its cells.
@@ -199,9 +215,9 @@ void AwakeRegion<Real>::move_border(const Body& body, LatticeState<Real>& state)
       if (run_is_[static_cast<std::size_t>(r)] == are) changed_.push_back(r);
     return changed_;
   };
-  double lost = measure_elastic(body, grid_, state, those_that(acting_, acted));
+  double lost = measure_between(body, grid_, state, those_that(acting_, acted));
   lost += settle_nodes(body, state);
-  lost -= measure_elastic(body, grid_, state, those_that(next_, shall_act));
+  lost -= measure_between(body, grid_, state, those_that(next_, shall_act));
   slept_.numerical += lost;
   settle_rows(state);
   for (const Index r : acting_) state.acts[static_cast<std::size_t>(r)] = 0;
@@ -241,10 +257,12 @@ void AwakeRegion<Real>::look(const Body& body, LatticeState<Real>& state, double
       std::ranges::equal(places, border_of_, [slack](const PressedPlace& place, const Vec3& at) {
         return (place.at - at).squaredNorm() < slack * slack;
       });
-  slept_.numerical += rim_.elastic(state);
+  // As the ledger has it: m v(-) . v(+) / 2, so a force that goes takes dt / 2 of its power along.
+  const auto of_rim = [&] { return rim_.elastic(state) + 0.5 * state.dt_before * rim_.power(state); };
+  slept_.numerical += of_rim();
   if (!stays) move_border(body, state);
   rim_.stiffen(body, places);
-  slept_.numerical -= rim_.elastic(state);
+  slept_.numerical -= of_rim();
   measure(body, state);
 }
 

@@ -10,6 +10,7 @@
 #include "physics_node/step/lattice/pressed_places.h"
 #include "physics_node/step/lattice/soft_rim.h"
 #include "physics_node/step/lattice/state.h"
+#include "physics_node/step/node_motion.h"
 
 namespace palpate::physics {
 
@@ -23,8 +24,10 @@ class AwakeRegion {
  public:
   explicit AwakeRegion(const Body& body);
 
-  /// Where it is pressed. @param force  [N]. @return is that a new place, which look() must see at once?
-  bool note(const Body& body, Index node, double force) noexcept;
+  /// Before they act: where it is pressed or pushed, within a step of dt. What is new wakes at once.
+  void wake(const Body& body, LatticeState<Real>& state, std::span<const NodalForce> forces) noexcept;
+  void wake(const Body& body, LatticeState<Real>& state, std::span<const NodalPush> pushes,
+            double dt) noexcept;
   bool moves(Index node) const noexcept { return (marks_[static_cast<std::size_t>(node)] & node_moves) != 0; }
   /// @param seconds  since the last call; 0: a new place was noted
   void look(const Body& body, LatticeState<Real>& state, double seconds) noexcept;

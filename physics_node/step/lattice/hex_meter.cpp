@@ -134,21 +134,27 @@ double measure_elastic(const Body& body, const HexGrid& grid, const LatticeState
 }
 
 template <class Real>
-double measure_elastic(const Body& body, const HexGrid& grid, const LatticeState<Real>& state,
+double measure_between(const Body& body, const HexGrid& grid, const LatticeState<Real>& state,
                        std::span<const Index> runs) noexcept {
   double sum = 0;
   const HexCellMeter<Real> meter(body, state, state.v);
   for (const Index r : runs)
     for_each_cell_of(body, grid, state, static_cast<std::size_t>(r),
                      [&](double stiffness, const std::array<Index, 8>& corner, std::size_t) {
-                       sum += stiffness * meter.at(corner).forces.energy;
+                       const MeasuredCell now = meter.at(corner);
+                       double power = 0;
+                       for (std::size_t a = 0; a < 8; ++a)
+                         for (std::size_t c = 0; c < 3; ++c)
+                           power += (now.forces.f[c][a] - now.of_rate[c][a]) *
+                                    static_cast<double>(state.v[c][static_cast<std::size_t>(corner[a])]);
+                       sum += stiffness * (now.forces.energy + 0.5 * state.dt_before * power);
                      });
   return sum;
 }
 
-template double measure_elastic(const Body&, const HexGrid&, const LatticeState<float>&,
+template double measure_between(const Body&, const HexGrid&, const LatticeState<float>&,
                                 std::span<const Index>) noexcept;
-template double measure_elastic(const Body&, const HexGrid&, const LatticeState<double>&,
+template double measure_between(const Body&, const HexGrid&, const LatticeState<double>&,
                                 std::span<const Index>) noexcept;
 template double measure_elastic(const Body&, const HexGrid&, const LatticeState<float>&,
                                 const HexFailure<float>*) noexcept;

@@ -100,9 +100,10 @@ MeasuredHexahedra measure_hexahedra(const Body& body, const HexGrid& grid, const
 template <class Real>
 double measure_elastic(const Body& body, const HexGrid& grid, const LatticeState<Real>& state,
                        const HexFailure<Real>* failure) noexcept;
-/// Of the cells of some runs. Contract: takes no memory. [J]
+/// Of the cells of some runs: elastic energy and, as Energies::between has them, dt / 2 of the power of their springs. Contract: takes no
+/// memory. [J]
 template <class Real>
-double measure_elastic(const Body& body, const HexGrid& grid, const LatticeState<Real>& state,
+double measure_between(const Body& body, const HexGrid& grid, const LatticeState<Real>& state,
                        std::span<const Index> runs) noexcept;
 /// Of a body without fast cells, with the velocities of the state.
 template <class Real>

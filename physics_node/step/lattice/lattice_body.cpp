@@ -81,7 +81,7 @@ class LatticeBody final : public BodyModel, private PendingStep {
   }
 
   void kick(std::span<const NodalForce> forces, double dt) noexcept override {
-    if (region_) wake_where_pressed(forces);
+    if (region_) region_->wake(body_, state_, forces);
     for (const auto& nodal : forces) {
       if (stands(nodal.cell)) continue;
       sleep_.wake_cell(body_, state_, nodal.cell);
@@ -91,6 +91,7 @@ class LatticeBody final : public BodyModel, private PendingStep {
 
   void push(std::span<const NodalPush> pushes, double dt) noexcept override {
     if (implicit_) dt = 0;
+    if (region_) region_->wake(body_, state_, pushes, dt);
     for (const NodalPush& one : pushes) {
       if (stands(one.cell)) continue;
       sleep_.wake_cell(body_, state_, one.cell);
@@ -105,10 +106,11 @@ class LatticeBody final : public BodyModel, private PendingStep {
   void remember_velocities() noexcept override {
     if (v_before_[0].size() == 0) return;
     const Three<Real>& moving = moving_velocity(state_);
-    for (const RowSegment& row : body_.lattice.rows) {
+    each_row([&](std::size_t r) {
+      const RowSegment& row = body_.lattice.rows[r];
       for (std::size_t a = 0; a < 3; ++a)
         std::copy_n(moving[a].data() + row.first, row.count, v_before_[a].data() + row.first);
-    }
+    });
   }
 
   Bounces bounce_off(const Plane& plane, double e, double dt) noexcept override {
@@ -193,7 +195,7 @@ class LatticeBody final : public BodyModel, private PendingStep {
 
   void place(Index cell, const Vec3& displacement, const Vec3& velocity) noexcept override {
     const auto c = static_cast<std::size_t>(cell);
-    if (region_) wake_where_pressed(std::array{NodalForce{cell, Vec3::UnitX()}});
+    if (region_) region_->wake(body_, state_, std::array{NodalForce{cell, Vec3::UnitX()}});
     if (stands(cell)) return;
     sleep_.wake_cell(body_, state_, cell);
     for (std::size_t a = 0; a < 3; ++a) {
@@ -210,7 +212,8 @@ class LatticeBody final : public BodyModel, private PendingStep {
     const bool known = v_before_[0].size() > 0 && !implicit_;
     for (const std::uint32_t n : which) {
       v_move[n] = pending_dt_ > 0 ? implicit_->velocity(cells[n], pending_dt_) : vector_of(moving, cells[n]);
-      v[n] = known ? Vec3(0.5 * (v_move[n] + vector_of(v_before_, cells[n]))) : v_move[n];
+      const bool moved = known && !stands(cells[n]);
+      v[n] = moved ? Vec3(0.5 * (v_move[n] + vector_of(v_before_, cells[n]))) : v_move[n];
       x[n] = rest[n] + vector_of(state_.u, cells[n]);
       if (!implicit_) x[n] -= dt * v_move[n];
     }
@@ -297,13 +300,6 @@ class LatticeBody final : public BodyModel, private PendingStep {
     }
     kick(forces, step.dt);
     return outcome;
-  }
-
-  void wake_where_pressed(std::span<const NodalForce> forces) noexcept {
-    bool fresh = false;
-    for (const NodalForce& nodal : forces)
-      if (nodal.force != Vec3::Zero()) fresh |= region_->note(body_, nodal.cell, nodal.force.norm());
-    if (fresh) region_->look(body_, state_, 0);
   }
 
   /// Held, or asleep where it is awake in parts and too far from where it is pressed.

@@ -16,7 +16,8 @@ PressedPlaces::PressedPlaces(double apart) : apart_(apart) {
   noted_.reserve(most);
 }
 
-bool PressedPlaces::note(const Vec3& at, double force) noexcept {
+bool PressedPlaces::note(const Vec3& at, const Vec3& push) noexcept {
+  const double force = push.norm();
   std::size_t nearest = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t p = 0; p < places_.size(); ++p)
@@ -29,6 +30,7 @@ bool PressedPlaces::note(const Vec3& at, double force) noexcept {
   }
   noted_[nearest].force += force;
   noted_[nearest].moment += force * at;
+  noted_[nearest].push += push;
   return fresh;
 }
 
@@ -36,7 +38,7 @@ void PressedPlaces::look(double seconds) noexcept {
   for (std::size_t p = 0; p < places_.size(); ++p) {
     PressedPlace& place = places_[p];
     if (noted_[p].force > 0) {
-      place = {noted_[p].moment / noted_[p].force, noted_[p].force};
+      place = {noted_[p].moment / noted_[p].force, noted_[p].force, noted_[p].push};
     } else if (seconds > 0) {
       place.weight = 0;
       place.idle += seconds;

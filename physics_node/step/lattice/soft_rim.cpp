@@ -17,6 +17,9 @@ double stiffened(double r_over_H) noexcept {
   return std::min(most_stiffened, 1 / std::max(1 - towards_held * r_over_H, 1 / most_stiffened));
 }
 
+/// Cosine from the push. Why: what is held aside, as the floor of a body that is pushed in its side, stiffens it much less.
+constexpr double where_it_goes = 0.8;
+
 /// Corners of a cell on one of its faces: -x, +x, -y, +y, -z, +z.
 bool is_on(unsigned corner, std::size_t face) noexcept { return (corner >> face / 2 & 1) == (face & 1); }
 
@@ -93,13 +96,23 @@ void SoftRim<Real>::find(const Body& body, const HexGrid& grid, std::span<const 
 }
 
 template <class Real>
+double SoftRim<Real>::way_to_held(const PressedPlace& place) const noexcept {
+  double nearest2 = std::numeric_limits<double>::infinity();
+  const double least = where_it_goes * place.push.norm();
+  for (const Vec3& x : held_) {
+    const Vec3 way = x - place.at;
+    const double way2 = way.squaredNorm();
+    if (way2 < nearest2 && way.dot(place.push) >= least * std::sqrt(way2)) nearest2 = way2;
+  }
+  return std::sqrt(nearest2);
+}
+
+template <class Real>
 void SoftRim<Real>::stiffen(const Body& body, std::span<const PressedPlace> places) noexcept {
   std::array<double, PressedPlaces::most> H;
   double weights = 0;
   for (std::size_t q = 0; q < places.size(); ++q) {
-    double nearest2 = std::numeric_limits<double>::infinity();
-    for (const Vec3& x : held_) nearest2 = std::min(nearest2, (x - places[q].at).squaredNorm());
-    H[q] = std::sqrt(nearest2);
+    H[q] = way_to_held(places[q]);
     weights += places[q].weight;
   }
   const double least_r = body.lattice.step.minCoeff();
@@ -180,6 +193,17 @@ double SoftRim<Real>::elastic(const LatticeState<Real>& state) const noexcept {
     const std::array<Real, 3> spring = pull(node, state);
     for (std::size_t a = 0; a < 3; ++a)
       sum += 0.5 * static_cast<double>(spring[a] * state.u[a][static_cast<std::size_t>(node.cell)]);
+  }
+  return sum;
+}
+
+template <class Real>
+double SoftRim<Real>::power(const LatticeState<Real>& state) const noexcept {
+  double sum = 0;
+  for (const Node& node : nodes_) {
+    const std::array<Real, 3> spring = pull(node, state);
+    for (std::size_t a = 0; a < 3; ++a)
+      sum -= static_cast<double>(spring[a] * state.v[a][static_cast<std::size_t>(node.cell)]);
   }
   return sum;
 }

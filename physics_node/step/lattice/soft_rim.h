@@ -22,13 +22,14 @@ inline constexpr std::uint8_t cell_acts = 2;  // by its lowest corner
 ///   c_n = 2 rho c_s,   c_t = rho c_s
 ///
 /// With the solid angle A . n of the faces in place of the area it holds for a rim of any shape, and since a half space (Boussinesq) is
-/// twice a full one, for a press on a flat skin too. Held nodes at the distance H from the place stiffen what is behind:
+/// twice a full one, for a press on a flat skin too. Held nodes that lie where the push goes, at the distance H from the place, stiffen what
+/// is behind:
 ///
 ///   K = s(r / H) (A . n) [k_n n n^T + k_t (1 - n n^T)],   s(x) = min(4, 1 / (1 - 0.86 x))
 ///
 /// Of several places K is the mean of theirs, weighted by force / r. Dampers act with the velocity after the step (1 + dt c / m below the
 /// force), so that no step is too long for them.
-/// Source: ours; measured in bench/rim.
+/// Source: ours; measured in bench/parts.
 template <class Real>
 class SoftRim {
  public:
@@ -45,6 +46,7 @@ class SoftRim {
   void act(LatticeState<Real>& state, double dt, bool watch) noexcept;
 
   double elastic(const LatticeState<Real>& state) const noexcept;  // [J]
+  double power(const LatticeState<Real>& state) const noexcept;    // of its springs on nodes that move [W]
   double watched_elastic() const noexcept { return watched_; }     // before the last watched step [J]
   double lost() const noexcept { return lost_; }                   // in dampers, in all [J]
   /// Books what is there now, and what the next step takes of it at once, as Hexahedra::energies() and due() do for cells.
@@ -65,6 +67,7 @@ class SoftRim {
     Vec3 of_modulus = Vec3::Zero();    // area vector, times the modulus behind it over the body's own [m^2]
     Vec3 of_impedance = Vec3::Zero();  // times its root
   };
+  double way_to_held(const PressedPlace& place) const noexcept;  // infinite: none lies where it goes [m]
   std::array<Real, 3> pull(const Node& node, const LatticeState<Real>& state) const noexcept;
   void use_step(double dt) noexcept;
 

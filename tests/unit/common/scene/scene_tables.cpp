@@ -51,6 +51,17 @@ SceneTable surface() {
           ""};
 }
 
+/// Of an image that is awake in parts, which only finite elements are.
+SceneTable awake_parts() {
+  SceneTable all = elements();
+  const auto box = all.text().find("shape");
+  return {"deformable", "",
+          all.text().substr(0, box) +
+              "shape = \"volume\"\nfile = \"scan.h5\"\nkeep = [0, 1]\nmodel = "
+              "\"fem\"\n[body.deformable]\n",
+          "awake_mm = 20\n", ""};
+}
+
 SceneTable tool(const std::string& of, const std::string& keys) {
   return {"[[tool]]", of, least + hand + "[[tool]]\n", "device = \"d\"\n" + keys, ""};
 }
@@ -98,7 +109,7 @@ std::vector<SceneTable> all_tables() {
       {"a box of fixed", "", least + "fixed = [{ ", "min_mm = [0, 0, 0]\nmax_mm = [9, 9, 9]\n", "}]\n"},
       in_body("deformable", "[body.deformable]", "", "center_voxel = [1, 1, 1]\n"),
       in_body("deformable", "[body.deformable]", "", "center = \"gravity\"\n"),
-      in_body("deformable", "model = \"fem\"\n[body.deformable]", "", "awake_mm = 20\n"),
+      awake_parts(),
       in_body("regions", "[[body.regions]]", "", "material = \"n\"\n" + box),
       in_body("regions", "[[body.regions]]", "", "material = \"n\"\n" + round),
       in_body("regions", "[[body.regions]]", "", "material = \"n\"\nintensity = [0, 1]\n"),

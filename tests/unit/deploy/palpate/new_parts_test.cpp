@@ -154,13 +154,29 @@ TEST(PressPlan, LeavesTissueThatHoldsWhatIsAwake) {
 
 TEST(PressPlan, TakesLessOfSmallerCellsToKeepPace) {
   ImageTissue tissue = tissue_of_ball();
-  const TouchPlace place = *best_place(tissue.cells, tissue.tip_radius);
+  TouchPlace place = *best_place(tissue.cells, tissue.tip_radius);
   const double of_a_millimetre = plan_press(tissue, place, "v.h5").awake / 1e-3;
-  tissue.cells.spacing *= 0.2;
-  tissue.cells.corner *= 0.2;
-  TouchPlace smaller = place;
-  smaller.at *= 0.2;
-  EXPECT_LT(plan_press(tissue, smaller, "v.h5").awake / 0.2e-3, of_a_millimetre);
+  tissue.cells.spacing *= 3;
+  tissue.cells.corner *= 3;
+  place.at *= 3;
+  EXPECT_GT(plan_press(tissue, place, "v.h5").awake / 3e-3, of_a_millimetre);
+}
+
+TEST(PressPlan, HoldsTheTissueThatLiesOpposite) {
+  const ImageTissue tissue = tissue_of_ball();
+  const TouchPlace place = *best_place(tissue.cells, tissue.tip_radius);
+  const PressPlan plan = plan_press(tissue, place, "v.h5");
+  EXPECT_FALSE(plan.held.contains(place.at));
+  EXPECT_LT(plan.held.center().dot(place.outward), 0);
+  int held = 0;
+  for (int k = 0; k < 60; ++k)
+    for (int j = 0; j < 60; ++j)
+      for (int i = 0; i < 60; ++i)
+        held += tissue.cells.is_filled(i, j, k) &&
+                plan.held.contains(tissue.cells.corner +
+                                   tissue.cells.spacing.cwiseProduct(Vec3(i + 0.5, j + 0.5, k + 0.5)));
+  EXPECT_GT(held, 50);
+  EXPECT_LT(held, 0.2 * static_cast<double>(tissue.cells.n_filled()));
 }
 
 TEST(PressPlan, RefusesWhatNothingWouldHold) {

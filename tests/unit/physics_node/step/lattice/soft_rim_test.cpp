@@ -105,6 +105,25 @@ TEST_P(SoftRimTest, IsTheMeanOfPlacesByForce) {
   EXPECT_NEAR(one.elastic(*state_), two.elastic(*state_), 1e-12 * one.elastic(*state_));
 }
 
+/// What is held stiffens the rim where the push goes, not where it comes by.
+TEST_P(SoftRimTest, IsStifferBeforeWhatIsHeld) {
+  choose();
+  for (const Index node : body_->nodes())
+    if (body_->rest_position(node).z() < -0.07) body_->inverse_mass[static_cast<std::size_t>(node)] = 0;
+  SoftRim<double> rim(*body_);
+  rim.find(*body_, grid_, acting_, marks_, *state_);
+  for (const Index node : body_->nodes()) state_->u[2][static_cast<std::size_t>(node)] = 1e-3;
+  const auto pushed = [&](const Vec3& push) {
+    const PressedPlace place{.at = Vec3::Zero(), .weight = 1, .push = push};
+    rim.stiffen(*body_, std::span(&place, 1));
+    return rim.elastic(*state_);
+  };
+  const double down = pushed(Vec3(0, 0, -1)), aside = pushed(Vec3(1, 0, 0)), up = pushed(Vec3(0, 0, 1));
+  EXPECT_NEAR(aside, up, 1e-12 * up);
+  EXPECT_GT(down, 1.5 * up);
+  EXPECT_LT(down, 4 * up);
+}
+
 INSTANTIATE_TEST_SUITE_P(Poisson, SoftRimTest, testing::Values(0.25, 0.45, 0.49));
 
 }  // namespace
