@@ -156,8 +156,6 @@ INSTANTIATE_TEST_SUITE_P(
          "is 0; write a number above 0"},
         {"{ center_voxel = [60, 20, 35], radius_voxels = 12 }", "{ awake_mm = 20 }", "32:14",
          "but it is of springs; write model = \"fem\""},
-        {"radius_voxels = 12 }", "radius_voxels = 12, awake_mm = 20 }", "32:16",
-         "\"center_voxel\" beside \"awake_mm\", with which all cells move"},
         {"radius_voxels = 12", "radius_voxel = 12", "32:45",
          "unknown key \"radius_voxel\" in deformable of [[body]] \"head\""},
         {"keep = [", "spacing_mm = 1\nkeep = [", "30:14", "an image brings its own spacing"},
