@@ -139,6 +139,22 @@ TEST_F(AwakeParts, FollowAFingerThatSlides) {
     }
 }
 
+/// Rows that sleep and wake again do not count what they lost before once more.
+TEST_F(AwakeParts, KeepTheirBooksToAndFro) {
+  World world(scene_of(awake(12))), all(scene_of(block("\"all\"")));
+  for (int turn = 0; turn < 2; ++turn) {
+    Hand hand, hand_of_all;
+    for (int n = 0; n < 450; ++n) {
+      const Vec3 beside(0.02 * std::sin(2 * M_PI * n / 300), 0, 0);
+      hand.frame(world, 0.1, beside);
+      if (turn == 0) hand_of_all.frame(all, 0.1, beside);
+    }
+    EXPECT_NEAR(world.ledger().balance_error(), all.ledger().balance_error(), 0.003) << turn;
+    EXPECT_NEAR(world.ledger().dissipated, all.ledger().dissipated, 0.05 * all.ledger().dissipated) << turn;
+    world.reset();
+  }
+}
+
 TEST_F(AwakeParts, KeepTheirBooksThroughATap) {
   for (const char* precision : {"single", "double"}) {
     World world(scene_of(block("{ awake_mm = 12 }", precision)));
@@ -177,7 +193,8 @@ TEST_F(AwakeParts, AreWokenByAStick) {
   for (int n = 0; n < 100; ++n) {
     ToolState state;
     state.tick = static_cast<std::uint64_t>(n) + 1;
-    state.p_WT = state.proxy = {-0.015, 0.0003, top + 0.006 - 1e-5 * n};
+    state.p_WT = state.proxy = {-0.015, 0.0003, top + 0.007 - 2e-5 * n};
+    state.q_WT = {std::sqrt(0.5), 0, std::sqrt(0.5), 0};  // it lies along x
     state.engaged = 1;
     const std::optional<ToolState> hand = state;
     world.frame(std::span(&hand, 1));

@@ -178,6 +178,7 @@ double AwakeRegion<Real>::settle_nodes(const Body& body, LatticeState<Real>& sta
 /// Rows with corners of what acts are awake. What rows that fall asleep have lost is kept here.
 template <class Real>
 void AwakeRegion<Real>::settle_rows(LatticeState<Real>& state) noexcept {
+  constexpr std::uint8_t stayed = acted | shall_act;
   for (const Index row : rows_) row_is_[static_cast<std::size_t>(row)] = acted;
   for (const Index r : next_)
     for (const Index row : grid_.rows_of(static_cast<std::size_t>(r)))
@@ -196,6 +197,7 @@ void AwakeRegion<Real>::settle_rows(LatticeState<Real>& state) noexcept {
     for (const Index row : grid_.rows_of(static_cast<std::size_t>(r))) {
       const auto n = static_cast<std::size_t>(row);
       if (row_is_[n] == 0) continue;
+      if (row_is_[n] != stayed && state.woken.size() < state.woken.capacity()) state.woken.push_back(row);
       row_is_[n] = 0;
       rows_.push_back(row);
       state.row_state[n] = RowState::awake;
@@ -286,6 +288,8 @@ void AwakeRegion<Real>::clear(const Body& body, LatticeState<Real>& state) noexc
   parts_.most_moved = 0;
   std::ranges::fill(state.row_state, RowState::asleep);
   state.acts.assign(grid_.runs.size(), 0);
+  state.woken.reserve(2 * state.row_state.size());
+  state.woken.clear();
   ++state.row_changes;
 }
 

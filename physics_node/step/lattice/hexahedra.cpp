@@ -101,6 +101,9 @@ template <class Real>
 StepOutcome Hexahedra<Real>::step(const Body& body, LatticeState<Real>& state,
                                   const ExplicitStep& step) noexcept {
   follow_rows(body, state);
+  for (const Index row : state.woken)
+    passed_[static_cast<std::size_t>(row)] = state.ledger[static_cast<std::size_t>(row)].viscous;
+  state.woken.clear();
   const std::int64_t broken = failure_ ? failure_->begin_step(state, acting_, step, stiffness_) : 0;
   if (yield_) yield_->begin_step(state, acting_, step, stiffness_, high_);
   if (fast_) fast_->begin(state);
