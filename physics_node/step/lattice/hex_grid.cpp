@@ -28,7 +28,7 @@ std::vector<HexLayer> layers_of(const HexGrid& grid, const Lattice& lattice) {
 void add_rows(const Lattice& lattice, const HexRun& run, const HexGrid& grid, std::vector<Index>& rows) {
   const auto begin = static_cast<std::ptrdiff_t>(rows.size());
   for (Index a = 0; a < 8; ++a) {
-    const Index first = run.first + (a & 1) * run.right + (a >> 1 & 1) * grid.up_y + (a >> 2) * grid.up_z;
+    const Index first = grid.corner(run, run.first, a);
     auto row = std::lower_bound(lattice.rows.begin(), lattice.rows.end(), first,
                                 [](const RowSegment& r, Index i) { return r.first + r.count <= i; });
     for (; row != lattice.rows.end() && row->first < first + run.count; ++row)

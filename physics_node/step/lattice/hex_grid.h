@@ -44,6 +44,10 @@ struct HexGrid {
       rows_begin;            // in which the corners of run r lie: rows[rows_begin[r]] and on  (n_runs + 1)
   Index up_y = 0, up_z = 0;  // from the storage cell of a corner to that of the next along y, along z
 
+  /// Storage cell of a corner of a cell of a run: bit 0 of `a` is +x, bit 1 +y, bit 2 +z.
+  Index corner(const HexRun& run, Index cell, Index a) const noexcept {
+    return cell + (a & 1) * run.right + (a >> 1 & 1) * up_y + (a >> 2) * up_z;
+  }
   std::span<const Index> rows_of(std::size_t run) const noexcept {
     return std::span(rows).subspan(static_cast<std::size_t>(rows_begin[run]),
                                    static_cast<std::size_t>(rows_begin[run + 1] - rows_begin[run]));

@@ -51,9 +51,7 @@ void for_each_cell_of(const Body& body, const HexGrid& grid, const LatticeState<
       stiffness *= 1 - static_cast<double>(state.failed.damage[static_cast<std::size_t>(i)]);
     if (stiffness <= 0) continue;
     std::array<Index, 8> corner;
-    for (Index a = 0; a < 8; ++a)
-      corner[static_cast<std::size_t>(a)] =
-          i + (a & 1) * run.right + (a >> 1 & 1) * grid.up_y + (a >> 2) * grid.up_z;
+    for (Index a = 0; a < 8; ++a) corner[static_cast<std::size_t>(a)] = grid.corner(run, i, a);
     visit(stiffness, corner, r);
   }
 }
