@@ -252,6 +252,7 @@ TEST_F(AwakeParts, BeginAnewAtRestWhereTheGuardActs) {
   EXPECT_EQ(world.report().restored, 1);
   EXPECT_LT(sleeping(world), 1);
   EXPECT_GT(depth_of(world), 0.001);
+  EXPECT_LT(world.ledger().balance_error(), 0.01);
 }
 
 TEST_F(AwakeParts, WakeWhereAnotherPlaceIsPressed) {

@@ -41,8 +41,7 @@ void AwakeRegion<Real>::each_corner(const Body& body, Index r, const Visit& visi
   const HexRun& run = grid_.runs[static_cast<std::size_t>(r)];
   for (Index i = run.first; i < run.first + run.count; ++i) {
     if (body.solid->stiffness[static_cast<std::size_t>(i)] <= 0) continue;
-    for (Index a = 0; a < 8; ++a)
-      visit(i + (a & 1) * run.right + (a >> 1 & 1) * grid_.up_y + (a >> 2) * grid_.up_z);
+    for (Index a = 0; a < 8; ++a) visit(grid_.corner(run, i, a));
   }
 }
 
@@ -175,7 +174,16 @@ double AwakeRegion<Real>::settle_nodes(const Body& body, LatticeState<Real>& sta
   return gone;
 }
 
-/// Rows with corners of what acts are awake. What rows that fall asleep have lost is kept here.
+/// What it has lost is kept here.
+template <class Real>
+void AwakeRegion<Real>::put_to_sleep(LatticeState<Real>& state, std::size_t row) noexcept {
+  slept_.viscous += state.ledger[row].viscous;
+  slept_.numerical += state.ledger[row].numerical;
+  state.ledger[row] = {};
+  state.row_state[row] = RowState::asleep;
+}
+
+/// Rows with corners of what acts are awake.
 template <class Real>
 void AwakeRegion<Real>::settle_rows(LatticeState<Real>& state) noexcept {
   constexpr std::uint8_t stayed = acted | shall_act;
@@ -186,10 +194,7 @@ void AwakeRegion<Real>::settle_rows(LatticeState<Real>& state) noexcept {
   for (const Index row : rows_) {
     const auto n = static_cast<std::size_t>(row);
     if (row_is_[n] != acted) continue;
-    slept_.viscous += state.ledger[n].viscous;
-    slept_.numerical += state.ledger[n].numerical;
-    state.ledger[n] = {};
-    state.row_state[n] = RowState::asleep;
+    put_to_sleep(state, n);
     row_is_[n] = 0;
   }
   rows_.clear();
@@ -280,7 +285,9 @@ void AwakeRegion<Real>::clear(const Body& body, LatticeState<Real>& state) noexc
     const RowSegment& segment = body.lattice.rows[static_cast<std::size_t>(row)];
     for (auto* three : {&state.u, &state.v, &state.f})
       for (auto& axis : *three) std::fill_n(axis.data() + segment.first, row_segment, Real(0));
+    state.ledger[static_cast<std::size_t>(row)] = {};
   }
+  slept_ = {};
   acting_.clear();
   rows_.clear();
   n_moving_ = 0;
@@ -291,6 +298,12 @@ void AwakeRegion<Real>::clear(const Body& body, LatticeState<Real>& state) noexc
   state.woken.reserve(2 * state.row_state.size());
   state.woken.clear();
   ++state.row_changes;
+}
+
+template <class Real>
+void AwakeRegion<Real>::go_back(const Body& body, LatticeState<Real>& state) noexcept {
+  clear(body, state);
+  slept_ = saved_.good();
 }
 
 template <class Real>

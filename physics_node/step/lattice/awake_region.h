@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "physics_node/step/awake_parts.h"
+#include "physics_node/step/good_state.h"
 #include "physics_node/step/lattice/hex_grid.h"
 #include "physics_node/step/lattice/pressed_places.h"
 #include "physics_node/step/lattice/soft_rim.h"
@@ -31,8 +32,12 @@ class AwakeRegion {
   bool moves(Index node) const noexcept { return (marks_[static_cast<std::size_t>(node)] & node_moves) != 0; }
   /// @param seconds  since the last call; 0: a new place was noted
   void look(const Body& body, LatticeState<Real>& state, double seconds) noexcept;
-  /// All falls asleep where it rests, after a reset or where the guard acts; nothing is booked.
+  /// All falls asleep where it rests, as after a reset; what was lost is forgotten.
   void clear(const Body& body, LatticeState<Real>& state) noexcept;
+
+  /// As Stepper::save() and restore(): to rest, with the losses of the last good state.
+  void save(bool good, const Losses& all) noexcept { saved_.next(good) = all; }
+  void go_back(const Body& body, LatticeState<Real>& state) noexcept;
 
   SoftRim<Real>& rim() noexcept { return rim_; }
   const SoftRim<Real>& rim() const noexcept { return rim_; }
@@ -48,6 +53,7 @@ class AwakeRegion {
   double settle_nodes(const Body& body, LatticeState<Real>& state) noexcept;
   void begin_near_rim(const Body& body, LatticeState<Real>& state, Index node) noexcept;
   void settle_rows(LatticeState<Real>& state) noexcept;
+  void put_to_sleep(LatticeState<Real>& state, std::size_t row) noexcept;
   void move_border(const Body& body, LatticeState<Real>& state) noexcept;
   void measure(const Body& body, const LatticeState<Real>& state) noexcept;
   template <class Visit>
@@ -65,6 +71,7 @@ class AwakeRegion {
   std::vector<Vec3> began_;                     // where nodes that wake begin [m]
   std::vector<Index> waking_;
   Losses slept_;
+  GoodState<Losses> saved_;
   double since_ = 0;  // the last look at places [s]
   Index n_moving_ = 0;
   AwakeParts parts_;

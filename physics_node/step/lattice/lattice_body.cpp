@@ -162,13 +162,14 @@ class LatticeBody final : public BodyModel, private PendingStep {
 
   /// Where it is awake in parts nothing is saved: it goes back to rest.
   void save(bool good) noexcept override {
-    if (!region_) saved_.next(good).take(body_, state_);
+    if (region_) return region_->save(good, losses());
+    saved_.next(good).take(body_, state_);
   }
   void restore() noexcept override {
     if (region_) {
-      region_->clear(body_, state_);
+      region_->go_back(body_, state_);
       state_.forget_last_step();
-      return;
+      return save(false);
     }
     sleep_.wake_all(body_, state_);
     saved_.good().bring_back(body_, state_);

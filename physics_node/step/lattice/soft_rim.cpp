@@ -79,9 +79,8 @@ void SoftRim<Real>::find(const Body& body, const HexGrid& grid, std::span<const 
         const double quarter = ((face & 1) != 0 ? 0.25 : -0.25) * area[face / 2];
         for (unsigned a = 0; a < 8; ++a)
           if (is_on(a, face))
-            add(i + static_cast<Index>(a & 1) * run.right + static_cast<Index>(a >> 1 & 1) * grid.up_y +
-                    static_cast<Index>(a >> 2) * grid.up_z,
-                face / 2, quarter, static_cast<double>(stiffness[other]));
+            add(grid.corner(run, i, static_cast<Index>(a)), face / 2, quarter,
+                static_cast<double>(stiffness[other]));
       }
     }
   }
@@ -240,7 +239,7 @@ void SoftRim<Real>::clear() noexcept {
   }
   nodes_.clear();
   faces_.clear();
-  watched_ = 0;
+  watched_ = lost_ = 0;
 }
 
 template class SoftRim<float>;
