@@ -72,6 +72,7 @@ void Picture::set_threshold(double intensity) noexcept { parts_->stage.threshold
 void Picture::set_section(const std::optional<SectionSpec>& section) noexcept {
   parts_->stage.section().obey(section);
 }
+void Picture::set_inside(const std::optional<double>& from) noexcept { parts_->stage.inside().obey(from); }
 void Picture::set_colour(ColourKind kind) noexcept { parts_->stage.options().colour = kind; }
 ViewModel& Picture::model() noexcept { return parts_->model; }
 const ViewModel& Picture::model() const noexcept { return parts_->model; }

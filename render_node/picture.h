@@ -48,6 +48,8 @@ class Picture {
   void set_threshold(double intensity) noexcept;
   /// The section, likewise.
   void set_section(const std::optional<SectionSpec>& section) noexcept;
+  /// From which intensity on what lies inside is shown, likewise.
+  void set_inside(const std::optional<double>& from) noexcept;
   /// What colours say, likewise.
   void set_colour(ColourKind kind) noexcept;
 

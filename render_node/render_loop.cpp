@@ -142,6 +142,7 @@ int run_headless(const NodeOptions& options, const Scene& scene) {
     stop = news.stop;
     if (news.threshold) picture.set_threshold(*news.threshold);
     if (news.section) picture.set_section(*news.section);
+    if (news.inside) picture.set_inside(*news.inside);
     if (news.colour) picture.set_colour(*news.colour);
     // 2. draw when simulated time has come to the next frame
     const double t = picture.model().t();
@@ -196,6 +197,10 @@ void pass_on(const PanelWishes& wishes, bool paused, double frame_Hz, Window& wi
     const auto& section = window.section().value();
     wire.command(CommandKind::section, section ? section->at : 0, std::string(section_name(section)));
   }
+  if (window.inside().due(now_s, wishes.inside_released)) {
+    const auto from = window.inside().value();
+    wire.command(CommandKind::inside, from.value_or(0), std::string(inside_name(from)));
+  }
 }
 
 /// The scene with the driver that the command line wants: another than the scene's follows no path of its.
@@ -223,6 +228,7 @@ int run_window(const NodeOptions& options, const Scene& given) {
     stop = news.stop;
     if (news.threshold) window.threshold().obey(*news.threshold);
     if (news.section) window.section().obey(*news.section);
+    if (news.inside) window.inside().obey(*news.inside);
     if (news.colour) window.colour() = commanded = *news.colour;
     // 2. draw, and pass on what the person wants
     PanelFacts facts;

@@ -83,6 +83,9 @@ Wire::News Wire::take_into(ViewModel& model) {
       case CommandKind::section:
         news.section = section_of(command.name.data(), command.value);
         break;
+      case CommandKind::inside:
+        news.inside = inside_of(command.name.data(), command.value);
+        break;
       default:
         break;  // not about the eye
     }

@@ -10,6 +10,7 @@
 #include "common/message/messages.h"
 #include "common/process/node_main.h"
 #include "common/scene/colour_kind.h"
+#include "common/scene/inside_spec.h"
 #include "common/scene/section_spec.h"
 #include "common/wire/participant.h"
 #include "common/wire/reader.h"
@@ -30,6 +31,7 @@ class Wire {
     bool paused = false;                                // commanded last
     std::optional<double> threshold;                    // commanded by somebody
     std::optional<std::optional<SectionSpec>> section;  // likewise
+    std::optional<std::optional<double>> inside;        // likewise: intensity from which it is shown
     std::optional<ColourKind> colour;                   // likewise
   };
   /// Takes all that has come into the model.

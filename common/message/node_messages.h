@@ -19,19 +19,20 @@ enum class CommandKind : std::uint32_t {
   device,
   stop,
   section,
-  colour
+  colour,
+  inside
 };
-inline constexpr std::uint32_t n_command_kinds = 10;
+inline constexpr std::uint32_t n_command_kinds = 11;
 
 /// render, palpate -> physics, haptic.
 struct Command {
   std::uint64_t id = 0;  // grows per writer; a repeated id is ignored
   CommandKind kind = CommandKind::pause;
   // pause: frames to go on by first, 0 or more; threshold: intensity; record: 0 or 1; device: 1 ends a fault;
-  // section: where it cuts the axis [m]
+  // section: where it cuts the axis [m]; inside: intensity
   double value = 0;
-  // material, tool whose device it is about, axis of the section: section_name(), or what colours are to say:
-  // name_of(ColourKind)
+  // material, tool whose device it is about, axis of the section: section_name(), what colours are to say:
+  // name_of(ColourKind), or whether what lies inside is shown: inside_name()
   std::array<char, 64> name{};
 
   template <class Visit>

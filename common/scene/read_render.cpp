@@ -49,6 +49,8 @@ void read_render(TableReader& root, ReadContext& context) {
   read_camera(reader, context);
   read_section(reader, context);
   render.threshold = reader.read_number("threshold");
+  render.inside = reader.read_number("inside");
+  set_if(render.opacity, reader.read_number("opacity", {.lo = 0.05, .hi = 1}));
   if (const auto shown = reader.read_words(
           "show", {"tool", "force", "panels", "wire", "fragments", "displacement", "strain", "stress"})) {
     render.show_tool = (*shown)[0];

@@ -21,6 +21,8 @@ struct RenderSpec {
   CameraSpec camera;
   std::optional<double> threshold;     // intensity shown from; absent: each volume's keep_min
   std::optional<SectionSpec> section;  // cut open; absent: whole
+  std::optional<double> inside;        // intensity from which what lies inside is shown; absent: it is not
+  double opacity = 1;                  // of tissue, (0, 1]
   bool show_tool = true, show_force = true, show_panels = true, show_wire = false;
   bool show_fragments = false;  // every fragment but the largest in a colour of its own
   ColourKind colour = ColourKind::own;

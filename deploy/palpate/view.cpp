@@ -32,11 +32,13 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double most_cells = 4e6;    // Why: more take seconds to draw in software, and GB
+constexpr double veil = 0.35;         // opacity of what lies before the inside
 constexpr double bytes_of_work = 40;  // of a cell, at most: read, resampled, kept, drawn
 
 struct ViewOptions {
   std::string volume, out;
   std::vector<double> keep;
+  std::optional<double> inside;
   bool headless = false;
 };
 
@@ -81,35 +83,41 @@ viscosity_Pa_s    = 1
 
 [render]
 size_px = [1280, 720]
-)",
+{})",
                      in_comment(fs::path(options.volume).filename().string()),
                      in_quotes(fs::path(options.volume).stem().string()),
                      in_quotes(named_from(options.volume, scene)), partition[0], partition[1], partition[2],
-                     keep.lo, keep.hi);
+                     keep.lo, keep.hi,
+                     options.inside ? fmt::format("inside  = {:.9g}\nopacity = {:g}\n", *options.inside, veil)
+                                    : std::string());
 }
 
 struct Look {
   const char* name;
   double yaw, pitch;       // [rad]
   std::optional<int> cut;  // across this axis, through the middle
+  bool through = false;    // tissue, at what lies inside
 };
 constexpr double quarter = std::numbers::pi / 2;
-constexpr Look looks[] = {{"front", 0, 0, {}},
-                          {"side", quarter, 0, {}},
-                          {"coronal", 0, 0, 1},
-                          {"sagittal", quarter, 0, 0},
-                          {"axial", 0, quarter, 2}};
+constexpr Look looks[] = {{"front", 0, 0, {}},      {"side", quarter, 0, {}},
+                          {"coronal", 0, 0, 1},     {"sagittal", quarter, 0, 0},
+                          {"axial", 0, quarter, 2}, {"inside", 0.5, 0.2, {}, true}};
 
-void draw_pictures(const Scene& scene, const fs::path& out) {
+/// @return their names
+std::string draw_pictures(const Scene& scene, const fs::path& out) {
+  std::string names;
   const physics::World world(scene);
   physics::Appearance appearance(world, std::nullopt);
   Eigen::AlignedBox3d box;
   for (const Look& look : looks) {
+    if (look.through && !scene.render->inside) continue;
     Scene seen = scene;
+    if (!look.through) seen.render->inside.reset(), seen.render->opacity = 1;
     seen.render->camera.yaw = look.yaw;
     seen.render->camera.pitch = look.pitch;
     if (look.cut) seen.render->section = SectionSpec{*look.cut, box.center()[*look.cut]};
     appearance.set_section(seen.render->section);
+    appearance.set_inside(seen.render->inside);
     appearance.publish_anew(0);  // each picture begins with nothing
     render::Picture picture(seen);
     appearance.write_surfaces(
@@ -122,7 +130,9 @@ void draw_pictures(const Scene& scene, const fs::path& out) {
     appearance.write_blocks([&](const VertexBlock& block) { picture.take(block); });
     picture.draw(0);
     picture.save_png((out / (std::string(look.name) + ".png")).string());
+    names += (names.empty() ? "" : ", ") + std::string(look.name);
   }
+  return names;
 }
 
 int view(const ViewOptions& options) {
@@ -154,8 +164,8 @@ int view(const ViewOptions& options) {
   if (!options.headless && render::display_present())
     become_program(bin_folder() / "palpate",
                    {"run", scene_path, "--nodes", "physics,render", "--out", (out / "session").string()});
-  draw_pictures(scene, out);
-  fmt::print("pictures     {}: front, side, coronal, sagittal, axial .png\n", out.string());
+  const std::string names = draw_pictures(scene, out);
+  fmt::print("pictures     {}: {} .png\n", out.string(), names);
   return exit_ok;
 }
 
@@ -171,6 +181,10 @@ void add_view(CLI::App& app, int& exit_code) {
                    "lowest,highest intensity that is tissue (default: by the histogram)")
       ->delimiter(',')
       ->expected(2)
+      ->check(number_in({.lo = -1e9, .hi = 1e9}));
+  command
+      ->add_option("--inside", options->inside,
+                   "intensity from which what lies inside shows through the rest (300 HU: bone)")
       ->check(number_in({.lo = -1e9, .hi = 1e9}));
   command->add_flag("--headless", options->headless, "pictures to files instead of a window");
   command->add_option("--out", options->out, "folder of the pictures and the scene (default: out/view_NAME)");

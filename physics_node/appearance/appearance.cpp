@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "common/scene/inside_spec.h"
 #include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
 #include "physics_node/appearance/surface_chunks.h"
@@ -14,6 +15,7 @@ Appearance::Appearance(const World& world, std::optional<double> threshold, Rema
       views_(world.n_bodies()),
       threshold_(threshold),
       section_(world.scene().render->section),
+      inside_(world.scene().render->inside),
       how_(how) {
   restored_ = world.report().restored;
   for (std::size_t b = 0; b < views_.size(); ++b) {
@@ -30,6 +32,12 @@ Appearance::Appearance(const World& world, std::optional<double> threshold, Rema
     view.body = b;
     view.number = number++;
     view.grey = grey_scale_of(*world.body(b).body().cells);
+  }
+  for (const std::size_t b : bodies_with_inside(world.scene())) {
+    View& view = views_.emplace_back();
+    view.body = b;
+    view.number = number++;
+    view.inside = true;
   }
   for (std::size_t v = 0; v < views_.size(); ++v) {
     if (is_out(views_[v])) continue;
@@ -66,6 +74,7 @@ Surface Appearance::surface_of(std::size_t v) const {
     if (!section_) return {};
     return section_surface(constant, *views_[view.body].live, *section_, *view.grey, rgba);
   }
+  if (view.inside) return make_surface(constant, *views_[view.body].live, inside_, rgba);
   Surface surface = make_surface(constant, *view.live, threshold_, rgba);
   add_loose_parts(constant, *view.live, threshold_, rgba, surface);
   if (view.colours != nullptr) view.colours->paint(surface);
@@ -77,8 +86,8 @@ Appearance::Made Appearance::make(const Job& job) const {
   const View& view = views_[job.view];
   const NumberedSurface& shown = view.shown;
   Surface surface = surface_of(job.view);
-  // Of a section that was somewhere else nothing is as before.
-  if (view.grey) return {job.view, NumberedSurface(std::move(surface)), {}};
+  // Of a section that was somewhere else, or from another intensity on, nothing is as before.
+  if (view.grey || view.inside) return {job.view, NumberedSurface(std::move(surface)), {}};
   Made made{job.view, std::nullopt, shown.delta_to(surface)};
   const std::size_t pages = ChangePages::most_pages(job.listed.vertices + made.delta.vertices.size(),
                                                     job.listed.facets + made.delta.facets.size());
@@ -132,6 +141,11 @@ void Appearance::set_section(const std::optional<SectionSpec>& section) {
   poll();
 }
 
+void Appearance::set_inside(const std::optional<double>& from) {
+  wanted_inside_ = from;
+  poll();
+}
+
 /// Those whose surface is not that of their live elements, the threshold and the section any more; takes note of all.
 std::vector<Appearance::Job> Appearance::outdated() {
   std::vector<Job> jobs;
@@ -140,6 +154,9 @@ std::vector<Appearance::Job> Appearance::outdated() {
   const bool by_section = wanted_section_ && *wanted_section_ != section_;
   if (wanted_section_) section_ = *wanted_section_;
   wanted_section_.reset();
+  const bool by_inside = wanted_inside_ && *wanted_inside_ != inside_;
+  if (wanted_inside_) inside_ = *wanted_inside_;
+  wanted_inside_.reset();
   std::vector<bool> broke(world_.n_bodies());
   for (std::size_t b = 0; b < broke.size(); ++b) {
     const BodyModel& moving = world_.body(b);
@@ -156,7 +173,8 @@ std::vector<Appearance::Job> Appearance::outdated() {
     if (by_threshold || by_breaks) jobs.push_back({b, views_[b].listed});
   }
   for (std::size_t v = broke.size(); v < views_.size(); ++v)
-    if (section_ && (by_section || broke[views_[v].body])) jobs.push_back({v, {}});
+    if (!is_out(views_[v]) && (broke[views_[v].body] || (views_[v].inside ? by_inside : by_section)))
+      jobs.push_back({v, {}});
   if (wanted_) threshold_ = wanted_;
   wanted_.reset();
   return jobs;
@@ -253,7 +271,7 @@ void Appearance::resend() {
 std::size_t Appearance::facets_visible() const {
   std::size_t n = 0;
   for (const View& view : views_) {
-    if (view.grey) continue;
+    if (view.grey || view.inside) continue;
     n += static_cast<std::size_t>(std::count_if(view.shown.facets().begin(), view.shown.facets().end(),
                                                 [](const auto& facet) { return !is_loose(facet); }));
   }
@@ -263,7 +281,7 @@ std::size_t Appearance::facets_visible() const {
 
 std::size_t Appearance::facets_total() const {
   std::size_t n = facets_visible();
-  for (const View& view : views_) n += view.shown.hidden();
+  for (const View& view : views_) n += view.inside ? 0 : view.shown.hidden();
   return n;
 }
 

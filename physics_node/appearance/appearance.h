@@ -42,6 +42,9 @@ class Appearance {
   /// Shows another section of bodies of cells, or none; poll() takes it. It begins with the scene's.
   void set_section(const std::optional<SectionSpec>& section);
 
+  /// Shows what lies inside of images from another intensity on, or not; poll() takes it. It begins with the scene's.
+  void set_inside(const std::optional<double>& from);
+
   /// What colours are to say: blocks then hold the field, of bodies that have it. It begins with the scene's.
   void set_colour(ColourKind kind);
 
@@ -78,8 +81,9 @@ class Appearance {
     std::size_t body = 0;
     std::uint32_t number = 0;       // to the eye
     std::optional<GreyScale> grey;  // of a section
+    bool inside = false;            // of what lies inside
     NumberedSurface shown;
-    std::unique_ptr<LiveElements> live;  // what it was, or is being, made from; of a section that of its body
+    std::unique_ptr<LiveElements> live;        // what it was, or is being, made from; else that of its body
     std::unique_ptr<FragmentColours> colours;  // the same; null where fragments have none
     std::int64_t breaks = 0;                   // of the body then
     std::uint32_t revision = 0;
@@ -102,7 +106,8 @@ class Appearance {
     Listed listed;
   };
   Surface surface_of(std::size_t view) const;
-  bool is_out(const View& view) const { return view.grey && !section_; }  // a section where there is none
+  /// A section, or what lies inside, that is not to be shown.
+  bool is_out(const View& view) const { return (view.grey && !section_) || (view.inside && !inside_); }
   Made make(const Job& job) const;
   std::vector<Job> outdated();
   void copy(std::size_t body);
@@ -112,12 +117,14 @@ class Appearance {
   int write_change(View& view, const std::function<void(const SurfaceChange&)>& sink);
 
   const World& world_;
-  std::vector<View> views_;  // of bodies, then of sections
+  std::vector<View> views_;  // of bodies, then of sections, then of what lies inside
   std::vector<StrandPicture> strands_;
   std::optional<double> threshold_;     // of the surfaces shown or being made
   std::optional<double> wanted_;        // threshold asked for since
   std::optional<SectionSpec> section_;  // likewise, of those shown or being made
   std::optional<std::optional<SectionSpec>> wanted_section_;
+  std::optional<double> inside_;  // likewise
+  std::optional<std::optional<double>> wanted_inside_;
   Remake how_;
   std::int64_t restored_ = 0;  // how often the guard had gone back when surfaces were last looked at
   std::unique_ptr<BodySurface> chunk_ = std::make_unique<BodySurface>();

@@ -12,6 +12,7 @@
 #include "common/report/json_file.h"
 #include "common/report/log.h"
 #include "common/scene/device_spec.h"
+#include "common/scene/inside_spec.h"
 #include "common/scene/physics_spec.h"
 #include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
@@ -100,6 +101,7 @@ void PhysicsLoop::take_commands() {
   std::optional<double> threshold;
   std::optional<std::optional<SectionSpec>> section;
   std::optional<ColourKind> colour;
+  std::optional<std::optional<double>> inside;
   for (int n = 0; n < most_commands && wire_.commands.take(command); ++n) {
     if (recorder_) recorder_->command(*world_, command);
     switch (command.kind) {
@@ -123,6 +125,9 @@ void PhysicsLoop::take_commands() {
       case CommandKind::colour:
         if (const auto kind = colour_kind_of(command.name.data())) colour = kind;
         break;
+      case CommandKind::inside:
+        inside = inside_of(command.name.data(), command.value);
+        break;
       case CommandKind::stop:
         stop_ = true;
         break;
@@ -141,6 +146,7 @@ void PhysicsLoop::take_commands() {
   if (reset) world_->reset();
   if (threshold) appearance_->set_threshold(*threshold);
   if (section) appearance_->set_section(*section);
+  if (inside) appearance_->set_inside(*inside);
   if (colour) appearance_->set_colour(*colour);
 }
 

@@ -38,7 +38,8 @@ vec4 lit(vec3 n, vec3 v, vec3 albedo, vec3 p) {
   h8 *= h8;
   float away = 1.0 - clamp(dot(n, v), 0.0, 1.0);
   vec3 seen = (albedo * light + vec3(gloss * h8 * h8 * h8)) * (1.0 - 0.45 * away * away * away);
-  return vec4(mix(sqrt(seen), vec3(0.95, 0.96, 0.97), paleness), opacity);
+  float veil = mix(opacity, 1.0, away * away * away);  // what is seen along itself hides more
+  return vec4(mix(sqrt(seen), vec3(0.95, 0.96, 0.97), paleness), opacity < 1.0 ? veil : 1.0);
 }
 )";
 

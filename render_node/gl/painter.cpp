@@ -8,6 +8,7 @@
 #include "common/scene/connection_spec.h"
 #include "common/scene/device_spec.h"
 #include "common/scene/force_model.h"
+#include "common/scene/inside_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/surroundings_spec.h"
 #include "common/scene/tool_spec.h"
@@ -41,7 +42,9 @@ Eigen::Vector3d stick_axis(const DeviceSpec& device) {
 Painter::Painter(const Scene& scene, const ViewModel& model)
     : scene_(scene),
       first_section_(scene.bodies.size() + scene.connections.size()),
+      first_inside_(first_section_ + bodies_with_section(scene).size()),
       with_section_(bodies_with_section(scene)),
+      with_inside_(bodies_with_inside(scene)),
       bodies_(model.bodies().size()),
       tools_(scene.tools.size()) {
   for (std::size_t i = 0; i < tools_.size(); ++i) {
@@ -107,11 +110,13 @@ void Painter::draw(ViewModel& model, const Camera& camera, const PaintOptions& o
   backdrop_.draw_gradient();
   find_touches(model, options);
   follow_colours(model, options);
-  draw_bodies(model, camera, options, height);
+  bytes_uploaded_ = 0;
+  draw_bodies(model, camera, options, height, Layer::solid);
   at_pixels_.begin(camera);
   for (std::size_t i = 0; i < tools_.size(); ++i)
     if (!is_hidden(options.hidden.tools, i)) draw_tool(tools_[i], model.tools()[i], model, options);
   draw_planes(model, camera);
+  if (options.opacity < 1) draw_bodies(model, camera, options, height, Layer::veil);
 }
 
 void Painter::draw_planes(const ViewModel& model, const Camera& camera) {
@@ -129,13 +134,23 @@ bool Painter::is_tissue(std::size_t picture) const {
   const std::size_t n = scene_.bodies.size();
   const std::size_t body = picture < n                ? picture
                            : picture < first_section_ ? n
-                                                      : with_section_[picture - first_section_];
+                           : picture < first_inside_  ? with_section_[picture - first_section_]
+                                                      : with_inside_[picture - first_inside_];
   return body < n && std::ranges::none_of(tools_, [body](const Tool& tool) { return tool.body == body; });
 }
 
-/// The section of a body is shown with it.
+/// Not opaque, where the person wants tissue so.
+bool Painter::is_veil(std::size_t picture, const PaintOptions& options) const {
+  return options.opacity < 1 && !options.wire && picture < first_section_ && is_tissue(picture);
+}
+
+/// The section of a body is shown with it, and its inside where anything may be seen of it.
 bool Painter::is_shown(std::size_t picture, const PaintOptions& options) const {
   if (picture < first_section_) return !is_hidden(options.hidden.bodies, picture);
+  if (picture >= first_inside_)
+    return options.inside && is_tissue(picture) &&
+           (options.opacity < 1 || options.section || options.wire ||
+            is_hidden(options.hidden.bodies, with_inside_[picture - first_inside_]));
   return options.section && is_tissue(picture) &&
          !is_hidden(options.hidden.bodies, with_section_[picture - first_section_]);
 }
@@ -149,46 +164,64 @@ void Painter::follow_colours(const ViewModel& model, const PaintOptions& options
                                                                           : model.bodies()[i].farthest()));
 }
 
-void Painter::draw_bodies(ViewModel& model, const Camera& camera, const PaintOptions& options, int height) {
-  bytes_uploaded_ = 0;
-  const float shade = options.fragments ? 0.5F : 1.0F;
+/// Solid ones first. Of those that are a veil only the nearest surface is seen: its depth is drawn before it is.
+void Painter::draw_bodies(ViewModel& model, const Camera& camera, const PaintOptions& options, int height,
+                          Layer layer) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     BodyPicture& body = model.bodies()[i];
-    TissueDrawing& drawing = bodies_[i];
     if (body.empty() || !is_shown(i, options)) continue;
-    bytes_uploaded_ += drawing.upload(body);
-    const bool opened = options.section && is_tissue(i) && i < first_section_;
-    const LitProgram& lit = drawing.closed() && drawing.dense() && !opened ? at_vertices_ : at_pixels_;
-    lit.begin(camera);
-    if (opened) {
-      lit.cut_open(section_cut(*options.section, camera.eye()));
-      glEnable(GL_CLIP_DISTANCE0);
+    if (is_veil(i, options) != (layer == Layer::veil)) continue;
+    bytes_uploaded_ += bodies_[i].upload(body);
+    if (layer == Layer::solid) {
+      draw_body(i, body, camera, options, height);
+      continue;
     }
-    lit.shade(options.wire ? 0.0F : shade);
-    lit.pale(options.wire ? 0.75F : 0.0F);
-    if (i < first_section_) lit.touched(touches_);  // else it would darken what the section is to show
-    const auto most = static_cast<float>(colour_scale_.most());
-    if (options.colour == ColourKind::displacement && is_tissue(i)) lit.colour_by_way(most);
-    if (is_of_physics(options.colour) && is_tissue(i)) lit.colour_by_field(most);
-    glEnable(GL_POLYGON_OFFSET_FILL);  // lines lie before the surface
-    glPolygonOffset(1, 1);
-    drawing.draw(lit, opened);
-    glDisable(GL_POLYGON_OFFSET_FILL);
-    if (options.wire || drawing.has_lines()) {
-      as_lines_.begin(camera);
-      as_lines_.shade(shade);
-      if (opened) as_lines_.cut_open(section_cut(*options.section, camera.eye()));
-      drawing.draw_lines(as_lines_, body, options.wire);
-    }
-    if (drawing.has_beads()) {
-      as_beads_.begin(camera);
-      as_beads_.shade(shade);
-      if (opened) as_beads_.cut_open(section_cut(*options.section, camera.eye()));
-      as_beads_.size_beads(camera, bead_radius * body.edge_length(), height);
-      drawing.draw_beads(as_beads_);
-    }
-    glDisable(GL_CLIP_DISTANCE0);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    draw_body(i, body, camera, options, height);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    draw_body(i, body, camera, options, height);
+    glDisable(GL_BLEND);
   }
+}
+
+void Painter::draw_body(std::size_t i, const BodyPicture& body, const Camera& camera,
+                        const PaintOptions& options, int height) {
+  const float shade = options.fragments ? 0.5F : 1.0F;
+  TissueDrawing& drawing = bodies_[i];
+  const bool is_inside = i >= first_inside_;
+  const bool opened = options.section && is_tissue(i) && (i < first_section_ || is_inside);
+  const LitProgram& lit = drawing.closed() && drawing.dense() && !opened ? at_vertices_ : at_pixels_;
+  lit.begin(camera);
+  if (opened) {
+    lit.cut_open(section_cut(*options.section, camera.eye()));
+    glEnable(GL_CLIP_DISTANCE0);
+  }
+  lit.shade(options.wire ? 0.0F : shade);
+  lit.pale(options.wire ? 0.75F : 0.0F);
+  if (i < first_section_) lit.touched(touches_);  // else it would darken what the section is to show
+  const auto most = static_cast<float>(colour_scale_.most());
+  if (options.colour == ColourKind::displacement && is_tissue(i)) lit.colour_by_way(most);
+  if (is_of_physics(options.colour) && is_tissue(i)) lit.colour_by_field(most);
+  glEnable(GL_POLYGON_OFFSET_FILL);  // lines lie before the surface
+  glPolygonOffset(1, 1);
+  drawing.draw(lit, opened, is_veil(i, options) ? options.opacity : 1.0F);
+  glDisable(GL_POLYGON_OFFSET_FILL);
+  if (options.wire || drawing.has_lines()) {
+    as_lines_.begin(camera);
+    as_lines_.shade(shade);
+    if (opened) as_lines_.cut_open(section_cut(*options.section, camera.eye()));
+    drawing.draw_lines(as_lines_, body, options.wire);
+  }
+  if (drawing.has_beads()) {
+    as_beads_.begin(camera);
+    as_beads_.shade(shade);
+    if (opened) as_beads_.cut_open(section_cut(*options.section, camera.eye()));
+    as_beads_.size_beads(camera, bead_radius * body.edge_length(), height);
+    drawing.draw_beads(as_beads_);
+  }
+  glDisable(GL_CLIP_DISTANCE0);
 }
 
 /// Tools that are shown, where they are or where tissue pushes them. A tool that is a body shades only where it is

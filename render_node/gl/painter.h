@@ -1,5 +1,6 @@
 #pragma once
-// Draws the whole picture but for the panels, in this order: gradient, bodies, tools, arrows, floor, walls.
+// Draws the whole picture but for the panels, in this order: gradient, bodies, tools, arrows, floor, walls, and then tissue
+// that is not opaque.
 // Needs a current OpenGL 3.3 context from construction to destruction.
 
 #include <cstddef>
@@ -25,6 +26,8 @@ struct PaintOptions {
   bool tool = true, force = true, wire = false, fragments = false;
   ColourKind colour = ColourKind::own;      // what colours of tissue say
   std::optional<SectionSpec> section = {};  // across which bodies are shown cut open
+  bool inside = false;                      // of images is shown
+  float opacity = 1;                        // of tissue
   Hidden hidden = {};
 };
 
@@ -60,7 +63,12 @@ class Painter {
   void follow_colours(const ViewModel& model, const PaintOptions& options);
   bool is_tissue(std::size_t picture) const;
   bool is_shown(std::size_t picture, const PaintOptions& options) const;
-  void draw_bodies(ViewModel& model, const Camera& camera, const PaintOptions& options, int height);
+  bool is_veil(std::size_t picture, const PaintOptions& options) const;
+  enum class Layer { solid, veil };
+  void draw_bodies(ViewModel& model, const Camera& camera, const PaintOptions& options, int height,
+                   Layer layer);
+  void draw_body(std::size_t picture, const BodyPicture& body, const Camera& camera,
+                 const PaintOptions& options, int height);
   void draw_planes(const ViewModel& model, const Camera& camera);
   void draw_tool(Tool& tool, const ToolView& view, const ViewModel& model, const PaintOptions& options);
   Eigen::Vector3d pushed_at(const Tool& tool, const ToolView& view, const ViewModel& model,
@@ -73,9 +81,9 @@ class Painter {
   LitProgram as_beads_{Lighting::as_beads};
   LitProgram as_lines_{Lighting::as_lines};
   BackdropDrawing backdrop_;
-  std::size_t first_section_;              // behind bodies and connections
-  std::vector<std::size_t> with_section_;  // bodies
-  std::vector<TissueDrawing> bodies_;      // of all pictures: bodies, connections, sections
+  std::size_t first_section_, first_inside_;             // behind bodies and connections
+  std::vector<std::size_t> with_section_, with_inside_;  // bodies
+  std::vector<TissueDrawing> bodies_;  // of all pictures: bodies, connections, sections, what lies inside
   std::vector<Tool> tools_;
   std::vector<Touch> touches_;
   double size_ = 0;  // half the diagonal of all bodies [m]

@@ -103,9 +103,9 @@ std::size_t TissueDrawing::upload_all(const BodyPicture& body) {
              (2 * sizeof(Array3f) + sizeof(PackedVertex) + sizeof(std::uint32_t) + sizeof(float));
 }
 
-void TissueDrawing::draw(const LitProgram& program, bool opened) const {
+void TissueDrawing::draw(const LitProgram& program, bool opened, float opacity) const {
   program.place(Eigen::Matrix4f::Identity());
-  program.finish(0.035F, 1.0F);
+  program.finish(0.035F, opacity);
   array_.bind();
   triangles_.bind();
   if (closed_ && !opened) glEnable(GL_CULL_FACE);

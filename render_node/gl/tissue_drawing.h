@@ -21,8 +21,8 @@ class TissueDrawing {
   /// Facets so small that lighting at the vertices is as good.
   bool dense() const noexcept { return n_triangle_indices_ > 120000; }
 
-  /// @param opened  by a section: its inside shows
-  void draw(const LitProgram& program, bool opened = false) const;
+  /// @param opened  by a section: its inside shows  @param opacity  below 1 blending has to be on
+  void draw(const LitProgram& program, bool opened = false, float opacity = 1) const;
   /// Elements that no facet shows, and the edges of the facets if asked for: their index buffer is made the first time.
   void draw_lines(const LitProgram& program, const BodyPicture& body, bool with_edges);
   /// Masses that no facet and no element shows, as points.

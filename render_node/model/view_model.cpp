@@ -6,6 +6,7 @@
 #include "common/scene/body_spec.h"
 #include "common/scene/connection_spec.h"
 #include "common/scene/device_spec.h"
+#include "common/scene/inside_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/section_spec.h"
 #include "common/scene/tool_spec.h"
@@ -14,7 +15,8 @@
 namespace palpate::render {
 ViewModel::ViewModel(const Scene& scene) : tools_(scene.tools.size()) {
   first_section_ = scene.bodies.size() + scene.connections.size();
-  const std::size_t n = first_section_ + bodies_with_section(scene).size();
+  first_inside_ = first_section_ + bodies_with_section(scene).size();
+  const std::size_t n = first_inside_ + bodies_with_inside(scene).size();
   bodies_.reserve(n);
   for (std::size_t i = 0; i < n; ++i) bodies_.emplace_back(budget_);
   for (std::size_t i = 0; i < tools_.size(); ++i) {

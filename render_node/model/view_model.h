@@ -61,7 +61,7 @@ class ViewModel {
   std::span<const BodyPicture> bodies() const noexcept { return bodies_; }
   /// Of bodies, in the order of bodies_with_section(); empty where none has come.
   std::span<const BodyPicture> sections() const noexcept {
-    return std::span(bodies_).subspan(first_section_);
+    return std::span(bodies_).subspan(first_section_, first_inside_ - first_section_);
   }
   std::span<const ToolView> tools() const noexcept { return tools_; }
   const std::optional<NodeStatus>& node(NodeKind kind) const noexcept {
@@ -88,8 +88,9 @@ class ViewModel {
   void take_part(const M& part);
 
   std::shared_ptr<MemoryBudget> budget_ = std::make_shared<MemoryBudget>();
-  std::vector<BodyPicture> bodies_;  // as in the scene, its connections behind, then sections
-  std::size_t first_section_ = 0;
+  std::vector<BodyPicture>
+      bodies_;  // as in the scene, its connections behind, then sections, then what lies inside
+  std::size_t first_section_ = 0, first_inside_ = 0;
   std::vector<ToolView> tools_;  // as in the scene
   std::array<std::optional<NodeStatus>, n_node_kinds> nodes_;
   double t_ = 0;

@@ -51,6 +51,7 @@ constexpr Binding table[] = {
      "[, ]",
      "move the cut by a hundredth",
      {{{GLFW_KEY_LEFT_BRACKET, A::section_back}, {GLFW_KEY_RIGHT_BRACKET, A::section_on}}}},
+    {Part::view, "I", "see what lies inside, through the skin, or no more", {{{GLFW_KEY_I, A::inside}}}},
     {Part::tool, "click", "take it, on the tissue under the cursor", {}},
     {Part::tool, "mouse", "lead it over the tissue", {}},
     {Part::tool, "wheel", "press deeper, or lift; with Shift a tenth", {}},

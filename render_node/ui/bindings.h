@@ -32,6 +32,7 @@ enum class Action {
   section,
   section_on,
   section_back,
+  inside,
   // of the tool that the mouse leads
   toggle_tool,
   next_tool,
@@ -43,7 +44,7 @@ enum class Action {
   roll_left,
   roll_right
 };
-inline constexpr int n_actions = 29;  // with none
+inline constexpr int n_actions = 30;  // with none
 
 /// What a row is about; the headings of the help.
 enum class Part { window, view, tool };

@@ -134,8 +134,36 @@ void section_rows(const ViewModel& model, const PanelFacts& facts, SectionContro
   wishes.section_released = ImGui::IsItemDeactivatedAfterEdit();
 }
 
+/// A slider over the width of the column. @return it was let go after it had moved
+bool slider(const char* name, double lo, double hi, const char* format, double& value) {
+  auto shown = static_cast<float>(value);
+  ImGui::SetNextItemWidth(-1);
+  if (ImGui::SliderFloat(name, &shown, static_cast<float>(lo), static_cast<float>(hi), format))
+    value = static_cast<double>(shown);
+  return ImGui::IsItemDeactivatedAfterEdit();
+}
+
+/// What lies inside of images, and how far one sees through what lies before it.
+void inside_rows(const PanelFacts& facts, InsideControl& inside, PanelWishes& wishes) {
+  if (!facts.interactive) {
+    if (inside.value()) row("inside from intensity", fmt::format("{:.0f}", *inside.value()));
+    return;
+  }
+  if (inside.applies()) {
+    bool on = inside.value().has_value();
+    if (ImGui::Checkbox("inside from intensity", &on)) inside.toggle();
+    if (double from = inside.value().value_or(0); inside.value()) {
+      wishes.inside_released = slider("##inside", inside.lo(), inside.hi(), "%.0f", from);
+      inside.set(from);
+    }
+  }
+  double opacity = inside.opacity();
+  slider("##opacity", InsideControl::least_opacity, 1, "opacity %.2f", opacity);
+  inside.set_opacity(opacity);
+}
+
 PanelWishes controls(const ViewModel& model, const PanelFacts& facts, ThresholdControl& threshold,
-                     SectionControl& section) {
+                     SectionControl& section, InsideControl& inside) {
   PanelWishes wishes;
   if (threshold.applies()) {
     if (facts.interactive) {
@@ -151,6 +179,7 @@ PanelWishes controls(const ViewModel& model, const PanelFacts& facts, ThresholdC
     }
   }
   section_rows(model, facts, section, wishes);
+  inside_rows(facts, inside, wishes);
   if (facts.interactive)
     buttons({{facts.paused ? "Go on" : "Pause", Action::pause},
              {"Step", Action::hundredth_on},
@@ -159,7 +188,7 @@ PanelWishes controls(const ViewModel& model, const PanelFacts& facts, ThresholdC
              {"Picture", Action::picture},
              {"Fold", Action::fold}},
             3, wishes);
-  if (facts.interactive || threshold.applies() || section.value()) ImGui::Separator();
+  if (facts.interactive || threshold.applies() || section.value() || inside.value()) ImGui::Separator();
   return wishes;
 }
 
@@ -236,7 +265,7 @@ PanelWishes lay_out_panels(const Scene& scene, const ViewModel& model, const Pan
   row("simulated time", fmt::format("{:.2f} s", facts.t));
   warning_rows(model);
   ImGui::Separator();
-  PanelWishes wishes = controls(model, facts, moved.threshold, moved.section);
+  PanelWishes wishes = controls(model, facts, moved.threshold, moved.section, moved.inside);
   if (facts.pointer != nullptr)
     row("mouse", fmt::format("{} {}", facts.pointer->held() ? "holds" : "lets lie",
                              scene.tools[facts.pointer->tool()].name));

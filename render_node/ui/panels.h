@@ -8,6 +8,7 @@
 
 #include "common/scene/scene_fwd.h"
 #include "render_node/image/image.h"
+#include "render_node/model/inside_control.h"
 #include "render_node/model/section_control.h"
 #include "render_node/model/threshold_control.h"
 #include "render_node/model/view_model.h"
@@ -34,6 +35,7 @@ struct PanelWishes {
   bool threshold_moved = false;  // ThresholdControl has the value
   bool threshold_released = false;
   bool section_released = false;
+  bool inside_released = false;
   std::vector<Action> actions;  // by buttons, as if by keys
   // What of buttons and keys is not the window's own.
   bool paused = false;                   // it should be
@@ -51,6 +53,7 @@ float panel_width_in(float picture_width, float scale);
 struct PanelControls {
   ThresholdControl& threshold;
   SectionControl& section;
+  InsideControl& inside;
   Hidden& hidden;  // by its list of bodies and tools
 };
 

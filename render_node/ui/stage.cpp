@@ -24,9 +24,12 @@ Stage::Stage(const Scene& scene, ViewModel& model, int height)
                scene.render->show_fragments,
                scene.render->colour,
                scene.render->section,
+               scene.render->inside.has_value(),
+               static_cast<float>(scene.render->opacity),
                {}},
       threshold_(scene),
       section_(scene),
+      inside_(scene),
       painter_(scene, model),
       imgui_(height) {}
 
@@ -37,6 +40,8 @@ PanelWishes Stage::draw(const PanelFacts& facts, int width, int height, float se
   camera_.set_picture(width, height, static_cast<int>(std::lround(left)));
   camera_.fit(box_with_floor());
   options_.section = section_in(model_.box());
+  options_.inside = inside_.value().has_value();
+  options_.opacity = static_cast<float>(inside_.opacity());
   painter_.draw(model_, camera_, options_, width, height);
   const bool coloured = options_.colour != ColourKind::own;
   if (!panels && !facts.interactive && !coloured) return {};
@@ -48,9 +53,9 @@ PanelWishes Stage::draw(const PanelFacts& facts, int width, int height, float se
   shown.arrow_metres_per_newton = options_.force ? painter_.arrow_metres_per_newton() : 0;
   PanelWishes wishes;
   if (panels)
-    wishes = facts.folded
-                 ? lay_out_folded()
-                 : lay_out_panels(scene_, model_, shown, {threshold_, section_, options_.hidden}, scale);
+    wishes = facts.folded ? lay_out_folded()
+                          : lay_out_panels(scene_, model_, shown,
+                                           {threshold_, section_, inside_, options_.hidden}, scale);
   if (model_.anything_to_see()) {
     lay_out_measures(camera_, left, scale);
     if (coloured) lay_out_legend(painter_.colour_scale(), scale);

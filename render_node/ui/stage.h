@@ -25,6 +25,7 @@ class Stage {
   PaintOptions& options() noexcept { return options_; }
   ThresholdControl& threshold() noexcept { return threshold_; }
   SectionControl& section() noexcept { return section_; }
+  InsideControl& inside() noexcept { return inside_; }
   const Painter& painter() const noexcept { return painter_; }
 
  private:
@@ -38,6 +39,7 @@ class Stage {
   PaintOptions options_;
   ThresholdControl threshold_;
   SectionControl section_;
+  InsideControl inside_;
   Painter painter_;
   ImguiContext imgui_;
   ImguiDrawing panels_;

@@ -231,6 +231,9 @@ void Window::perform(Action action, PanelWishes& wishes) {
     case Action::section:
       stage_->section().next(model_.box());
       break;
+    case Action::inside:
+      stage_->inside().toggle();
+      break;
     case Action::section_on:
       stage_->section().move(1, model_.box());
       break;
@@ -265,5 +268,6 @@ bool Window::software() const { return software_gl(); }
 ThresholdControl& Window::threshold() { return stage_->threshold(); }
 ColourKind& Window::colour() { return stage_->options().colour; }
 SectionControl& Window::section() { return stage_->section(); }
+InsideControl& Window::inside() { return stage_->inside(); }
 
 }  // namespace palpate::render

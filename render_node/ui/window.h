@@ -46,6 +46,7 @@ class Window {
   bool software() const;  // drawn by the processor, not by a graphics card
   ThresholdControl& threshold();
   SectionControl& section();
+  InsideControl& inside();
   ColourKind& colour();
 
  private:

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+
 #include "common/scene/body_spec.h"
 #include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
@@ -68,6 +70,39 @@ TEST(PictureOfInside, ShowsWhatASectionOpens) {
   opened.draw(0);
   EXPECT_LT(difference(pixel(opened, at), pixel(whole, at)), 4) << "whole again";
   EXPECT_GT(difference(with, pixel(whole, at)), 40);
+}
+
+/// A green cube in the middle of another is seen through it, the fainter the more opaque that is; and not at all if nobody asks.
+TEST(PictureOfInside, ShowsWhatLiesInsideThroughTheSkin) {
+  Scene scene = test::small_scene();
+  scene.bodies[0].lattice = LatticeKind::voxel;
+  scene.bodies[0].shape = VolumeShape{};
+  const auto at = *camera_of(scene).project({0, -side / 2, 0});
+  const auto beside = *camera_of(scene).project({0.035, -side / 2, 0});
+  const auto inner = test::chunks_of(test::cube_surface(6, side / 2, 0xFF20F020), 2, 1);
+  const auto drawn = [&](std::optional<double> inside, double opacity) {
+    scene.render->inside = inside;
+    scene.render->opacity = opacity;
+    auto picture = std::make_unique<Picture>(scene);
+    test::show(*picture, cube);
+    for (const auto& chunk : inner) picture->take(chunk);  // behind the section, which has none
+    picture->draw(0);
+    return picture;
+  };
+  const auto whole = drawn(std::nullopt, 1);
+  const auto opaque = drawn(300, 1), veiled = drawn(300, 0.3), thicker = drawn(300, 0.7);
+  EXPECT_EQ(whole->image().rgb, opaque->image().rgb);
+  const auto green = [](const Picture& picture, const Eigen::Vector2d& p) {
+    const Eigen::Vector3i rgb = pixel(picture, p);
+    return rgb.y() - rgb.x();
+  };
+  EXPECT_GT(green(*veiled, at), green(*thicker, at) + 20);
+  EXPECT_GT(green(*thicker, at), green(*whole, at) + 20);
+  EXPECT_LT(std::abs(green(*veiled, beside) - green(*whole, beside)), 40) << "the background shines through";
+  veiled->set_inside(std::nullopt);
+  veiled->draw(0);
+  EXPECT_LT(green(*veiled, at), green(*whole, at) + 20);
+  EXPECT_EQ(whole->facets_visible(), veiled->facets_visible()) << "those of the body alone";
 }
 
 TEST(PictureOfInside, StaysWholeWhereASectionMeetsNothing) {

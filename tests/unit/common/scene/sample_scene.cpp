@@ -119,6 +119,8 @@ show = ["force", "wire", "fragments"]
 rate_Hz = 25
 most_frames = 50
 most_frames_MB = 20
+inside = 300
+opacity = 0.4
 
 [record]
 what = ["positions"]

@@ -222,6 +222,8 @@ INSTANTIATE_TEST_SUITE_P(
          "\"displacement\", \"strain\" or \"stress\""},
         {"most_frames = 50", "most_frames = 1", "105:15", "write a whole number from 2 to 1000000"},
         {"most_frames_MB = 20", "most_frames_MB = nan", "106:18", "write a number from 1 to 1000000"},
+        {"inside = 300", "inside = inf", "107:10", "write a finite number"},
+        {"opacity = 0.4", "opacity = 0", "108:11", "write a number from 0.05 to 1"},
         {"radius_mm = 20\n", "radius_mm = 1e300\n", "39:13",
          "is 1e+300; write a number above 0 and at most 1000000"},
         {"radius_mm = 20\n", "radius_mm = 1e-300\n", "39:13",

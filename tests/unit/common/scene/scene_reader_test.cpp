@@ -154,6 +154,8 @@ TEST(SceneReader, ReadsWhatIsSeenAndKept) {
   EXPECT_EQ(scene.render->rate_Hz, 25);
   EXPECT_EQ(scene.render->most_frames, 50);
   EXPECT_EQ(scene.render->most_frame_bytes, 20e6);
+  EXPECT_THAT(scene.render->inside, Optional(300.0));
+  EXPECT_EQ(scene.render->opacity, 0.4);
   EXPECT_TRUE(scene.record->positions);
   EXPECT_FALSE(scene.record->forces);
   EXPECT_EQ(scene.record->rate_Hz, 100);

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <functional>
+#include <map>
 #include <set>
 #include <thread>
 
@@ -292,6 +293,47 @@ TEST(Colours, OfAToolAreThoseOfSteel) {
   tool.body = scene.bodies[0].name;
   scene.tools.push_back(tool);
   EXPECT_NE(body_colour(scene, 0), tissue);
+}
+
+/// Half of it is dense: a surface of its own, behind the body and its section, that moves with it; another one from another
+/// intensity on; none where nobody asks.
+TEST(Appearance, ShowsWhatLiesInside) {
+  const palpate::test::ScratchFolder folder;
+  write_volume(made_volume({6, 4, 4}, [](int i, int, int) { return i < 3 ? 100.F : 300.F; }),
+               folder / "made.h5");
+  Recipe recipe;
+  recipe.lattice = "voxel";
+  Scene scene = scene_of(recipe);
+  scene.bodies = {volume_body(folder / "made.h5", 50, 400)};
+  World world(scene);
+  Appearance appearance(world, std::nullopt);
+  const auto facets = [&] {
+    std::map<std::uint32_t, std::uint32_t> of;
+    appearance.write_surfaces({[&](const BodySurface& chunk) { of[chunk.body] = chunk.total_facets; },
+                               [](const SurfaceChange&) {}});
+    return of;
+  };
+  const auto all = facets();
+  EXPECT_EQ(all, (std::map<std::uint32_t, std::uint32_t>{{0, 2 * (16 + 24 + 24)}}));
+  const std::size_t visible = appearance.facets_visible(), total = appearance.facets_total();
+  appearance.set_inside(200);
+  EXPECT_EQ(facets(), (std::map<std::uint32_t, std::uint32_t>{{2, 2 * (16 + 12 + 12)}}));
+  EXPECT_EQ(appearance.facets_visible(), visible);
+  EXPECT_EQ(appearance.facets_total(), total);
+  appearance.set_inside(50);
+  EXPECT_EQ(facets(), (std::map<std::uint32_t, std::uint32_t>{{2, 2 * (16 + 24 + 24)}}));
+  appearance.set_inside(std::nullopt);
+  EXPECT_TRUE(facets().empty());
+  appearance.publish_anew(2);
+  EXPECT_TRUE(facets().empty());
+  // Blocks of it are sent as the body moves.
+  appearance.set_inside(200);
+  facets();
+  for (const Index cell : world.body(0).body().nodes())
+    world.body(0).place(cell, Vec3(0.001, 0, 0), Vec3::Zero());
+  std::map<std::uint32_t, int> blocks;
+  appearance.write_blocks([&](const VertexBlock& block) { ++blocks[block.body]; });
+  EXPECT_EQ(blocks, (std::map<std::uint32_t, int>{{0, 1}, {2, 1}}));
 }
 
 TEST(Appearance, FollowsTheThreshold) {
