@@ -106,8 +106,9 @@ void World::take(const StepOutcome& outcome) noexcept {
 void World::move_bodies(double dt, bool watch) noexcept {
   // Why: what a cut lets go of moves otherwise in the next step than in this, and a damper's power tells too much then.
   const bool parts = std::ranges::any_of(toolbox_.pressing, [this](const PressingTool* tool) {
-    const auto& mesh = bodies_[tool->touched_body()]->body().mesh;
-    return tool->follows_steps() && tool->may_press() && mesh && mesh->net;
+    const Body& body = bodies_[tool->touched_body()]->body();
+    return tool->follows_steps() && tool->may_press() &&
+           ((body.mesh && body.mesh->net) || body.cell_net() != nullptr);
   });
   const ExplicitStep how{.dt = dt,
                          .gravity = scene_.gravity,

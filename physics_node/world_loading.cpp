@@ -49,9 +49,14 @@ TeamChoice choose_threads(const Scene& scene, int spare_cores, Index n_masses, s
   return TeamChoice::up_to(std::clamp(cores, 1, std::max(1, static_cast<int>(n_pieces))));
 }
 
-/// By node, as large as they may become when a body is cut: of its lightest tetrahedron alone [1/kg].
+/// By node, as large as they may become when a body is cut: of its lightest tetrahedron or cell alone [1/kg].
 std::vector<double> inverse_masses_when_cut(const Body& body) {
   std::vector<double> inverse = body.inverse_mass;
+  if (const CellNet* net = body.cell_net())
+    for (const Index cell : net->cells())
+      for (const Index node : net->loaded_corners(cell))
+        if (double& w = inverse[static_cast<std::size_t>(node)]; w > 0)
+          w = std::max(w, 1 / body.solid->eighth[static_cast<std::size_t>(cell)]);
   if (!body.mesh || !body.mesh->net) return inverse;
   const TetModel& model = body.mesh->model;
   for (std::size_t t = 0; t < model.mesh.tets.size(); ++t) {
@@ -97,7 +102,8 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
   std::vector<Body> built = build_bodies(scene);
   refuse_company(scene, built);
   if (std::ranges::any_of(scene.tools, cuts))
-    for (std::size_t b = 0; b < built.size(); ++b) make_ready_for_cuts(scene.bodies[b], built[b]);
+    for (std::size_t b = 0; b < built.size(); ++b)
+      make_ready_for_cuts(scene.bodies[b], scene.materials, built[b]);
   const Integrator integrator = settle_steps(built);
   Index n_masses = 0;
   std::size_t n_pieces = 0;
@@ -108,13 +114,13 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
     const BodySpec& spec = scene.bodies[bodies_.size()];
     n_masses += body.n_nodes();
     n_pieces = std::max(n_pieces, body.n_pieces());
-    any_breaks_ = any_breaks_ || any_breaks(body);
+    any_breaks_ = any_breaks_ || may_come_apart(body);
     const double bucket = 4 * body.spacing();
     std::vector<Vec3> start = start_of_body(spec, body, scene.gravity, planes_, remarks_);
     bodies_.push_back(
         make_body_model(std::move(body), scene.physics->precision, integrator, std::move(start)));
-    fragments_.push_back(any_breaks(bodies_.back()->body()) ? std::make_unique<Fragments>(*bodies_.back())
-                                                            : nullptr);
+    fragments_.push_back(may_come_apart(bodies_.back()->body()) ? std::make_unique<Fragments>(*bodies_.back())
+                                                                : nullptr);
     touchable_.push_back({bodies_.back().get(), std::make_unique<Boundary>(*bodies_.back(), bucket, feels)});
   }
   join_bodies();

@@ -163,7 +163,7 @@ std::vector<Appearance::Job> Appearance::outdated() {
     const Body& body = moving.body();
     const bool by_threshold = wanted_ && body.cells && !body.cells->intensity.empty();
     bool by_breaks = false;
-    if (any_breaks(body)) {
+    if (may_come_apart(body)) {
       const std::int64_t breaks = moving.losses().breaks;  // fewer after a reset
       by_breaks = went_back || breaks != views_[b].breaks;
       views_[b].breaks = breaks;

@@ -74,7 +74,8 @@ TissueField::TissueField(const BodyModel& moving, ColourKind kind) : moving_(mov
 
 TissueField::Around TissueField::around_cells(Index node) const noexcept {
   const Body& body = moving_.body();
-  const Vec3i corner = body.lattice.grid_of(node) + cells_->shift();
+  const CellNet* net = body.cell_net();
+  const Vec3i corner = body.lattice.grid_of(body.origin(node)) + cells_->shift();
   Around sum;
   double n = 0;
   for (unsigned o = 0; o < 8; ++o) {
@@ -89,6 +90,9 @@ TissueField::Around TissueField::around_cells(Index node) const noexcept {
       whole = whole && at[c] >= 0;
     }
     if (!whole) continue;
+    const Index lowest = at[0];
+    if (net != nullptr && net->is_parted(lowest)) at = net->corners(lowest);
+    if (at[7 - o] != node) continue;  // beyond a cut
     for (unsigned c = 0; c < 8; ++c) {
       const Vec3 u = moving_.displacement(at[c]);
       for (std::size_t j = 0; j < 3; ++j) {
@@ -99,7 +103,7 @@ TissueField::Around TissueField::around_cells(Index node) const noexcept {
     }
     if (body.solid)
       sum.modulus += body.solid->modulus *
-                     static_cast<double>(body.solid->stiffness[static_cast<std::size_t>(at[0])]) /
+                     static_cast<double>(body.solid->stiffness[static_cast<std::size_t>(lowest)]) /
                      static_cast<double>(body.cells->share_of(cell.x(), cell.y(), cell.z()));
     ++n;
   }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "physics_node/lattice/cell_net.h"
 #include "physics_node/lattice/lattice.h"
 #include "physics_node/mesh/tet_net.h"
 
@@ -19,14 +20,16 @@ class Adjacency {
   /// Of the body as it was loaded. @param lattice  outlives this
   explicit Adjacency(const Lattice& lattice) : Adjacency(lattice, lattice.mask) {}
   /// @param live  elements of every storage cell; outlives this  (n_cells)
-  Adjacency(const Lattice& lattice, std::span<const Mask> live) : lattice_(&lattice), live_(live) {}
+  /// @param cells  of finite elements that may be cut, else null; outlives this
+  Adjacency(const Lattice& lattice, std::span<const Mask> live, const CellNet* cells = nullptr)
+      : lattice_(&lattice), live_(live), cells_(cells) {}
   /// Of a mesh, in which nothing breaks. @param lists  outlives this
   explicit Adjacency(const NodeLists& lists) : lists_(&lists) {}
   /// Of a mesh that may be cut. @param lists, net  of it; outlive this
   Adjacency(const NodeLists& lists, const TetNet& net) : lists_(&lists), net_(&net) {}
 
   /// Calls visit(neighbour) for each node that a live element joins to this one, in an order that depends on the body
-  /// alone; where a mesh may be cut for some of them more than once.
+  /// alone; where a mesh or cells may be cut for some of them more than once.
   template <class Visit>
   void each_neighbour(Index node, const Visit& visit) const noexcept {
     if (net_ != nullptr) {
@@ -38,6 +41,13 @@ class Adjacency {
     }
     if (lists_ != nullptr) {
       for (const Index other : lists_->of(node)) visit(other);
+      return;
+    }
+    if (cells_ != nullptr) {
+      cells_->each_corner(node, [&](Index cell, std::size_t) {
+        for (const Index other : cells_->corners(cell))
+          if (other != node) visit(other);
+      });
       return;
     }
     const auto& offset = lattice_->offset[static_cast<std::size_t>(lattice_->row_kind(node))];
@@ -53,6 +63,11 @@ class Adjacency {
       return joined;
     }
     if (lists_ != nullptr) return std::ranges::binary_search(lists_->of(a), b);
+    if (cells_ != nullptr) {
+      bool joined = false;
+      each_neighbour(a, [&](Index other) { joined = joined || other == b; });
+      return joined;
+    }
     const auto& offset = lattice_->offset[static_cast<std::size_t>(lattice_->row_kind(a))];
     for (Mask left = live_elements(a) & element_bits; left != 0; left &= left - 1)
       if (a + offset[static_cast<std::size_t>(std::countr_zero(left))] == b) return true;
@@ -67,21 +82,32 @@ class Adjacency {
   /// node of a mesh split?
   bool has_lost(Index node) const noexcept {
     if (net_ != nullptr) return net_->has_split(node);
+    if (cells_ != nullptr && cells_->has_split(node)) return true;
     return lists_ == nullptr && live_elements(node) != lattice_->mask[static_cast<std::size_t>(node)];
   }
   /// The live elements of a node as a record keeps them: a bit for each, which means the same in every body built from the
   /// same [[body]]. 0 of a mesh: nothing of it breaks.
   Mask live_elements(Index node) const noexcept {
-    return lists_ != nullptr ? Mask{0} : live_[static_cast<std::size_t>(node)];
+    if (lists_ != nullptr) return Mask{0};
+    return live_[static_cast<std::size_t>(cells_ != nullptr ? cells_->origin(node) : node)];
   }
   /// The same of every storage cell: for makers of what only a lattice has  (n_cells)
   std::span<const Mask> of_all() const noexcept { return live_; }
+
+  /// Has a cell at a node a copy of another? Then it is the cells that know who its neighbours are.
+  bool is_at_cut(Index node) const noexcept {
+    if (cells_ == nullptr || cells_->n_copies() == 0) return false;
+    bool any = false;
+    cells_->each_around(node, [&](Index cell, std::size_t) { any = any || cells_->is_parted(cell); });
+    return any;
+  }
 
  private:
   const Lattice* lattice_ = nullptr;
   std::span<const Mask> live_;
   const NodeLists* lists_ = nullptr;  // of a mesh, as loaded; else null
   const TetNet* net_ = nullptr;       // of a mesh that may be cut; else null
+  const CellNet* cells_ = nullptr;    // of cells that may be; else null
 };
 
 }  // namespace palpate::physics

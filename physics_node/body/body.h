@@ -16,6 +16,7 @@
 #include "physics_node/body/element_law.h"
 #include "physics_node/body/mesh_body.h"
 #include "physics_node/body/solid_elements.h"
+#include "physics_node/lattice/cell_net.h"
 #include "physics_node/lattice/lattice.h"
 
 namespace palpate::physics {
@@ -48,17 +49,37 @@ struct Body {
   Index n_nodes() const noexcept { return static_cast<Index>(nodes().size()); }
   /// The number of every node is below this, and of every copy of one.
   Index capacity() const noexcept {
-    return mesh ? n_nodes() + static_cast<Index>(mesh->most_copies()) : lattice.n_cells();
+    if (mesh) return n_nodes() + static_cast<Index>(mesh->most_copies());
+    return lattice.n_cells() + (cell_net() != nullptr ? static_cast<Index>(cell_net()->most_copies()) : 0);
   }
+  std::size_t most_copies() const noexcept {
+    return static_cast<std::size_t>(capacity()) -
+           (mesh ? nodes().size() : static_cast<std::size_t>(lattice.n_cells()));
+  }
+  /// Of cells of finite elements that may be cut; else null.
+  CellNet* cell_net() const noexcept { return solid ? solid->net.get() : nullptr; }
   /// Calls visit(node) for all nodes that there are now: those as loaded, then the copies that cuts have made.
   template <class Visit>
   void each_node(const Visit& visit) const noexcept {
     for (const Index node : nodes()) visit(node);
-    if (!mesh || !mesh->net) return;
-    for (Index node = mesh->net->n_loaded(); node < mesh->net->n_nodes(); ++node) visit(node);
+    each_copy(visit);
+  }
+  /// The same of copies alone.
+  template <class Visit>
+  void each_copy(const Visit& visit) const noexcept {
+    const auto visit_all = [&](const auto& net) {
+      for (Index node = net.n_loaded(); node < net.n_nodes(); ++node) visit(node);
+    };
+    if (mesh && mesh->net) visit_all(*mesh->net);
+    if (const CellNet* net = cell_net()) visit_all(*net);
+  }
+  /// The node as loaded that this is, or is a copy of.
+  Index origin(Index node) const noexcept {
+    if (mesh) return mesh->net ? mesh->net->origin(node) : node;
+    return cell_net() != nullptr ? cell_net()->origin(node) : node;
   }
   Vec3 rest_position(Index node) const noexcept {  // [m]
-    return mesh ? mesh->rest(node) : lattice.rest_position(node);
+    return mesh ? mesh->rest(node) : lattice.rest_position(origin(node));
   }
   /// How far neighbours lie apart, by which distances of contact go: of a mesh those on its faces, in the mean [m].
   double spacing() const noexcept { return mesh ? mesh->spacing : lattice.spacing(); }
@@ -75,7 +96,7 @@ struct Body {
                 : *std::max_element(lattice.rest_length.begin(), lattice.rest_length.end());
   }
   /// Is a node part of no cell that is seen? It moves with the others and nobody touches it.
-  bool is_beyond(Index node) const noexcept { return !mesh && lattice.is_beyond(node); }
+  bool is_beyond(Index node) const noexcept { return !mesh && lattice.is_beyond(origin(node)); }
 
  private:
   static constexpr std::size_t elements_a_piece = 1024;  // Why: no block of tetrahedra has more
@@ -114,13 +135,21 @@ inline bool any_yields(const Body& body) {
   return !body.solid &&
          std::any_of(body.laws.begin(), body.laws.end(), [](const ElementLaw& law) { return law.yields; });
 }
-/// Are there springs that a tool may cut, or tetrahedra that it may part?
+/// Are there springs that a tool may cut, or tetrahedra or cells that it may part?
 inline bool any_cut(const Body& body) {
-  return body.may_be_cut && !body.solid && (!body.mesh || body.mesh->net);
+  return body.may_be_cut && (body.solid ? body.solid->net != nullptr : !body.mesh || body.mesh->net);
 }
 /// May springs or finite elements go, of themselves or because a tool cuts them?
 inline bool any_breaks(const Body& body) {
   return body.solid ? !body.solid->failures.empty() : any_yields(body) || any_cut(body);
+}
+/// May it come apart, as that or as its cells are parted?
+inline bool may_come_apart(const Body& body) { return any_breaks(body) || any_cut(body); }
+/// Of cells of finite elements: do they do no more than hang together, so that a cut may part them? What yields, breaks or remembers, and
+/// what is awake in parts, is not cut.
+inline bool is_parted_where_cut(const Body& body) {
+  return body.solid && body.solid->failures.empty() && body.solid->yields.empty() &&
+         body.solid->relaxation.empty() && body.solid->awake_radius == 0;
 }
 /// Finite elements that yield.
 inline bool any_cells_yield(const Body& body) { return body.solid && !body.solid->yields.empty(); }
@@ -130,9 +159,9 @@ inline bool any_damped(const Body& body) {
   return std::any_of(body.laws.begin(), body.laws.end(), [](const ElementLaw& law) { return law.damped; });
 }
 
-/// For a body that a tool of the scene cuts: of a mesh of tetrahedra of first order all of whose materials say how tough they
-/// are, room for the copies of its nodes. @throws InputError  more tetrahedra at a node than TetNet has room for
-void make_ready_for_cuts(const BodySpec& spec, Body& body);
+/// For a body that a tool of the scene cuts: of tetrahedra of first order and of cells of finite elements all of whose materials
+/// say how tough they are, room for the copies of their nodes. @throws InputError  more tetrahedra at a node than TetNet has room for
+void make_ready_for_cuts(const BodySpec& spec, const std::vector<MaterialSpec>& materials, Body& body);
 
 /// Builds a body's lattice or mesh, its laws, held masses and handle. Held are the masses within a quarter of a grid step of a face; where
 /// those are a single row, which would be a hinge, and for a handle, the masses within three quarters of the spacing: on fcc the two

@@ -22,9 +22,6 @@
 namespace palpate::physics {
 namespace {
 
-// Why: a cut of 10 cm^2 makes some 350 of a liver of 20,000 tetrahedra; small bodies may be cut to pieces.
-constexpr std::size_t spare_copies = 4096;
-
 double beta_of(const MaterialSpec& material) {
   return material.viscosity_bulk.value_or(0.0) / *material.modulus;
 }
@@ -141,28 +138,6 @@ void build_mesh_body(Body& body, const BodySpec& spec, const std::vector<Materia
   mesh.tidied = content.tidied;
   for (const double mass : mesh.mass) body.inverse_mass.push_back(1 / mass);
   body.mesh = std::make_shared<MeshBody>(std::move(mesh));
-}
-
-void make_ready_for_cuts(const BodySpec& spec, Body& body) {
-  body.may_be_cut = true;
-  if (!body.mesh || body.mesh->springs || !body.mesh->model.mesh.middles.empty()) return;
-  if (std::ranges::any_of(body.laws, [](const ElementLaw& law) { return law.cut_toughness <= 0; })) return;
-  MeshBody& mesh = *body.mesh;
-  const std::size_t n = mesh.nodes.size(), corners = 4 * mesh.model.mesh.tets.size();
-  std::vector<std::size_t> around(n, 0);
-  for (const auto& tet : mesh.model.mesh.tets)
-    for (const Index node : tet) ++around[static_cast<std::size_t>(node)];
-  if (const auto most = std::ranges::max_element(around); *most > TetNet::most_around) {
-    const Vec3 at = 1e3 * mesh.rest(static_cast<Index>(most - around.begin()));
-    throw InputError(fmt::format(
-        "{}: body \"{}\" is to be cut, and {} tetrahedra meet at a node of its mesh, at {:.4g} {:.4g} {:.4g} "
-        "mm; mesh it anew, with at most {}",
-        spec.place.text(), spec.name, *most, at.x(), at.y(), at.z(), TetNet::most_around));
-  }
-  const std::size_t copies = std::min(corners - n, n + spare_copies);
-  mesh.net = std::make_unique<TetNet>(mesh.model.mesh, copies);
-  mesh.mass.resize(n + copies, 0.0);
-  body.inverse_mass.resize(n + copies, 0.0);
 }
 
 }  // namespace palpate::physics

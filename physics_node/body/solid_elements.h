@@ -2,12 +2,15 @@
 // What the finite elements of a body are made of.
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "common/scene/element_kinds.h"
 #include "physics_node/lattice/lattice_types.h"
 
 namespace palpate::physics {
+
+class CellNet;
 
 /// A share of the modulus fades with this time.
 struct Relaxation {
@@ -51,6 +54,12 @@ struct SolidElements {
   std::vector<std::uint8_t>
       failure_of;  // of a cell, as stiffness: an index of failures and of yields; EMPTY with both (n_cells)
   FastCells fast;
+  /// How its cells hang together where they may be cut; else null. Then `mass` and inverse masses have room for those of copies and are as
+  /// now, and all the rest is as loaded. Only who steps it changes these.
+  std::shared_ptr<CellNet> net;
+  std::vector<double> eighth;  // of the mass of a cell, as stiffness; EMPTY without a net [kg]  (n_cells)
+  std::vector<float>
+      cut_toughness;        // likewise [J/m^2]                                               (n_cells)
   double awake_radius = 0;  // only cells this near to where it is pressed are stepped; 0: all [m]
 };
 

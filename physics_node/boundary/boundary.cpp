@@ -46,7 +46,7 @@ Boundary::Boundary(const BodyModel& moving, double bucket_size, bool follows)
   for (std::size_t b = 1; b < bucket_start_.size(); ++b) bucket_start_[b] += bucket_start_[b - 1];
   for (std::uint32_t v = 0; v < surface_.n_moving(); ++v) sag_.push_back(displacement(v, moving));
   if (std::ranges::all_of(sag_, [](const Vec3& u) { return u.isZero(0); })) sag_.clear();
-  if (follows && any_breaks(moving.body())) prepare_to_follow();
+  if (follows && may_come_apart(moving.body())) prepare_to_follow();
 }
 
 void Boundary::prepare_to_follow() {
@@ -60,7 +60,8 @@ void Boundary::prepare_to_follow() {
   waits_.resize(n);
   queue_.resize(n);
   // Why: a body that is half crumbs has about as many open facets as masses. And a tetrahedron has four.
-  open_.resize(body_.body().mesh ? 4 * n : body_.body().nodes().size() + 4096);
+  const std::size_t both_sides = 2 * 4 * body_.body().most_copies();
+  open_.resize(body_.body().mesh ? 4 * n : body_.body().nodes().size() + 4096 + both_sides);
   restart();
 }
 
@@ -114,7 +115,7 @@ bool Boundary::has_mass(std::uint32_t facet) const noexcept {
 
 std::optional<std::uint32_t> Boundary::vertex(std::uint32_t facet, std::size_t corner) const noexcept {
   if (is_loaded(facet)) return surface_.facets[facet][corner];
-  return skin_ ? skin_->vertex_of(open_at(facet).masses[corner]) : std::nullopt;
+  return skin_ ? skin_->vertex_of(body_.body().origin(open_at(facet).masses[corner])) : std::nullopt;
 }
 
 /// By more than the vertex's own mass; null: by that alone.
@@ -126,12 +127,16 @@ const Bearers* Boundary::carried(std::uint32_t vertex) const noexcept {
 std::int64_t Boundary::corner(std::uint32_t facet, std::size_t corner) const noexcept {
   const auto at = vertex(facet, corner);
   if (!at || (*at < surface_.n_moving() && surface_.bearers.empty())) return mass(facet, corner);
+  if (is_copy(facet, corner))
+    return std::int64_t{body_.body().capacity()} + static_cast<std::int64_t>(surface_.n_vertices()) +
+           mass(facet, corner);
   return std::int64_t{body_.body().capacity()} + *at;
 }
 
 Bearers Boundary::bearers(std::uint32_t facet, std::size_t corner) const noexcept {
   const auto at = vertex(facet, corner);
   if (at && *at >= surface_.n_moving()) return {};
+  if (at && is_copy(facet, corner)) return skin_->bearers_of_copy(mass(facet, corner));
   const Bearers* by = at ? carried(*at) : nullptr;
   return by != nullptr ? *by : Bearers::alone(mass(facet, corner));
 }
@@ -149,6 +154,10 @@ Vec3 Boundary::place(std::uint32_t vertex, const NodeMotion& moving) const noexc
 
 Vec3 Boundary::position(std::uint32_t facet, std::size_t corner, const NodeMotion& moving) const noexcept {
   const auto at = vertex(facet, corner);
+  if (at && is_copy(facet, corner))
+    return surface_.rest[*at] + skin_->bearers_of_copy(mass(facet, corner)).mean([&](Index node) {
+      return moving.displacement(node);
+    });
   return at ? place(*at, moving) : moving.position(open_at(facet).masses[corner]);
 }
 

@@ -91,6 +91,10 @@ class Boundary {
   /// The vertex as loaded at a corner; none: a mass that had none.
   std::optional<std::uint32_t> vertex(std::uint32_t facet, std::size_t corner) const noexcept;
   const Bearers* carried(std::uint32_t vertex) const noexcept;
+  /// Is it a copy of a node at the skin, which has a vertex of its own there?
+  bool is_copy(std::uint32_t facet, std::size_t corner) const noexcept {
+    return skin_ && !is_loaded(facet) && body_.body().origin(mass(facet, corner)) != mass(facet, corner);
+  }
   Vec3 displacement(std::uint32_t vertex, const NodeMotion& moving) const noexcept;  // of one that moves
   Vec3 place(std::uint32_t vertex, const NodeMotion& moving) const noexcept;
   Vec3 nearly_centroid(std::uint32_t facet, const NodeMotion& moving) const noexcept;

@@ -12,21 +12,29 @@ class ExposedNodes {
   /// @param open_ones  also nodes that lack nothing but that space reaches, as at the bottom of a pit of the fcc surface or in
   ///   an inner corner of voxels. Deviation: in the paper a mass touches only where it lacks an element itself. Means nothing of a mesh.
   ExposedNodes(const Body& body, bool open_ones)
-      : lattice_(&body.lattice), mesh_(body.mesh.get()), open_ones_(open_ones) {}
+      : lattice_(&body.lattice), mesh_(body.mesh.get()), cells_(body.cell_net()), open_ones_(open_ones) {}
 
   bool contains(Index node, const Adjacency& now) const noexcept {
     if (mesh_ != nullptr && mesh_->net) return mesh_->net->is_exposed(node);
     if (mesh_ != nullptr) return mesh_->is_outer[static_cast<std::size_t>(node)] != 0;
+    if (cells_ != nullptr) node = as_loaded(node);
+    if (node < 0) return true;
     if (lattice_->is_beyond(node)) return false;
     return now.degree(node) < complete_degree(node) || (open_ones_ && lies_open(node)) || now.has_lost(node);
   }
 
  private:
+  /// -1: a node that a cut has made one of a face.
+  Index as_loaded(Index node) const noexcept {
+    if (cells_->n_copies() == 0 || lattice_->is_beyond(cells_->origin(node))) return cells_->origin(node);
+    return cells_->is_exposed(node) ? -1 : cells_->origin(node);
+  }
   int complete_degree(Index node) const noexcept;
   bool lies_open(Index node) const noexcept;
 
   const Lattice* lattice_;
   const MeshBody* mesh_;  // null: a lattice
+  const CellNet* cells_;  // of finite elements that may be cut; else null
   bool open_ones_;
 };
 

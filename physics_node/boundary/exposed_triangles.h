@@ -12,14 +12,15 @@ namespace palpate::physics {
 
 class ExposedTriangles {
  public:
-  explicit ExposedTriangles(const Body& body) : lattice_(&body.lattice), mesh_(body.mesh.get()) {
+  explicit ExposedTriangles(const Body& body)
+      : lattice_(&body.lattice), mesh_(body.mesh.get()), cells_(body.cell_net()) {
     if (mesh_ == nullptr) patterns_ = triangle_patterns(body.lattice);
   }
 
   /// There are never more on so many nodes.
   std::size_t most(std::size_t n_nodes) const noexcept {
     if (mesh_ != nullptr && mesh_->net) return 4 * static_cast<std::size_t>(mesh_->net->n_tets());
-    return n_nodes * most_of_a_node();
+    return n_nodes * std::max(most_of_a_node(), cells_ != nullptr ? most_at_cells : 0);
   }
   /// Calls take(b, c) for each whose first corner is `a`; every triangle has one first corner.
   /// @param wanted  called with another corner: false leaves the triangle out
@@ -27,6 +28,7 @@ class ExposedTriangles {
   void each(Index a, const Adjacency& now, const Wanted& wanted, const Take& take) const noexcept {
     if (mesh_ != nullptr && mesh_->net) return each_of_net(a, wanted, take);
     if (mesh_ != nullptr) return each_of_mesh(a, wanted, take);
+    if (now.is_at_cut(a)) return each_of_cells(a, wanted, take);
     const auto live = [&](Index node) { return now.live_elements(node); };
     for (const TrianglePattern& triangle : patterns_[static_cast<std::size_t>(lattice_->row_kind(a))]) {
       if (!holds(triangle.edges[0], a, live)) continue;
@@ -38,6 +40,8 @@ class ExposedTriangles {
   }
 
  private:
+  static constexpr std::size_t most_at_cells = 48;  // of eight cells, three faces of two triangles
+
   std::size_t most_of_a_node() const noexcept {
     std::size_t most = 0;
     if (mesh_ != nullptr)
@@ -58,6 +62,19 @@ class ExposedTriangles {
       }
     });
   }
+  /// Where a cut has parted cells: both halves of their faces.
+  template <class Wanted, class Take>
+  void each_of_cells(Index a, const Wanted& wanted, const Take& take) const noexcept {
+    cells_->each_corner(a, [&](Index cell, std::size_t) {
+      for (std::size_t f = 0; f < CellNet::n_faces; ++f) {
+        CellNet::Face face = cells_->face(cell, f);
+        std::rotate(face.begin(), std::ranges::min_element(face), face.end());
+        if (face[0] != a || !cells_->is_exposed(cell, f) || !wanted(face[2])) continue;
+        if (wanted(face[1])) take(face[1], face[2]);
+        if (wanted(face[3])) take(face[2], face[3]);
+      }
+    });
+  }
   template <class Wanted, class Take>
   void each_of_mesh(Index a, const Wanted& wanted, const Take& take) const noexcept {
     for (const Index f : mesh_->faces_of_first.of(a)) {
@@ -68,6 +85,7 @@ class ExposedTriangles {
 
   const Lattice* lattice_;
   const MeshBody* mesh_;  // null: a lattice
+  const CellNet* cells_;  // of finite elements that may be cut; else null
   TrianglePatterns patterns_;
 };
 

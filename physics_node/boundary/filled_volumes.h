@@ -2,6 +2,7 @@
 // The volumes that a body fills now, as tetrahedra: what it takes to know whether a place is inside it. What broke open has no
 // inside.
 
+#include <algorithm>
 #include <array>
 
 #include "physics_node/body/build_lattice.h"
@@ -50,13 +51,23 @@ class FilledVolumes {
         if (!body.cells->is_deformable(at.x(), at.y(), at.z())) continue;
       }
       std::array<Vec3, 6> x;
+      const Index cell = body.cells ? lattice.cell_of(lattice.grid_of(node) + volume.lowest) : 0;
       for (std::size_t c = 0; c < volume.corner.size(); ++c)
-        x[c] = moving_->position(node + volume.corner[c]);
+        x[c] = moving_->position(now_at(body, cell, node + volume.corner[c]));
       for (const auto& t : volume.tetrahedra) take(std::array<Vec3, 4>{x[t[0]], x[t[1]], x[t[2]], x[t[3]]});
     }
   }
 
  private:
+  /// A corner of a cell, which a cut may have given a copy.
+  static Index now_at(const Body& body, Index cell, Index corner) noexcept {
+    const CellNet* net = body.cell_net();
+    if (net == nullptr || !net->is_parted(cell)) return corner;
+    const CellNet::Corners loaded = net->loaded_corners(cell);
+    const auto k = static_cast<std::size_t>(std::ranges::find(loaded, corner) - loaded.begin());
+    return k < loaded.size() ? net->corners(cell)[k] : corner;
+  }
+
   const BodyModel* moving_;
   VolumePatterns patterns_;
   Vec3i shift_ = Vec3i::Zero();  // from grid coordinates to cells, of voxels

@@ -1,5 +1,7 @@
 #include "physics_node/boundary/live_elements.h"
 
+#include <algorithm>
+
 namespace palpate::physics {
 
 LiveElements::LiveElements(const Body& body) : mask_(static_cast<std::size_t>(body.lattice.n_cells())) {}
@@ -23,8 +25,34 @@ void LiveElements::copy_faces(const Body& body) {
     }
 }
 
+/// Cells with a copy at a corner, and those beside them that an open face parts from these.
+void LiveElements::copy_parted(const Body& body) {
+  parted_.clear();
+  const CellNet* net = body.cell_net();
+  if (net == nullptr) return;
+  std::vector<Index> cells(net->parted().begin(), net->parted().end());
+  for (const Index cell : net->parted())
+    for (std::size_t f = 0; f < CellNet::n_faces; ++f)
+      if (const Index other = net->beyond(cell, f); other != CellNet::none && net->is_open(cell, f))
+        cells.push_back(other);
+  std::ranges::sort(cells);
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  for (const Index cell : cells) {
+    PartedCell& one = parted_.emplace_back(PartedCell{cell, net->corners(cell), 0});
+    for (std::size_t f = 0; f < CellNet::n_faces; ++f)
+      if (net->beyond(cell, f) != CellNet::none && net->is_exposed(cell, f))
+        one.open = static_cast<std::uint8_t>(one.open | 1U << f);
+  }
+}
+
+const LiveElements::PartedCell* LiveElements::parted(Index cell) const noexcept {
+  const auto at = std::ranges::lower_bound(parted_, cell, {}, &PartedCell::cell);
+  return at != parted_.end() && at->cell == cell ? &*at : nullptr;
+}
+
 void LiveElements::copy(const Body& body, const Adjacency& from) {
   if (body.mesh) return copy_faces(body);
+  copy_parted(body);
   for (const Index node : body.nodes()) mask_[static_cast<std::size_t>(node)] = from.live_elements(node);
 }
 

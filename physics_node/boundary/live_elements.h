@@ -12,7 +12,8 @@
 
 namespace palpate::physics {
 
-/// Of a mesh that may be cut it holds the faces that can be touched; of another, in which nothing breaks, nothing.
+/// Of a mesh that may be cut it holds the faces that can be touched; of another, in which nothing breaks, nothing. Of cells that may be
+/// cut also those that have been.
 class LiveElements {
  public:
   /// Those alive now.
@@ -34,11 +35,22 @@ class LiveElements {
   };
   std::span<const Face> faces() const { return faces_; }  // in the order of the tetrahedra
 
+  /// A cell of finite elements that a cut has parted from others.
+  struct PartedCell {
+    Index cell = 0;  // its lowest corner, in storage
+    CellNet::Corners corners{};
+    std::uint8_t open = 0;  // bit f: its face f can be touched, and another cell lay behind it
+  };
+  std::span<const PartedCell> parted() const { return parted_; }  // by `cell`
+  const PartedCell* parted(Index cell) const noexcept;            // null: it is as loaded
+
  private:
   void copy_faces(const Body& body);
+  void copy_parted(const Body& body);
 
   ZeroedArray<Mask> mask_;  // (n_cells)
   std::vector<Face> faces_;
+  std::vector<PartedCell> parted_;
 };
 
 /// Answers about masses and elements by grid coordinate.

@@ -1,6 +1,7 @@
 #pragma once
-// Who carries the vertices of a smooth skin while its body breaks. Where the cell goes that carried one, the next
-// that lives around its corner takes it on, at the same place of the body at rest.
+// Who carries the vertices of a smooth skin while its body breaks or is cut. Where the cell goes that carried one, the next
+// that lives around its corner takes it on, at the same place of the body at rest. Where a cut parts a node, it and each of its
+// copies have such a vertex of their own, carried by a cell on their own side.
 
 #include <optional>
 #include <span>
@@ -24,20 +25,28 @@ class LiveSkin {
     return vertex == none ? std::nullopt : std::optional(vertex);
   }
 
+  /// Who carries the first vertex of the node that this is a copy of, on the side of the copy.
+  const Bearers& bearers_of_copy(Index copy) const noexcept {
+    return of_copy_[static_cast<std::size_t>(copy - body_.lattice.n_cells())];
+  }
+
   /// As loaded, whatever is gone. Allocates nothing.
   void restart() noexcept;
   /// A cell has changed. Allocates nothing. Cost: its eight corners, 64 cells.
   void look_at(const Vec3i& cell) noexcept;
 
  private:
+  Bearers bearers_of_part(const Vec3i& corner, std::uint32_t vertex, Index node) const noexcept;
   static constexpr std::uint32_t none = ~std::uint32_t{0};
 
+  const Body& body_;
   const Surface& as_loaded_;
   SmoothSkin skin_;
   CellsNow cells_;
   std::vector<Bearers> now_;          // (n_moving)
   std::vector<std::uint32_t> first_;  // vertex of each mass, that of its first fan  (n_cells of the lattice)
   std::vector<std::uint32_t> next_;   // of the same mass  (n_moving)
+  std::vector<Bearers> of_copy_;      // by copy
 };
 
 }  // namespace palpate::physics

@@ -1,16 +1,16 @@
 #include "physics_node/boundary/surface.h"
 
 namespace palpate::physics {
-namespace {
 
-/// Of flesh under a skin of this colour (0xAABBGGRR).
-std::uint32_t inside_colour(std::uint32_t skin) {
+std::uint32_t inside_colour(std::uint32_t skin) noexcept {
   constexpr double kept[] = {0.8, 0.45, 0.4};  // of red, green, blue. Why: seen beside the skin in any light
   std::uint32_t rgba = skin & 0xFF000000U;
   for (unsigned c = 0; c < 3; ++c)
     rgba |= static_cast<std::uint32_t>(kept[c] * (skin >> 8 * c & 0xFFU)) << 8 * c;
   return rgba;
 }
+
+namespace {
 
 /// Takes triangles, and their corners as vertices where they come first.
 class MeshSurfaceMaker {

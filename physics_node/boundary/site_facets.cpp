@@ -14,13 +14,14 @@ class VoxelSites final : public SiteFacets {
   explicit VoxelSites(const Topology& moving)
       : lattice_(moving.body().lattice),
         cells_(*moving.body().cells),
+        net_(moving.body().cell_net()),
         now_(moving.body(), moving.adjacency().of_all()) {}
 
   std::size_t n_sites() const noexcept override { return cells_.filled.size(); }
 
   /// The eight cells at the mass, and those that share a face with one of them.
   std::size_t around(Index mass, std::span<std::uint32_t, most_around> sites) const noexcept override {
-    const Vec3i at = lattice_.grid_of(mass) + now_.shift();
+    const Vec3i at = lattice_.grid_of(net_ != nullptr ? net_->origin(mass) : mass) + now_.shift();
     std::size_t n = 0;
     for (int z = -2; z <= 1; ++z)
       for (int y = -2; y <= 1; ++y)
@@ -36,6 +37,7 @@ class VoxelSites final : public SiteFacets {
   std::size_t facets_of(std::uint32_t site, std::span<Corners, most_facets> out) const noexcept override {
     const Vec3i cell = cells_.cell_of(site);
     const bool rigid = !is_deformable(cell);
+    if (net_ != nullptr && !rigid) return facets_of_parted(cell, out);
     std::size_t n = 0;
     const auto take = [&](const FacetCorners& corners, bool bounds) {
       if (!bounds || n == out.size()) return;
@@ -55,12 +57,30 @@ class VoxelSites final : public SiteFacets {
   bool is_rigid(std::uint32_t site) const noexcept override { return !is_deformable(cells_.cell_of(site)); }
 
  private:
+  /// Of a cell that a cut may part from others: its faces with nothing behind them, with its own nodes at their corners.
+  std::size_t facets_of_parted(const Vec3i& cell, std::span<Corners, most_facets> out) const noexcept {
+    const Index lowest = now_.mass(cell);
+    std::size_t n = 0;
+    if (lowest < 0 || !net_->has_cell(lowest)) return n;
+    const CellNet::Corners corners = net_->corners(lowest);
+    for (std::size_t f = 0; f < voxel_faces.size(); ++f) {
+      const VoxelFace& face = voxel_faces[f];
+      const Vec3i beyond = cell + face.outward;
+      const bool covered = cells_.is_filled(beyond.x(), beyond.y(), beyond.z());
+      if (covered && (!is_deformable(beyond) || !net_->is_exposed(lowest, f))) continue;
+      for (std::size_t c = 0; c < 4; ++c)
+        out[n][c] = corners[static_cast<std::size_t>(face.corners[c].dot(Vec3i(1, 2, 4)))];
+      ++n;
+    }
+    return n;
+  }
   bool is_deformable(const Vec3i& c) const noexcept { return cells_.is_deformable(c.x(), c.y(), c.z()); }
   std::uint32_t number(const Vec3i& c) const noexcept {
     return static_cast<std::uint32_t>(cells_.index(c.x(), c.y(), c.z()));
   }
   const Lattice& lattice_;
   const Cells& cells_;
+  const CellNet* net_;  // of finite elements that may be cut; else null
   CellsNow now_;
 };
 

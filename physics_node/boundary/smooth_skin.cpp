@@ -167,14 +167,15 @@ Vec3 SmoothSkin::place(const Vec3i& corner, int fan) const noexcept {
   return cells_.corner + cells_.spacing.cwiseProduct(sum / n);
 }
 
-Bearers bearers_in_cell(const Body& body, const Vec3i& shift, const Vec3i& cell, const Vec3& place) noexcept {
+Bearers bearers_in_cell(const Body& body, const Vec3i& shift, const Vec3i& cell, const Vec3& place,
+                        const CellNet::Corners* corners) noexcept {
   const Vec3 xi = (place - body.cells->corner).cwiseQuotient(body.cells->spacing) - cell.cast<double>();
   Bearers by;
   for (unsigned o = 0; o < 8; ++o) {
     const Vec3i at(bit(o, 0), bit(o, 1), bit(o, 2));
     double w = 1;
     for (int a = 0; a < 3; ++a) w *= at[a] != 0 ? xi[a] : 1 - xi[a];
-    const Index node = body.lattice.mass_at(cell + at - shift);
+    const Index node = corners != nullptr ? (*corners)[o] : body.lattice.mass_at(cell + at - shift);
     if (node < 0) return {};
     if (w == 0) continue;
     by.weight[by.n] = w;
@@ -183,20 +184,21 @@ Bearers bearers_in_cell(const Body& body, const Vec3i& shift, const Vec3i& cell,
   return by;
 }
 
-Bearers SmoothSkin::bearers_among(const Vec3i& corner, int fan, const Vec3& place,
-                                  unsigned lives) const noexcept {
-  const Index own = body_.lattice.mass_at(corner - shift_);
-  if (own < 0) return {};
+bool SmoothSkin::is_beside_scenery(const Vec3i& corner) const noexcept {
   for (unsigned o = 0; o < 8; ++o)
     if (const Vec3i cell = cell_at(corner, o);
         cells_.is_filled(cell.x(), cell.y(), cell.z()) && !cells_.is_deformable(cell.x(), cell.y(), cell.z()))
-      return Bearers::alone(own);
+      return true;
+  return false;
+}
+
+/// Octant of the cell that holds the place, else the nearest of its fan, else the nearest of all; -1: none lives.
+int SmoothSkin::holder_among(const Vec3i& corner, int fan, const Vec3& place, unsigned lives) const noexcept {
   const SkinFans& all = fans(corner);
   const Vec3 away =
       (place - cells_.corner) - cells_.spacing.cwiseProduct(corner.cast<double>());  // from the corner [m]
-  // The cell that holds it, else the nearest of its fan, else the nearest of all.
   const unsigned holder = (away.x() > 0 ? 1U : 0U) | (away.y() > 0 ? 2U : 0U) | (away.z() > 0 ? 4U : 0U);
-  if ((lives >> holder & 1) != 0) return bearers_in_cell(body_, shift_, cell_at(corner, holder), place);
+  if ((lives >> holder & 1) != 0) return static_cast<int>(holder);
   int best = -1;
   double least = std::numeric_limits<double>::infinity();
   for (const bool of_fan : {true, false}) {
@@ -213,9 +215,19 @@ Bearers SmoothSkin::bearers_among(const Vec3i& corner, int fan, const Vec3& plac
       }
       if (square < least) least = square, best = static_cast<int>(o);
     }
-    if (best >= 0) return bearers_in_cell(body_, shift_, cell_at(corner, static_cast<unsigned>(best)), place);
+    if (best >= 0) break;
   }
-  return Bearers::alone(own);
+  return best;
+}
+
+Bearers SmoothSkin::bearers_among(const Vec3i& corner, int fan, const Vec3& place,
+                                  unsigned lives) const noexcept {
+  const Index own = body_.lattice.mass_at(corner - shift_);
+  if (own < 0) return {};
+  if (is_beside_scenery(corner)) return Bearers::alone(own);
+  const int holder = holder_among(corner, fan, place, lives);
+  if (holder < 0) return Bearers::alone(own);
+  return bearers_in_cell(body_, shift_, cell_at(corner, static_cast<unsigned>(holder)), place);
 }
 
 }  // namespace palpate::physics

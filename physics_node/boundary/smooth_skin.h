@@ -28,7 +28,9 @@ const SkinFans& skin_fans(unsigned filled) noexcept;
 
 /// Of a place in a cell or beside it, by trilinear weights; nobody where the cell has no masses.
 /// @param shift  from grid coordinates of the lattice to corners of cells
-Bearers bearers_in_cell(const Body& body, const Vec3i& shift, const Vec3i& cell, const Vec3& place) noexcept;
+/// @param corners  of the cell where a cut has given it copies; null: as loaded
+Bearers bearers_in_cell(const Body& body, const Vec3i& shift, const Vec3i& cell, const Vec3& place,
+                        const CellNet::Corners* corners = nullptr) noexcept;
 
 class SmoothSkin {
  public:
@@ -56,6 +58,19 @@ class SmoothSkin {
         lives |= 1U << o;
     return bearers_among(corner, fan, place, lives);
   }
+  /// The same at a node that a cut has parted, or at its copy.
+  /// @param corners_at  const CellNet::Corners*(octant): of the cell there, if it has that node; else null
+  template <class CornersAt>
+  Bearers bearers_of_part(const Vec3i& corner, int fan, const Vec3& place, Index node,
+                          const CornersAt& corners_at) const noexcept {
+    unsigned mine = 0;
+    for (unsigned o = 0; o < 8; ++o)
+      if (corners_at(o) != nullptr) mine |= 1U << o;
+    const int holder = is_beside_scenery(corner) ? -1 : holder_among(corner, fan, place, mine);
+    if (holder < 0) return Bearers::alone(node);
+    const auto o = static_cast<unsigned>(holder);
+    return bearers_in_cell(body_, shift_, cell_at(corner, o), place, corners_at(o));
+  }
 
   /// The cell in an octant of a corner.
   static Vec3i cell_at(const Vec3i& corner, unsigned octant) noexcept {
@@ -70,6 +85,8 @@ class SmoothSkin {
   bool shown(const Vec3i& cell) const noexcept;
   double intensity(const Vec3i& cell) const noexcept;
   Bearers bearers_among(const Vec3i& corner, int fan, const Vec3& place, unsigned lives) const noexcept;
+  bool is_beside_scenery(const Vec3i& corner) const noexcept;
+  int holder_among(const Vec3i& corner, int fan, const Vec3& place, unsigned lives) const noexcept;
 
   const Body& body_;
   const Cells& cells_;

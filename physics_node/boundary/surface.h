@@ -58,6 +58,9 @@ Surface fcc_surface(const Body& body, const LiveElements& live, std::uint32_t rg
 /// faces between two tetrahedra.
 Surface mesh_surface(const Body& body, const LiveElements& live, std::uint32_t rgba);
 
+/// Of flesh under a skin of this colour (0xAABBGGRR).
+std::uint32_t inside_colour(std::uint32_t skin) noexcept;
+
 /// The same facets with the masses themselves at their corners.
 Surface on_masses(const Body& body, Surface surface);
 

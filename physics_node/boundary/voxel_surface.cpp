@@ -13,8 +13,8 @@ namespace {
 /// Gives every vertex that a facet uses a number: those that move and points of the scenery apart.
 class Numbering {
  public:
-  Numbering(const Body& body, const CutCells& cut, std::optional<double> threshold)
-      : body_(body), cut_(cut), shift_(lattice_corner(*body.cells, body.lattice)) {
+  Numbering(const Body& body, const LiveElements& live, const CutCells& cut, std::optional<double> threshold)
+      : body_(body), live_(live), cut_(cut), shift_(lattice_corner(*body.cells, body.lattice)) {
     if (SmoothSkin::is_on(body)) skin_.emplace(body, threshold);
   }
 
@@ -23,13 +23,17 @@ class Numbering {
     const Vec3i& n = body_.cells->size;
     const int fan = fan_of(corner, cell);
     constexpr int most_fans = 4;
+    const Index mass = node_at(corner, cell);
+    const bool is_copy = mass >= body_.lattice.n_cells();
     const std::int64_t key =
-        fan + 1 + (most_fans + 1) * (corner.x() + (n.x() + 1LL) * (corner.y() + (n.y() + 1LL) * corner.z()));
+        is_copy
+            ? -1 - (fan + 1 + (most_fans + 1LL) * mass)
+            : fan + 1 +
+                  (most_fans + 1) * (corner.x() + (n.x() + 1LL) * (corner.y() + (n.y() + 1LL) * corner.z()));
     const auto found = numbers_.find(key);
     if (found != numbers_.end()) return found->second;
-    const Index mass = body_.lattice.mass_at(corner - shift_);
     const Vec3 on_lattice =
-        mass >= 0 ? body_.lattice.rest_position(mass)
+        mass >= 0 ? body_.lattice.rest_position(body_.lattice.mass_at(corner - shift_))
                   : Vec3(body_.cells->corner + body_.cells->spacing.cwiseProduct(corner.cast<double>()));
     const Vec3 rest = fan < 0 ? on_lattice : skin_->place(corner, fan);
     std::int64_t value = 0;
@@ -59,13 +63,48 @@ class Numbering {
       if (cut_.is_cut(SmoothSkin::cell_at(corner, o))) return 0;
     return fan;
   }
+  /// As the cell has it.
+  Index node_at(const Vec3i& corner, const Vec3i& cell) const {
+    const Index loaded = body_.lattice.mass_at(corner - shift_);
+    if (loaded < 0 || live_.parted().empty()) return loaded;
+    const auto* parted = live_.parted(storage_of(cell));
+    return parted == nullptr ? loaded
+                             : parted->corners[static_cast<std::size_t>((corner - cell).dot(Vec3i(1, 2, 4)))];
+  }
+  Index storage_of(const Vec3i& cell) const { return body_.lattice.mass_at(cell - shift_); }
+  /// Where a cell at the corner has been parted, one that has the node.
+  std::optional<Bearers> bearers_at_cut(const Vec3i& corner, int fan, Index mass, const Vec3& rest) const {
+    if (live_.parted().empty()) return std::nullopt;
+    std::array<CellNet::Corners, 8> corners{};
+    std::array<bool, 8> has{};
+    bool any = false;
+    for (unsigned o = 0; o < 8; ++o) {
+      const Vec3i cell = SmoothSkin::cell_at(corner, o);
+      if (body_.cells->share_of(cell.x(), cell.y(), cell.z()) <= 0) continue;
+      const Index lowest = storage_of(cell);
+      const auto* parted = live_.parted(lowest);
+      any = any || parted != nullptr;
+      corners[o] = parted != nullptr ? parted->corners : body_.cell_net()->loaded_corners(lowest);
+      has[o] = corners[o][7 - o] == mass;
+    }
+    if (!any) return std::nullopt;
+    return skin_->bearers_of_part(corner, fan, rest, mass,
+                                  [&](unsigned o) { return has[o] ? &corners[o] : nullptr; });
+  }
   void add_bearers(const Vec3i& corner, int fan, Index mass, const Vec3& rest, Surface& surface) const {
+    if (fan >= 0)
+      if (const auto by = bearers_at_cut(corner, fan, mass, rest)) {
+        surface.bearers.push_back(*by);
+        surface.fan.push_back(static_cast<std::uint8_t>(fan));
+        return;
+      }
     const auto alive = [this](const Vec3i& cell) { return !cut_.is_cut(cell); };
     surface.bearers.push_back(fan < 0 ? Bearers::alone(mass) : skin_->bearers(corner, fan, rest, alive));
     surface.fan.push_back(static_cast<std::uint8_t>(fan < 0 ? no_fan : fan));
   }
 
   const Body& body_;
+  const LiveElements& live_;
   const CutCells& cut_;
   Vec3i shift_;
   std::optional<SmoothSkin> skin_;
@@ -78,8 +117,11 @@ class Builder {
  public:
   Builder(const Body& body, const LiveElements& live, std::optional<double> threshold, std::uint32_t rgba)
       : cells_(*body.cells),
+        body_(body),
+        live_(live),
+        shift_(lattice_corner(cells_, body.lattice)),
         cut_(body, live),
-        numbering_(body, cut_, threshold),
+        numbering_(body, live, cut_, threshold),
         threshold_(cells_.intensity.empty() ? std::nullopt : threshold),
         rgba_(rgba) {}
 
@@ -91,6 +133,7 @@ class Builder {
         for (int i = 0; i < cells_.size.x(); ++i) {
           const Vec3i cell(i, j, k);
           if (!shown(cell)) continue;
+          for (const VoxelFace& face : voxel_faces) add_opened(cell, face);
           for (const VoxelFace& face : voxel_faces)
             count_hidden(facets.on_face(cell, face, [&](const FacetCorners& corners, bool) {
               add_facet(cell, corners, coloured_by(cell, face));
@@ -111,6 +154,17 @@ class Builder {
   double intensity(const Vec3i& cell) const {
     return static_cast<double>(cells_.intensity[cells_.index(cell.x(), cell.y(), cell.z())]);
   }
+  /// A face that a cut has opened between two cells that are shown.
+  void add_opened(const Vec3i& cell, const VoxelFace& face) {
+    if (live_.parted().empty() || !cells_.is_deformable(cell.x(), cell.y(), cell.z())) return;
+    if (!shown(cell + face.outward)) return;
+    const auto* parted = live_.parted(body_.lattice.mass_at(cell - shift_));
+    if (parted == nullptr || (parted->open >> (&face - voxel_faces.data()) & 1) == 0) return;
+    std::array<Vec3i, 4> corners;
+    for (std::size_t c = 0; c < 4; ++c) corners[c] = cell + face.corners[c];
+    add_facet(cell, corners, cell, cells_.transfer.empty() ? inside_colour(rgba_) : 0);
+    surface_.hidden -= 1;  // on_face() counts it
+  }
   void count_hidden(int facets) { surface_.hidden += static_cast<std::uint64_t>(facets); }
 
   /// A smooth skin cuts through cells that are partly air, and has the colour of the tissue below them.
@@ -119,10 +173,13 @@ class Builder {
     return numbering_.is_smooth() && shown(below) ? below : cell;
   }
 
-  void add_facet(const Vec3i& cell, const std::array<Vec3i, 4>& corners, const Vec3i& coloured) {
+  /// @param rgba  0: its own
+  void add_facet(const Vec3i& cell, const std::array<Vec3i, 4>& corners, const Vec3i& coloured,
+                 std::uint32_t rgba = 0) {
     auto& facet = facets_.emplace_back();
     for (std::size_t c = 0; c < 4; ++c) facet[c] = numbering_.number(corners[c], cell, surface_);
-    surface_.rgba.push_back(cells_.transfer.empty() ? rgba_ : rgba_of(cells_.transfer, intensity(coloured)));
+    if (rgba == 0) rgba = cells_.transfer.empty() ? rgba_ : rgba_of(cells_.transfer, intensity(coloured));
+    surface_.rgba.push_back(rgba);
     surface_.site.push_back(static_cast<std::uint32_t>(cells_.index(cell.x(), cell.y(), cell.z())));
   }
 
@@ -151,6 +208,9 @@ class Builder {
   }
 
   const Cells& cells_;
+  const Body& body_;
+  const LiveElements& live_;
+  Vec3i shift_;
   CutCells cut_;
   Numbering numbering_;
   std::optional<double> threshold_;

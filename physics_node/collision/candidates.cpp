@@ -11,8 +11,8 @@ Candidates::Candidates(const BodyModel& moving, bool with_front)
   length_ = body.spacing();
   longest_element_ = 1.01 * body.longest_element();
   number_.assign(static_cast<std::size_t>(body.capacity()), -1);
-  most_ = body.mesh ? static_cast<std::size_t>(body.capacity()) : body.nodes().size();
-  if (!any_breaks(body))
+  most_ = body.nodes().size() + body.most_copies();
+  if (!may_come_apart(body))
     most_ = static_cast<std::size_t>(std::count_if(body.nodes().begin(), body.nodes().end(), [&](Index node) {
       return exposed_.contains(node, body.adjacency());
     }));

@@ -47,9 +47,11 @@ class ContactBody {
   /// Can this candidate meet others of its own body? It can where it has lost an element, and everywhere on what has come
   /// off. What is whole folds through itself, as a body does that has not broken anywhere.
   bool may_meet_itself(std::size_t candidate) const noexcept;
-  /// Has any element broken? Then it touches itself too. The sides of a cut through tetrahedra lie in one place when they
-  /// part, and are not held apart.
-  bool touches_itself() const { return moving().breaks() > 0 && !moving().body().mesh; }
+  /// Has any element broken? Then it touches itself too. The sides of a cut through finite elements lie in one place when
+  /// they part, and are not held apart.
+  bool touches_itself() const {
+    return moving().breaks() > 0 && !moving().body().mesh && moving().body().cell_net() == nullptr;
+  }
 
   const Candidates& candidates() const { return candidates_; }
   const Facets* facets() const { return facets_.get(); }

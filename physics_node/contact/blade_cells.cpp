@@ -13,6 +13,9 @@ namespace {
 constexpr double of_giving_way = 0.6;
 constexpr double most_joins = 4;  // or an edge would press on what is far beside it
 
+constexpr std::array<std::array<std::size_t, 2>, 12> hex_edges{
+    {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3}, {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}};
+
 /// Gc / E of the material in which it is largest [m].
 double gives_way_by(const Body& body) {
   double most = 0;
@@ -22,19 +25,40 @@ double gives_way_by(const Body& body) {
 
 }  // namespace
 
-BladeCells::BladeCells(const BodyModel& body) : body_(&body), h_(body.body().spacing()) {
-  if (!body.body().mesh) return;
-  net_ = body.body().mesh->net.get();
-  skin_.assign(4 * static_cast<std::size_t>(net_->n_tets()), -1);
-  for (Index tet = 0; tet < net_->n_tets(); ++tet)
-    for (std::size_t f = 0; f < 4; ++f) {
-      if (net_->beyond(tet, f) != TetNet::none) continue;
-      skin_[4 * static_cast<std::size_t>(tet) + f] = static_cast<std::int32_t>(faces_.size());
-      faces_.push_back({tet, f});
+/// Outer faces are numbered in the order of the elements.
+template <class Net>
+void BladeCells::number_elements(const Net& net, std::span<const Index> elements, std::size_t n_faces) {
+  numbers_.assign(elements.begin(), elements.end());
+  skin_.assign(n_faces * static_cast<std::size_t>(first_skin_), -1);
+  for (const Index element : elements)
+    for (std::size_t f = 0; f < n_faces; ++f) {
+      if (net.beyond(element, f) != Net::none) continue;
+      skin_[n_faces * static_cast<std::size_t>(element) + f] = static_cast<std::int32_t>(faces_.size());
+      numbers_.push_back(first_skin_ + static_cast<Index>(faces_.size()));
+      faces_.push_back({element, f});
     }
   passed_.assign(faces_.size(), 0);
-  numbers_.resize(static_cast<std::size_t>(net_->n_tets()) + faces_.size());
-  std::iota(numbers_.begin(), numbers_.end(), 0);
+  rest_.assign(capacity(), Vec3::Zero());
+  for (const Index cell : numbers_)
+    rest_[static_cast<std::size_t>(cell)] =
+        mean(cell, [this](Index node) { return body_->body().rest_position(node); });
+}
+
+BladeCells::BladeCells(const BodyModel& body)
+    : body_(&body),
+      tets_(body.body().mesh ? body.body().mesh->net.get() : nullptr),
+      hexes_(body.body().cell_net()),
+      h_(body.body().spacing()) {
+  if (!have_volumes()) return;
+  if (tets_ != nullptr) {
+    first_skin_ = tets_->n_tets();
+    std::vector<Index> all(static_cast<std::size_t>(first_skin_));
+    std::iota(all.begin(), all.end(), 0);
+    number_elements(*tets_, all, 4);
+  } else {
+    first_skin_ = hexes_->n_loaded();
+    number_elements(*hexes_, hexes_->cells(), CellNet::n_faces);
+  }
   double longest2 = 0;
   for (const Index cell : numbers_)
     each_joined(
@@ -45,25 +69,45 @@ BladeCells::BladeCells(const BodyModel& body) : body_(&body), h_(body.body().spa
 
 double BladeCells::toughness(Index cell) const noexcept {
   const Body& body = body_->body();
-  if (net_ == nullptr) return law_at(body, cell).cut_toughness;
-  const Index tet = is_skin(cell) ? faces_[face_of(cell)].tet : cell;
-  const int material = body.mesh->model.mesh.region[static_cast<std::size_t>(tet)];
+  const Index element = is_skin(cell) ? faces_[face_of(cell)].element : cell;
+  if (hexes_ != nullptr)
+    return static_cast<double>(body.solid->cut_toughness[static_cast<std::size_t>(element)]);
+  if (tets_ == nullptr) return law_at(body, cell).cut_toughness;
+  const int material = body.mesh->model.mesh.region[static_cast<std::size_t>(element)];
   return body.laws[static_cast<std::size_t>(material)].cut_toughness;
 }
 
+std::span<const std::array<std::size_t, 2>> BladeCells::edges() const noexcept {
+  return hexes_ != nullptr ? std::span<const std::array<std::size_t, 2>>(hex_edges) : std::span(tet_edges);
+}
+
 BladeCells::Nodes BladeCells::nodes(Index cell) const noexcept {
-  if (net_ == nullptr) return {{cell}, 1};
-  if (!is_skin(cell)) return {net_->corners(cell), 4};
+  Nodes all;
+  const auto take = [&all](const auto& some) {
+    all.n = some.size();
+    std::ranges::copy(some, all.of.begin());
+  };
+  if (!have_volumes()) return {{cell}, 1};
+  if (!is_skin(cell)) {
+    if (tets_ != nullptr)
+      take(tets_->corners(cell));
+    else
+      take(hexes_->corners(cell));
+    return all;
+  }
   const Skin& skin = faces_[face_of(cell)];
-  const MeshTriangle face = net_->face(skin.tet, skin.face);
-  return {{face[0], face[1], face[2], 0}, 3};
+  if (tets_ != nullptr)
+    take(tets_->face(skin.element, skin.face));
+  else
+    take(hexes_->face(skin.element, skin.face));
+  return all;
 }
 
 Vec3 BladeCells::rest(Index cell) const noexcept {
-  return mean(cell, [this](Index node) { return body_->body().rest_position(node); });
+  return have_volumes() ? rest_[static_cast<std::size_t>(cell)] : body_->body().rest_position(cell);
 }
 Vec3 BladeCells::position(Index cell) const noexcept {
-  return mean(cell, [this](Index node) { return body_->position(node); });
+  return rest(cell) + mean(cell, [this](Index node) { return body_->displacement(node); });
 }
 Vec3 BladeCells::velocity(Index cell) const noexcept {
   return mean(cell, [this](Index node) { return body_->velocity(node); });

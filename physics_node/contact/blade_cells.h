@@ -1,7 +1,7 @@
 #pragma once
 // What an edge goes between in a body: cells that stay whole and hang together until it has passed between them. Of a
-// lattice of springs these are its masses; of tetrahedra they are the tetrahedra, and their outer faces, so that
-// tissue reaches as far as its skin.
+// lattice of springs these are its masses; of finite elements they are the elements, tetrahedra or cells of the lattice, and
+// their outer faces, so that tissue reaches as far as its skin.
 //
 // A cell is where its nodes are in the mean, and what presses on it presses on each of them alike, s = 1 / their number:
 // force on a node F_n = sum of s F, and a cell gives way by sum of s F_n / m_n.
@@ -19,21 +19,22 @@ class BladeCells {
  public:
   /// Of nothing.
   BladeCells() = default;
-  /// @param body  a lattice of springs, or tetrahedra that may be cut; outlives this
+  /// @param body  a lattice of springs, or finite elements that may be cut; outlives this
   explicit BladeCells(const BodyModel& body);
 
   /// Numbers of all.
-  std::span<const Index> all() const noexcept { return net_ != nullptr ? numbers_ : body_->body().nodes(); }
+  std::span<const Index> all() const noexcept { return have_volumes() ? numbers_ : body_->body().nodes(); }
   std::size_t capacity() const noexcept {  // numbers are below it
-    return net_ != nullptr ? numbers_.size() : static_cast<std::size_t>(body_->body().capacity());
+    return have_volumes() ? static_cast<std::size_t>(first_skin_) + faces_.size()
+                          : static_cast<std::size_t>(body_->body().capacity());
   }
-  /// How far cells lie apart [m]; no two that are joined lie farther apart than 1.5 of it. Of tetrahedra no less than
+  /// How far cells lie apart [m]; no two that are joined lie farther apart than 1.5 of it. Of finite elements no less than
   /// what an edge presses in before it cuts.
   double spacing() const noexcept { return h_; }
   double toughness(Index cell) const noexcept;  // [J/m^2]
 
   struct Nodes {
-    std::array<Index, 4> of{};
+    std::array<Index, 8> of{};
     std::size_t n = 1;
     std::span<const Index> list() const noexcept { return {of.data(), n}; }
   };
@@ -45,24 +46,21 @@ class BladeCells {
   /// Calls visit(other) for each that it hangs together with.
   template <class Visit>
   void each_joined(Index cell, const Visit& visit) const noexcept {
-    if (net_ == nullptr) return body_->adjacency().each_neighbour(cell, visit);
-    if (cell >= net_->n_tets()) {
-      if (passed_[face_of(cell)] == 0) visit(faces_[face_of(cell)].tet);
+    if (is_skin(cell)) {
+      if (passed_[face_of(cell)] == 0) visit(faces_[face_of(cell)].element);
       return;
     }
-    for (std::size_t f = 0; f < 4; ++f) {
-      const Index other = net_->beyond(cell, f);
-      if (other != TetNet::none && !net_->is_open(cell, f)) visit(other);
-      if (other != TetNet::none) continue;
-      const auto skin = static_cast<std::size_t>(skin_[4 * static_cast<std::size_t>(cell) + f]);
-      if (passed_[skin] == 0) visit(net_->n_tets() + static_cast<Index>(skin));
-    }
+    if (tets_ != nullptr) return each_beyond(*tets_, 4, cell, visit);
+    if (hexes_ != nullptr) return each_beyond(*hexes_, CellNet::n_faces, cell, visit);
+    body_->adjacency().each_neighbour(cell, visit);
   }
-  bool have_volumes() const noexcept { return net_ != nullptr; }
+  bool have_volumes() const noexcept { return tets_ != nullptr || hexes_ != nullptr; }
   /// Is it of a volume, of which a plane has a section, or a point?
-  bool has_section(Index cell) const noexcept { return net_ != nullptr && cell < net_->n_tets(); }
-  /// Has the edge gone between a tetrahedron and its skin? Nothing of the body comes apart there.
-  bool is_skin(Index cell) const noexcept { return net_ != nullptr && cell >= net_->n_tets(); }
+  bool has_section(Index cell) const noexcept { return have_volumes() && cell < first_skin_; }
+  /// Which of the nodes of such a volume its edges join.
+  std::span<const std::array<std::size_t, 2>> edges() const noexcept;
+  /// Has the edge gone between an element and its skin? Nothing of the body comes apart there.
+  bool is_skin(Index cell) const noexcept { return have_volumes() && cell >= first_skin_; }
   void pass_skin(Index cell) noexcept { passed_[face_of(cell)] = 1; }
   void reset() noexcept { passed_.assign(passed_.size(), 0); }
 
@@ -95,10 +93,22 @@ class BladeCells {
 
  private:
   struct Skin {
-    Index tet = 0;
+    Index element = 0;
     std::size_t face = 0;
   };
-  std::size_t face_of(Index cell) const noexcept { return static_cast<std::size_t>(cell - net_->n_tets()); }
+  std::size_t face_of(Index cell) const noexcept { return static_cast<std::size_t>(cell - first_skin_); }
+  template <class Net>
+  void number_elements(const Net& net, std::span<const Index> elements, std::size_t n_faces);
+  template <class Net, class Visit>
+  void each_beyond(const Net& net, std::size_t n_faces, Index cell, const Visit& visit) const noexcept {
+    for (std::size_t f = 0; f < n_faces; ++f) {
+      const Index other = net.beyond(cell, f);
+      if (other != Net::none && !net.is_open(cell, f)) visit(other);
+      if (other != Net::none) continue;
+      const auto skin = static_cast<std::size_t>(skin_[n_faces * static_cast<std::size_t>(cell) + f]);
+      if (passed_[skin] == 0) visit(first_skin_ + static_cast<Index>(skin));
+    }
+  }
   template <class Of>
   Vec3 mean(Index cell, const Of& of) const noexcept {
     const Nodes at = nodes(cell);
@@ -108,11 +118,14 @@ class BladeCells {
   }
 
   const BodyModel* body_ = nullptr;
-  const TetNet* net_ = nullptr;  // null: a lattice
+  const TetNet* tets_ = nullptr;    // null: no tetrahedra
+  const CellNet* hexes_ = nullptr;  // null: no cells; with both a lattice of springs
   double h_ = 1;
-  std::vector<Index> numbers_;        // of a mesh
+  Index first_skin_ = 0;              // elements have numbers below it
+  std::vector<Index> numbers_;        // of elements, then of outer faces
+  std::vector<Vec3> rest_;            // of each of them, by number [m]
   std::vector<Skin> faces_;           // outer ones as loaded
-  std::vector<std::int32_t> skin_;    // 4 tet + face: its number in faces_; -1: none
+  std::vector<std::int32_t> skin_;    // by element and face: its number in faces_; -1: none
   std::vector<std::uint8_t> passed_;  // of each of faces_
 };
 

@@ -156,9 +156,9 @@ void BladeLinks::cross(double s) noexcept {
 BladeLinks::Section BladeLinks::section_of(Index cell) const noexcept {
   Section section;
   const BladeCells::Nodes of = cells_.nodes(cell);
-  std::array<Vec3, 4> at;
-  for (std::size_t c = 0; c < 4; ++c) at[c] = frame_.coordinates(cells_.corner(of.of[c]));
-  for (const auto& [i, j] : tet_edges) {
+  std::array<Vec3, 8> at;
+  for (std::size_t c = 0; c < of.n; ++c) at[c] = frame_.coordinates(cells_.corner(of.of[c]));
+  for (const auto& [i, j] : cells_.edges()) {
     const double below = at[i].z() - plane_, above = at[j].z() - plane_;
     if ((below < 0) == (above < 0)) continue;
     const double p = at[i].x() + below / (below - above) * (at[j].x() - at[i].x());

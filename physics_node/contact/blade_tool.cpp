@@ -20,26 +20,30 @@ constexpr std::size_t most_cuts = 4096;  // in a step
 bool is_lattice_of_springs(const Body& body) { return !body.solid && !body.mesh; }
 /// Where their materials say how tough they are.
 bool is_of_a_kind_to_cut(const Body& body) {
-  return is_lattice_of_springs(body) ||
+  return is_lattice_of_springs(body) || is_parted_where_cut(body) ||
          (body.mesh && !body.mesh->springs && body.mesh->model.mesh.middles.empty());
 }
-bool is_cut(const Body& body) { return is_lattice_of_springs(body) || (body.mesh && body.mesh->net); }
+bool is_cut(const Body& body) {
+  return is_lattice_of_springs(body) || body.cell_net() != nullptr || (body.mesh && body.mesh->net);
+}
 
 /// What kind it is that a scalpel does not cut, and what would do.
 const char* kind_and_remedy(const Body& body) {
   if (is_surface_of_springs(body))
     return "a surface of springs; fill it with tetrahedra, or join it by a [[connection]]";
   if (body.mesh) return "of second order; write elements = \"nodal_pressure\" there";
-  return "of cells of finite elements; write model = \"springs\" there, or give it a mesh of tetrahedra";
+  if (is_awake_in_parts(body))
+    return "awake in parts; write deformable = { center = ..., nearest = ... } there";
+  return "of finite elements that yield, break or relax; leave that out of its materials";
 }
 
 void refuse_uncut(const ToolSpec& tool, const Body& body) {
   if (!is_of_a_kind_to_cut(body))
-    throw InputError(
-        fmt::format("{}: shape = \"scalpel\" cuts lattices of springs, tetrahedra of first order and what a "
-                    "[[connection]] "
-                    "joins, and \"{}\" is {}",
-                    tool.place.text(), body.name, kind_and_remedy(body)));
+    throw InputError(fmt::format(
+        "{}: shape = \"scalpel\" cuts springs, finite elements of first order that are elastic, and what a "
+        "[[connection]] "
+        "joins, and \"{}\" is {}",
+        tool.place.text(), body.name, kind_and_remedy(body)));
   if (std::ranges::any_of(body.laws, [](const ElementLaw& law) { return law.cut_toughness <= 0; }))
     throw InputError(
         fmt::format("{}: shape = \"scalpel\" needs to know how tough \"{}\" is; give each of its materials "
@@ -80,7 +84,7 @@ BladeTool::BladeTool(const ToolSpec& tool, std::uint32_t index, const BodyModels
     if (connections.empty() || is_lattice_of_springs(body)) refuse_uncut(tool, body);
     if (is_cut(body)) bodies_.push_back({b, BladeLinks(*bodies[b], tool.length)});
   }
-  forces_.reserve(4 * BladeLinks::most_nodes);
+  forces_.reserve(8 * BladeLinks::most_nodes);
   cuts_.reserve(most_cuts);
 }
 

@@ -12,11 +12,12 @@ Fragments::Fragments(const Topology& moving) {
   label_ = ZeroedArray<Index>(n);
   next_ = ZeroedArray<Index>(n, 1);
   front_of_ = ZeroedArray<Index>(n, 2);
-  const auto n_masses = static_cast<std::size_t>(body.n_nodes()) + (body.mesh ? body.mesh->most_copies() : 0);
+  const auto n_masses = static_cast<std::size_t>(body.n_nodes()) + body.most_copies();
   masses_.reserve(n_masses);
-  const auto most_breaks = body.mesh
-                               ? body.mesh->most_copies()
-                               : std::min(TopologyEvents::most, static_cast<std::size_t>(body.n_elements()));
+  const auto most_breaks =
+      any_breaks(body) && !body.mesh
+          ? std::min(TopologyEvents::most, static_cast<std::size_t>(body.n_elements())) + body.most_copies()
+          : body.most_copies();
   fronts_.reserve(std::min(2 * most_breaks, n_masses));
   turns_.reserve(fronts_.capacity());
   links_.reserve(2 * most_breaks);

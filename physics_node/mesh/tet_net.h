@@ -14,14 +14,10 @@
 #include <span>
 #include <vector>
 
+#include "physics_node/lattice/node_split.h"
 #include "physics_node/mesh/mesh_parts.h"
 
 namespace palpate::physics {
-
-/// A node and the copy of it that a part of its tetrahedra have taken.
-struct NodeSplit {
-  Index node = 0, copy = 0;
-};
 
 class TetNet {
  public:

@@ -28,6 +28,20 @@ constexpr int busy_steps_a_frame =
 /// viscosity has taken more than half of the step, and beta is 2.4 steps.
 constexpr double viscous_lag_of_a_step = 2.4;
 
+/// A bar of stable neo-Hookean tissue, free at its sides, is pressed hardest at this share L of its length, and gives way below:
+///   P(L) / mu = L + [k (J - 1) - 1] w,   J = L w,   w = ((1 + k) L - 1) / (k L^2) the square of its width,   k = 1 + lambda / mu
+double pressed_hardest_at(double poisson_ratio) {
+  const double k = 1 + 2 * poisson_ratio / (1 - 2 * poisson_ratio);
+  double least = 0, at = 1;
+  for (double L = 1; L > 0.2; L -= 1e-3) {
+    const double w = ((1 + k) * L - 1) / (k * L * L);
+    const double P = L + (k * (L * w - 1) - 1) * w;
+    if (P < least) least = P, at = L;
+  }
+  return at;
+}
+constexpr double rarely_pressed_to = 0.5;  // of its length
+
 /// A scene need not have the table.
 std::string place_of_physics(const Scene& scene) {
   const std::string place = scene.physics->place.text();
@@ -52,6 +66,13 @@ void add_materials(const Scene& scene, Remarks& remarks) {
           who +
           " has law = \"green\", which gives way where a cell is squeezed below 0.6 of its length; leave "
           "it out where tissue is pressed deep");
+    const double hardest = pressed_hardest_at(material.poisson_ratio);
+    if (material.modulus && material.law == TissueLaw::neo_hookean && hardest > rarely_pressed_to)
+      remarks.push_back(
+          fmt::format("{} has poisson_ratio = {:g}: the law gives way where it is pressed below {:.2f} of "
+                      "its length; soft "
+                      "tissue has 0.4 to 0.49",
+                      who, material.poisson_ratio, hardest));
     if (material.density && (*material.density < lightest || *material.density > heaviest))
       remarks.push_back(
           fmt::format("{} has a density of {:.3g} kg/m^3; tissue has about 1000 (g/cm^3 times 1000)", who,

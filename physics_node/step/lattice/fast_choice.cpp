@@ -131,8 +131,8 @@ double settle_step(const BodySpec& spec, Body& body, const Scene& scene, bool to
   const double all = stable_step(mode, physics.integrator);
   const bool may = body.solid && !is_awake_in_parts(body) && body.solid->beta > 0 &&
                    body.solid->relaxation.empty() && !may_change_for_good(body) &&
-                   physics.integrator == Integrator::symplectic_euler && physics.subcycle && !physics.step &&
-                   std::isfinite(all);
+                   body.cell_net() == nullptr && physics.integrator == Integrator::symplectic_euler &&
+                   physics.subcycle && !physics.step && std::isfinite(all);
   if (!may || physics.safety * all * physics.frame_Hz >= 1) return all;
   const std::optional<Choice> choice = Chooser(body, scene, mode.omega2, all).best();
   if (!choice || choice->work > most_of_the_work || choice->rest <= all) return all;

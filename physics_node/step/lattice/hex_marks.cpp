@@ -45,6 +45,24 @@ bool is_marked(const Body& body, const LatticeState<Real>& state, Index node) no
   return any;
 }
 
+template <class Real>
+Condition condition_of(const Body& body, const LatticeState<Real>& state, const Adjacency& now,
+                       Index node) noexcept {
+  Condition out;
+  if (body.cell_net() != nullptr) return out;
+  if (now.has_lost(node)) out.flags |= mass_broken;
+  if (any_yields(body)) {
+    if (has_yielded(body, state, node)) out.flags |= mass_yielded;
+    out.yielded_share = yielded_share(body, state, node);
+  }
+  if (!body.solid || !may_change_for_good(body)) return out;
+  if (is_marked(body, state, node)) out.flags |= mass_yielded;
+  out.yielded_share = marked_share(body, state, node);
+  return out;
+}
+
+template Condition condition_of(const Body&, const LatticeState<float>&, const Adjacency&, Index) noexcept;
+template Condition condition_of(const Body&, const LatticeState<double>&, const Adjacency&, Index) noexcept;
 template double marked_share(const Body&, const LatticeState<float>&, Index) noexcept;
 template double marked_share(const Body&, const LatticeState<double>&, Index) noexcept;
 template bool is_marked(const Body&, const LatticeState<float>&, Index) noexcept;

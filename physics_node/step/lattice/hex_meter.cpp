@@ -27,7 +27,7 @@ class HexCellMeter {
         k_(hex_constants_of<double>(body)),
         terms_(relaxation_terms<double>(body, state.dt_before, 0)) {}
 
-  MeasuredCell at(const std::array<Index, 8>& corner) const {
+  MeasuredCell at(const std::array<Index, 8>& corner, Index cell) const {
     Corners<One> w, v;
     for (std::size_t a = 0; a < 8; ++a) {
       const Vec3 x = vector_of(state_.u, corner[a]), moves = vector_of(v_, corner[a]);
@@ -43,8 +43,8 @@ class HexCellMeter {
       std::array<Remembered<double>, most_relaxations> remembered;
       for (std::size_t t = 0; t < n_terms; ++t)
         for (std::size_t n = 0; n < n_remembered; ++n)
-          remembered[t][n] = static_cast<double>(
-              state_.remembered[n_remembered * t + n][static_cast<std::size_t>(corner[0])]);
+          remembered[t][n] =
+              static_cast<double>(state_.remembered[n_remembered * t + n][static_cast<std::size_t>(cell)]);
       RelaxingAndDamped<One, double> memory{{{terms_.data(), n_terms}, remembered}, damping};
       hex_forces<One, StableNeoHookean, true, true>(k_, w, now.forces, memory);
       now.lost_before = memory.relaxing.lost_before;
@@ -55,7 +55,7 @@ class HexCellMeter {
     } else {
       lasting<StableNeoHookean>(w, damping, now);
     }
-    if (any_cells_yield(body_)) add_plastic(k_, w, plastic_of(state_, corner[0]), now.forces);
+    if (any_cells_yield(body_)) add_plastic(k_, w, plastic_of(state_, cell), now.forces);
     return now;
   }
 
@@ -93,16 +93,17 @@ MeasuredHexahedra measure_hexahedra(const Body& body, const HexGrid& grid, const
   MeasuredHexahedra sum;
   sum.force.assign(static_cast<std::size_t>(body.capacity()), Vec3::Zero());
   sum.force_of_rate.assign(sum.force.size(), Vec3::Zero());
-  sum.power.assign(grid.runs.size(), 0);
+  sum.power.assign(grid.runs.size() + 1, 0);
   const HexCellMeter<Real> meter(body, state, v);
   for_each_strained_cell(
-      body, grid, state, [&](double now_stiff, const std::array<Index, 8>& corner, std::size_t run) {
-        const bool is_fast = state.fast.has_cell(corner[0]);
+      body, grid, state,
+      [&](double now_stiff, const std::array<Index, 8>& corner, std::size_t run, Index cell) {
+        const bool is_fast = state.fast.has_cell(cell);
         if (is_fast != (which == CellsOf::fast)) return;
-        const auto c = static_cast<std::size_t>(corner[0]);
+        const auto c = static_cast<std::size_t>(cell);
         const double soon = broken_soon.empty() ? 0 : broken_soon[c];
         const double stiffness = now_stiff - soon * static_cast<double>(body.solid->stiffness[c]);
-        const MeasuredCell now = meter.at(corner);
+        const MeasuredCell now = meter.at(corner, cell);
         const auto& out = now.forces;
         sum.elastic += stiffness * out.energy;
         sum.lost_before += stiffness * now.lost_before;
@@ -124,11 +125,11 @@ double measure_elastic(const Body& body, const HexGrid& grid, const LatticeState
   double sum = 0;
   const HexCellMeter<Real> meter(body, state, state.v);
   for_each_strained_cell(
-      body, grid, state, [&](double stiffness, const std::array<Index, 8>& corner, std::size_t) {
+      body, grid, state, [&](double stiffness, const std::array<Index, 8>& corner, std::size_t, Index cell) {
         if (failure != nullptr)
-          stiffness -= failure->due_of(state, corner[0]) *
-                       static_cast<double>(body.solid->stiffness[static_cast<std::size_t>(corner[0])]);
-        sum += stiffness * meter.at(corner).forces.energy;
+          stiffness -= failure->due_of(state, cell) *
+                       static_cast<double>(body.solid->stiffness[static_cast<std::size_t>(cell)]);
+        sum += stiffness * meter.at(corner, cell).forces.energy;
       });
   return sum;
 }
@@ -140,8 +141,8 @@ double measure_between(const Body& body, const HexGrid& grid, const LatticeState
   const HexCellMeter<Real> meter(body, state, state.v);
   for (const Index r : runs)
     for_each_cell_of(body, grid, state, static_cast<std::size_t>(r),
-                     [&](double stiffness, const std::array<Index, 8>& corner, std::size_t) {
-                       const MeasuredCell now = meter.at(corner);
+                     [&](double stiffness, const std::array<Index, 8>& corner, std::size_t, Index cell) {
+                       const MeasuredCell now = meter.at(corner, cell);
                        double power = 0;
                        for (std::size_t a = 0; a < 8; ++a)
                          for (std::size_t c = 0; c < 3; ++c)

@@ -40,7 +40,8 @@ std::array<RelaxationTerm<Real>, most_relaxations> relaxation_terms(const Body& 
 /// Bound of the tangent of law and terms at rest [Pa].
 double hex_bound_at_rest(const Body& body);
 
-/// Calls visit(stiffness, corners, run) for each cell of a run that lives, corners as storage cells.
+/// Calls visit(stiffness, corners, run, cell) for each cell of a run that lives, corners as numbers of nodes. Cells that a cut has parted
+/// are not of it, but of one more run behind all.
 template <class Real, class Visit>
 void for_each_cell_of(const Body& body, const HexGrid& grid, const LatticeState<Real>& state, std::size_t r,
                       const Visit& visit) {
@@ -50,9 +51,13 @@ void for_each_cell_of(const Body& body, const HexGrid& grid, const LatticeState<
     if (state.failed.damage.size() > 0)
       stiffness *= 1 - static_cast<double>(state.failed.damage[static_cast<std::size_t>(i)]);
     if (stiffness <= 0) continue;
+    if (const CellNet* net = body.cell_net(); net != nullptr && net->is_parted(i)) {
+      visit(stiffness, net->corners(i), grid.runs.size(), i);
+      continue;
+    }
     std::array<Index, 8> corner;
     for (Index a = 0; a < 8; ++a) corner[static_cast<std::size_t>(a)] = grid.corner(run, i, a);
-    visit(stiffness, corner, r);
+    visit(stiffness, corner, r, i);
   }
 }
 
@@ -83,7 +88,7 @@ inline double fastest_of(const Body& body, double at_rest, double stiffness) {
 /// Energy of some cells, their forces on the nodes, what their terms have lost since the last step and what their dampers take.
 struct MeasuredHexahedra {
   double elastic = 0, lost_before = 0;
-  std::vector<double> power;          // by run [W]
+  std::vector<double> power;          // by run, then of those that a cut has parted [W]
   std::vector<double> power_of_cell;  // of fast ones, in storage order [W]
   std::vector<Vec3> force;            // (n_cells)
   std::vector<Vec3> force_of_rate;    // of dampers alone  (n_cells)

@@ -15,6 +15,7 @@ namespace palpate::physics {
 /// plus what the iteration may still miss by its own residual; never more than the bound that needs no iteration: no body
 /// vibrates faster than its fastest cell alone would, w^2 <= largest eigenvalue of a cell / (density V / 8). On a cube of uniform
 /// cells that bound allows 0.7 of the step that is stable.
+/// Of cells that may be cut that bound is what counts: a cut may leave each of them alone.
 /// Cost: at most 60 sweeps over the cells, in double.
 StiffestMode stiffest_mode_of_hexahedra(const Body& body);
 

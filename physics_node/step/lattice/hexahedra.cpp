@@ -26,7 +26,7 @@ void for_each_moving_node(const Body& body, const LatticeState<Real>& state, con
   const auto look_at = [&](Index node) {
     if (const double w = body.inverse_mass[static_cast<std::size_t>(node)]; w > 0) visit(node, w);
   };
-  if (!is_awake_in_parts(body)) return std::ranges::for_each(body.nodes(), look_at), void();
+  if (!is_awake_in_parts(body)) return body.each_node(look_at);
   for (std::size_t r = 0; r < body.lattice.rows.size(); ++r) {
     const RowSegment& row = body.lattice.rows[r];
     for (Index i = row.first; state.row_state[r] != RowState::asleep && i < row.first + row.count; ++i)
@@ -66,6 +66,7 @@ Hexahedra<Real>::Hexahedra(const Body& body, const LatticeState<Real>& state)
   for (auto& axis : high_) axis = ZeroedArray<Real>(n, colour++);
   if (!solid.relaxation.empty())
     for (auto* lost : {&lost_before_, &lost_after_}) lost->resize(grid_.runs.size());
+  if (body.cell_net() != nullptr) parted_ = std::make_unique<PartedCells<Real>>(body);
   if (any_breaks(body)) {
     failure_ = std::make_unique<HexFailure<Real>>(body, grid_, colour);
     colour += 2;
@@ -107,6 +108,7 @@ StepOutcome Hexahedra<Real>::step(const Body& body, LatticeState<Real>& state,
   const std::int64_t broken = failure_ ? failure_->begin_step(state, acting_, step, stiffness_) : 0;
   if (yield_) yield_->begin_step(state, acting_, step, stiffness_, high_);
   if (fast_) fast_->begin(state);
+  if (parted_) parted_->follow(body, stiffness_);
   HexContext<Real> m = {};
   ElementContext<Real>& masses = m.masses;
   masses.rows = body.lattice.rows.data();
@@ -155,6 +157,8 @@ StepOutcome Hexahedra<Real>::step(const Body& body, LatticeState<Real>& state,
   rate_known_ = step.struck && body.solid->beta != 0;  // else it has none
   m.k = constants_;
   const HexKernel<Real>& kernel = step.struck ? exact_kernel_ : kernel_;
+  const bool any_parted = parted_ && parted_->any();
+  if (any_parted) parted_->forces(body, state, m, kernel);
   const auto forces = [&](const HexLayer& l) { kernel.forces(m, l.first_run, l.last_run); };
   const auto move = [&](const HexLayer& l) { kernel.move(m, l.first_row, l.last_row); };
   const std::span layers = acting_.layers();
@@ -172,6 +176,7 @@ StepOutcome Hexahedra<Real>::step(const Body& body, LatticeState<Real>& state,
   } else {
     for (const HexLayer& layer : layers) forces(layer), move(layer);
   }
+  if (any_parted) parted_->move(body, state, m, kernel);
   if (fast_) fast_->step(state, step, pulled_, passed_);
   if (yield_) yield_->stiffen(acting_, stiffest_);
   if (yield_ && step.watch) yield_->watch(state);
@@ -184,6 +189,10 @@ StepOutcome Hexahedra<Real>::step(const Body& body, LatticeState<Real>& state,
       if (step.watch) least_corner_J_ = std::min(least_corner_J_, least_J_[r]);
     }
   if (fast_) least_corner_J_ = std::min(least_corner_J_, fast_->least_corner_J());
+  if (any_parted) {
+    stiffest = std::max(stiffest, parted_->stiffest());
+    least_corner_J_ = std::min(least_corner_J_, parted_->least_J());
+  }
   return {.broken = broken, .stiffening = stiffest / at_rest_, .least_corner_J = least_corner_J_};
 }
 
@@ -231,12 +240,15 @@ Losses Hexahedra<Real>::due(const Body& body, const LatticeState<Real>& state) c
   if (fast_) due.viscous = fast_->due(body, grid_, state, now);
   due.viscous += now.lost_before + std::accumulate(lost_after_.begin(), lost_after_.end(), 0.0);
   if (rate_known_)
-    for (const Index i : body.nodes())
+    body.each_node([&](Index i) {
       due.viscous -= 0.5 * state.dt_before *
                      (now.force_of_rate[static_cast<std::size_t>(i)] + vector_of(rate_seen_, i))
                          .dot(vector_of(state.v, i));
+    });
   for (std::size_t run = 0; run < power_.size() && !rate_known_; ++run)
     due.viscous += damper_loss(state.dt_before, power_[run], now.power[run]);
+  if (parted_ && parted_->any() && !rate_known_)
+    due.viscous += damper_loss(state.dt_before, parted_->power(), now.power.back());
   return due;
 }
 
@@ -250,7 +262,7 @@ BodyCounts Hexahedra<Real>::counts(const Body& body, const LatticeState<Real>& s
       counts.elements += body.solid->stiffness[static_cast<std::size_t>(i)] > 0 ? 1 : 0;
   if (may_change_for_good(body))
     for (const Index node : body.nodes()) counts.yielded_masses += is_marked(body, state, node) ? 1 : 0;
-  for_each_cell(body, grid_, state, [&](double, const std::array<Index, 8>& corner, std::size_t) {
+  for_each_cell(body, grid_, state, [&](double, const std::array<Index, 8>& corner, std::size_t, Index) {
     ++counts.live_elements;
     Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
     for (std::size_t a = 0; a < 8; ++a)

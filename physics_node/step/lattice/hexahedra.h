@@ -11,6 +11,7 @@
 #include "physics_node/step/lattice/hex_kernel.h"
 #include "physics_node/step/lattice/hex_yield.h"
 #include "physics_node/step/lattice/lattice_elements.h"
+#include "physics_node/step/lattice/parted_cells.h"
 
 namespace palpate::physics {
 
@@ -50,6 +51,7 @@ class Hexahedra final : public LatticeElements<Real> {
   std::unique_ptr<HexFailure<Real>> failure_;     // only where a material breaks
   std::unique_ptr<HexYield<Real>> yield_;         // only where one yields
   std::unique_ptr<HexFast<Real>> fast_;           // only where cells are stepped on their own
+  std::unique_ptr<PartedCells<Real>> parted_;     // only where cells may be cut
   Three<Real> pulled_;                            // see HexContext; only with fast_  (n_cells)
   Three<Real> rate_low_, rate_high_, rate_seen_;  // by node: the same; only where it is damped [N]  (n_cells)
   bool rate_known_ = false;                       // the last step was exact

@@ -13,6 +13,7 @@
 #include "physics_node/step/lattice/implicit_step.h"
 #include "physics_node/step/lattice/measure.h"
 #include "physics_node/step/lattice/node_kicks.h"
+#include "physics_node/step/lattice/part_cells.h"
 #include "physics_node/step/lattice/saved_state.h"
 #include "physics_node/step/lattice/sleep.h"
 #include "physics_node/step/lattice/springs.h"
@@ -54,9 +55,9 @@ class LatticeBody final : public BodyModel, private PendingStep {
         saved_({body_, state_}, {body_, state_}) {
     NodeMotion::show({state_.u[0].data(), state_.u[1].data(), state_.u[2].data()},
                      {state_.v[0].data(), state_.v[1].data(), state_.v[2].data()});
-    Topology::show({body_.lattice, {state_.mask.data(), state_.mask.size()}});
+    Topology::show({body_.lattice, {state_.mask.data(), state_.mask.size()}, body_.cell_net()});
     if (integrator == Integrator::velocity_verlet)
-      for (auto& axis : state_.v_half) axis = ZeroedArray<Real>(n_cells());
+      for (auto& axis : state_.v_half) axis = ZeroedArray<Real>(capacity());
     if (integrator == Integrator::backward_euler) implicit_ = make_implicit<Real>(body_);
     if (is_awake_in_parts(body_)) {
       region_ = std::make_unique<AwakeRegion<Real>>(body_);
@@ -84,7 +85,7 @@ class LatticeBody final : public BodyModel, private PendingStep {
     if (region_) region_->wake(body_, state_, forces);
     for (const auto& nodal : forces) {
       if (stands(nodal.cell)) continue;
-      sleep_.wake_cell(body_, state_, nodal.cell);
+      sleep_.wake_cell(body_, state_, body_.origin(nodal.cell));
       kick_node(body_, state_, nodal, dt, momentum_);
     }
   }
@@ -94,7 +95,7 @@ class LatticeBody final : public BodyModel, private PendingStep {
     if (region_) region_->wake(body_, state_, pushes, dt);
     for (const NodalPush& one : pushes) {
       if (stands(one.cell)) continue;
-      sleep_.wake_cell(body_, state_, one.cell);
+      sleep_.wake_cell(body_, state_, body_.origin(one.cell));
       push_node(body_, state_, one, dt, v_before_, momentum_);
     }
   }
@@ -110,6 +111,10 @@ class LatticeBody final : public BodyModel, private PendingStep {
       const RowSegment& row = body_.lattice.rows[r];
       for (std::size_t a = 0; a < 3; ++a)
         std::copy_n(moving[a].data() + row.first, row.count, v_before_[a].data() + row.first);
+    });
+    body_.each_copy([&](Index copy) {
+      for (std::size_t a = 0; a < 3; ++a)
+        v_before_[a][static_cast<std::size_t>(copy)] = moving[a][static_cast<std::size_t>(copy)];
     });
   }
 
@@ -141,20 +146,18 @@ class LatticeBody final : public BodyModel, private PendingStep {
       for (std::size_t a = 0; a < 3; ++a)
         for (std::size_t i = first; i < last; ++i) sum += Real(0) * (state_.u[a][i] + state_.v[a][i]);
     });
+    body_.each_copy([&](Index copy) {
+      for (std::size_t a = 0; a < 3; ++a)
+        sum += Real(0) *
+               (state_.u[a][static_cast<std::size_t>(copy)] + state_.v[a][static_cast<std::size_t>(copy)]);
+    });
     return sum == Real(0);
   }
 
   Watch watch() const noexcept override {
     Watch sum;
-    each_row([&](std::size_t r) {
-      const RowLedger& row = state_.ledger[r];
-      sum.kinetic += row.kinetic;
-      sum.between += row.between;
-      sum.elastic += row.elastic;
-      sum.fallen += row.fallen;
-      sum.fallen_before += row.fallen_before;
-      sum.speed = std::max(sum.speed, row.speed2);
-    });
+    each_row([&](std::size_t r) { add_watched(state_.ledger[r], sum); });
+    if (body_.cell_net() != nullptr) add_watched(state_.ledger.back(), sum);
     if (region_) sum.elastic += region_->rim().watched_elastic();
     sum.speed = std::sqrt(sum.speed);
     return sum;
@@ -173,12 +176,16 @@ class LatticeBody final : public BodyModel, private PendingStep {
     }
     sleep_.wake_all(body_, state_);
     saved_.good().bring_back(body_, state_);
+    if (body_.cell_net() != nullptr)
+      body_.cell_net()->begin();  // what has parted stays so, and all know of it
     save(false);
   }
 
   void reset() noexcept override {
     sleep_.wake_all(body_, state_);
     state_.reset(body_);
+    if (body_.cell_net() != nullptr) rejoin_cells(body_, state_);
+    unknown_for_ = 2;
     if (region_) region_->clear(body_, state_);
     for (std::size_t n = 0; n < start_.size(); ++n)
       for (std::size_t a = 0; a < 3; ++a)
@@ -186,10 +193,9 @@ class LatticeBody final : public BodyModel, private PendingStep {
             static_cast<Real>(start_[n][static_cast<Eigen::Index>(a)]);
     momentum_ = {};
     restart_momentum();
-    for (const Index cell : body_.lattice.masses)
-      for (std::size_t a = 0; a < 3; ++a)
-        if (state_.v_half[a].size() > 0)
-          state_.v_half[a][static_cast<std::size_t>(cell)] = state_.v[a][static_cast<std::size_t>(cell)];
+    for (std::size_t a = 0; a < 3 && state_.v_half[a].size() > 0; ++a)
+      for (const Index cell : body_.lattice.masses)
+        state_.v_half[a][static_cast<std::size_t>(cell)] = state_.v[a][static_cast<std::size_t>(cell)];
     save(false);
     save(true);
   }
@@ -198,7 +204,7 @@ class LatticeBody final : public BodyModel, private PendingStep {
     const auto c = static_cast<std::size_t>(cell);
     if (region_) region_->wake(body_, state_, std::array{NodalForce{cell, Vec3::UnitX()}});
     if (stands(cell)) return;
-    sleep_.wake_cell(body_, state_, cell);
+    sleep_.wake_cell(body_, state_, body_.origin(cell));
     for (std::size_t a = 0; a < 3; ++a) {
       state_.u[a][c] = static_cast<Real>(displacement[static_cast<Eigen::Index>(a)]);
       state_.v[a][c] = static_cast<Real>(velocity[static_cast<Eigen::Index>(a)]);
@@ -220,26 +226,26 @@ class LatticeBody final : public BodyModel, private PendingStep {
     }
   }
   TopologyEvents events() const noexcept override {
+    if (const CellNet* net = body_.cell_net()) return {{}, {}, net->splits(), unknown_for_ > 0};
     return {state_.fresh.list, state_.fresh.cells, {}, any_breaks(body_) && state_.fresh.overflow};
   }
-  std::int64_t breaks() const noexcept override { return state_.breaks; }
+  std::int64_t breaks() const noexcept override {
+    return body_.cell_net() != nullptr ? body_.cell_net()->n_open() : state_.breaks;
+  }
   std::int64_t cut(std::span<const EdgeGone> elements) noexcept override {
     if (!any_cut(body_)) return 0;
+    if (body_.cell_net() != nullptr)
+      return part_cells(body_, state_, elements, [this](const NodeSplit& split) {
+        saved_.each([&](SavedState<Real>& saved) { saved.split(split); });
+        for (auto& axis : v_before_)
+          if (axis.size() > 0)
+            axis[static_cast<std::size_t>(split.copy)] = axis[static_cast<std::size_t>(split.node)];
+      });
     return cut_elements(body_, state_, sleep_, elements);
   }
   void conditions(std::span<const Index> cells, std::span<Condition> out) const noexcept override {
-    const bool yields = any_yields(body_);
-    const bool cells_change = body_.solid && may_change_for_good(body_);
-    for (std::size_t n = 0; n < cells.size(); ++n) {
-      const Index cell = cells[n];
-      out[n] = {};
-      if (adjacency().has_lost(cell)) out[n].flags |= mass_broken;
-      if (yields && has_yielded(body_, state_, cell)) out[n].flags |= mass_yielded;
-      if (yields) out[n].yielded_share = yielded_share(body_, state_, cell);
-      if (!cells_change) continue;
-      if (is_marked(body_, state_, cell)) out[n].flags |= mass_yielded;
-      out[n].yielded_share = marked_share(body_, state_, cell);
-    }
+    for (std::size_t n = 0; n < cells.size(); ++n)
+      out[n] = condition_of(body_, state_, adjacency(), cells[n]);
   }
 
   Energies energies(const Vec3& gravity) const override {
@@ -256,9 +262,9 @@ class LatticeBody final : public BodyModel, private PendingStep {
     return sum;
   }
   Losses losses() const override {
-    if (!region_) return measure_losses(state_);
-    Losses sum = region_->losses();
-    each_row([&](std::size_t r) { add_losses(state_.ledger[r], sum); });
+    Losses sum = region_ ? region_->losses() : measure_losses(state_);
+    if (body_.cell_net() != nullptr) sum.breaks = breaks();
+    if (region_) each_row([&](std::size_t r) { add_losses(state_.ledger[r], sum); });
     return sum;
   }
   Momenta momenta() const override { return momenta_with(state_.v).momenta; }
@@ -272,13 +278,13 @@ class LatticeBody final : public BodyModel, private PendingStep {
     counts.shape_rms = measure_shape_rms(body_, state_);
     return counts;
   }
-
   std::uint64_t hash(std::uint64_t seed) const noexcept override { return hash_of(body_, state_, seed); }
 
  private:
   StepOutcome integrate(const ExplicitStep& step, std::span<const NodalForce> forces) noexcept {
     if (region_) return integrate_region(step, forces);
     if (step.verlet && step.dt != state_.dt_before) begin_leapfrog();
+    if (body_.cell_net() != nullptr) body_.cell_net()->begin(), unknown_for_ = std::max(0, unknown_for_ - 1);
     momentum_.step(step.gravity, step.verlet && !state_.v_half_known ? 0.5 * step.dt : step.dt, step.dt);
     const StepOutcome outcome = elements_->step(body_, state_, step);  // sleeping rows are skipped
     // What was balanced by a cell is so no more.
@@ -364,9 +370,9 @@ class LatticeBody final : public BodyModel, private PendingStep {
 
   void make_room(Three<Real>& v) const {
     for (auto& axis : v)
-      if (axis.size() == 0) axis = ZeroedArray<Real>(n_cells());
+      if (axis.size() == 0) axis = ZeroedArray<Real>(capacity());
   }
-  std::size_t n_cells() const { return static_cast<std::size_t>(body_.lattice.n_cells()); }
+  std::size_t capacity() const { return static_cast<std::size_t>(body_.capacity()); }
 
   Body body_;
   std::vector<Vec3> start_;  // displacements of its nodes; EMPTY: none [m]
@@ -378,7 +384,8 @@ class LatticeBody final : public BodyModel, private PendingStep {
   GoodState<SavedState<Real>> saved_;
   std::unique_ptr<ImplicitSolver<Real>> implicit_;  // only for backward_euler
   std::unique_ptr<AwakeRegion<Real>> region_;       // only of a body that is awake in parts
-  double pending_dt_ = 0;                           // of a step that is solved and not over; 0: none [s]
+  int unknown_for_ = 0;    // steps: after a reset, at once and after the next, events of cuts tell nothing
+  double pending_dt_ = 0;  // of a step that is solved and not over; 0: none [s]
 };
 
 }  // namespace

@@ -84,8 +84,9 @@ template <class Real>
 MomentumAccount::Start measure_momenta(const Body& body, const Three<Real>& u,
                                        const Three<Real>& v) noexcept {
   MomentumAccount::Start sum;
-  for (const Index i : body.lattice.masses)
-    sum.add(node_mass(body, i), body.lattice.rest_position(i) + vector_of(u, i), vector_of(v, i));
+  body.each_node([&](Index i) {
+    sum.add(node_mass(body, i), body.rest_position(i) + vector_of(u, i), vector_of(v, i));
+  });
   return sum;
 }
 

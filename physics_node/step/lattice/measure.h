@@ -1,6 +1,8 @@
 #pragma once
 // What a body's state amounts to: energies, momenta, counts. For reports, not for the step.
 
+#include <algorithm>
+
 #include "physics_node/step/books.h"
 #include "physics_node/step/lattice/state.h"
 
@@ -16,7 +18,15 @@ Energies measure_energies(const Body& body, const LatticeState<Real>& state, con
 template <class Real>
 Losses measure_due(const Body& body, const LatticeState<Real>& state);
 
-/// What elements have given away since the start.
+/// Adds what was seen of a row.
+inline void add_watched(const RowLedger& row, Watch& sum) noexcept {
+  sum.kinetic += row.kinetic;
+  sum.between += row.between;
+  sum.elastic += row.elastic;
+  sum.fallen += row.fallen;
+  sum.fallen_before += row.fallen_before;
+  sum.speed = std::max(sum.speed, row.speed2);
+}
 /// Adds what a row has given away.
 inline void add_losses(const RowLedger& row, Losses& sum) noexcept {
   sum += {.viscous = row.viscous,
@@ -25,6 +35,7 @@ inline void add_losses(const RowLedger& row, Losses& sum) noexcept {
           .broken = row.broken,
           .breaks = row.breaks};
 }
+/// What elements have given away since the start.
 template <class Real>
 Losses measure_losses(const LatticeState<Real>& state);
 

@@ -12,6 +12,14 @@ void copy_rows(const Body& body, const ZeroedArray<T>& from, ZeroedArray<T>& to)
     std::copy_n(from.data() + row.first, row.count, to.data() + row.first);
 }
 
+/// Of all nodes, copies too.
+template <class T>
+void copy_nodes(const Body& body, const ZeroedArray<T>& from, ZeroedArray<T>& to) noexcept {
+  copy_rows(body, from, to);
+  if (const CellNet* net = body.cell_net())
+    std::copy_n(from.data() + net->n_loaded(), net->n_copies(), to.data() + net->n_loaded());
+}
+
 template <class Real>
 void copy_cells(const Body& body, const FailedCells<Real>& from, FailedCells<Real>& to) noexcept {
   for (std::size_t a = 0; a < from.arrays().size(); ++a) copy_rows(body, *from.arrays()[a], *to.arrays()[a]);
@@ -23,7 +31,7 @@ template <class Real>
 SavedState<Real>::SavedState(const Body& body, const LatticeState<Real>& state) {
   if (is_awake_in_parts(body)) return;
   ledger_ = state.ledger;
-  const auto n = static_cast<std::size_t>(body.lattice.n_cells());
+  const auto n = static_cast<std::size_t>(body.capacity());
   for (auto& axis : u_) axis = ZeroedArray<Real>(n);
   remembered_.resize(state.remembered.size());
   for (auto& array : remembered_) array = ZeroedArray<Real>(n);
@@ -42,7 +50,7 @@ SavedState<Real>::SavedState(const Body& body, const LatticeState<Real>& state) 
 
 template <class Real>
 void SavedState<Real>::take(const Body& body, const LatticeState<Real>& state) noexcept {
-  for (std::size_t a = 0; a < 3; ++a) copy_rows(body, state.u[a], u_[a]);
+  for (std::size_t a = 0; a < 3; ++a) copy_nodes(body, state.u[a], u_[a]);
   for (std::size_t m = 0; m < remembered_.size(); ++m) copy_rows(body, state.remembered[m], remembered_[m]);
   ledger_ = state.ledger;
   if (body.solid && any_breaks(body) && failed_.changes != state.failed.changes) {
@@ -71,12 +79,18 @@ void SavedState<Real>::take(const Body& body, const LatticeState<Real>& state) n
 }
 
 template <class Real>
+void SavedState<Real>::split(const NodeSplit& split) noexcept {
+  for (auto& axis : u_)
+    axis[static_cast<std::size_t>(split.copy)] = axis[static_cast<std::size_t>(split.node)];
+}
+
+template <class Real>
 void SavedState<Real>::bring_back(const Body& body, LatticeState<Real>& state) const noexcept {
   // Storage between rows too: what is not a number there, nothing times infinity, would come back with the next step.
   for (std::size_t a = 0; a < 3; ++a) {
     for (auto* three : {&state.u, &state.v, &state.v_half, &state.f})
       std::fill_n((*three)[a].data(), (*three)[a].size(), Real(0));
-    copy_rows(body, u_[a], state.u[a]);
+    copy_nodes(body, u_[a], state.u[a]);
   }
   for (std::size_t m = 0; m < remembered_.size(); ++m) copy_rows(body, remembered_[m], state.remembered[m]);
   state.forget_last_step();

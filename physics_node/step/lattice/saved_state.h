@@ -14,7 +14,9 @@ class SavedState {
 
   /// Copies displacements and the ledger, and what has yielded and broken if anything has since the last call.
   void take(const Body& body, const LatticeState<Real>& state) noexcept;
-  /// Puts back what was taken, at rest.
+  /// A copy of a node was where that was.
+  void split(const NodeSplit& split) noexcept;
+  /// Puts back what was taken, at rest. What has been cut since stays so.
   void bring_back(const Body& body, LatticeState<Real>& state) const noexcept;
 
  private:

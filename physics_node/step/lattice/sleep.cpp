@@ -52,7 +52,8 @@ std::vector<std::vector<Index>> rows_beside_by_cells(const Body& body) {
 
 Sleep::Sleep(const Body& body)
     : may_sleep_(body.n_held > 0 &&
-                 !(body.solid && (!body.solid->relaxation.empty() || body.solid->awake_radius > 0))),
+                 !(body.solid && (!body.solid->relaxation.empty() || body.solid->awake_radius > 0)) &&
+                 body.cell_net() == nullptr),
       quiet_s_(body.lattice.rows.size()),
       masses_of_(body.lattice.rows.size(), 0),
       before_(body.lattice.rows.size()) {

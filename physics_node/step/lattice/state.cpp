@@ -11,7 +11,7 @@ namespace palpate::physics {
 
 template <class Real>
 LatticeState<Real>::LatticeState(const Body& body) : fast(body) {
-  const auto n = static_cast<std::size_t>(body.lattice.n_cells());
+  const auto n = static_cast<std::size_t>(body.capacity());
   const auto n_half = static_cast<std::size_t>(body.lattice.n_half);
   std::size_t colour = 0;
   for (auto* three : {&u, &v, &f})
@@ -35,7 +35,7 @@ LatticeState<Real>::LatticeState(const Body& body) : fast(body) {
   if (any_cells_yield(body)) plastic.memory.resize(n_plastic);
   for (auto& array : plastic.memory) array = ZeroedArray<Real>(n, colour++);
   row_state.resize(body.lattice.rows.size());
-  ledger.resize(body.lattice.rows.size());
+  ledger.resize(body.lattice.rows.size() + (body.cell_net() != nullptr ? 1 : 0));
   if (body.solid && any_breaks(body)) {
     for (auto* array : failed.arrays()) *array = ZeroedArray<Real>(n, colour++);
     fresh.reserve_cells(body.lattice.masses.size());
@@ -47,6 +47,10 @@ LatticeState<Real>::LatticeState(const Body& body) : fast(body) {
 template <class Real>
 void LatticeState<Real>::reset(const Body& body) {
   const bool yields = any_yields(body);
+  for (auto* three : {&u, &v, &f})
+    body.each_copy([&](Index copy) {
+      for (auto& axis : *three) axis[static_cast<std::size_t>(copy)] = 0;
+    });
   for (const Index cell : body.lattice.masses) {
     const auto c = static_cast<std::size_t>(cell);
     const bool held = body.inverse_mass[c] == 0;
@@ -103,6 +107,11 @@ std::uint64_t hash_of(const Body& body, const LatticeState<Real>& state, std::ui
       seed = hash_state(&state.hardening[d][first], count * sizeof(Real), seed);
     }
   }
+  if (const CellNet* net = body.cell_net())
+    for (std::size_t a = 0; a < 3; ++a)
+      for (const auto* three : {&state.u, &state.v})
+        seed = hash_state(&(*three)[a][static_cast<std::size_t>(net->n_loaded())],
+                          static_cast<std::size_t>(net->n_copies()) * sizeof(Real), seed);
   return seed;
 }
 

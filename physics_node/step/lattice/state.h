@@ -85,7 +85,7 @@ struct LatticeState {
   std::uint64_t row_changes = 0;                             // how often row_state was another one
   std::vector<std::uint8_t>
       acts;  // of each run, 1: acts; only of a body that is awake in parts, else rows decide
-  std::vector<RowLedger> ledger;  // by row
+  std::vector<RowLedger> ledger;  // by row; of cells that may be cut one more, of what was parted
   std::vector<Index> woken;       // rows whose ledger began anew since the last step; only beside `acts`
   std::int64_t breaks = 0;        // of all rows, when the masks were last mirrored
   FreshBreaks fresh;              // of the last step; only where elements may go

@@ -192,12 +192,6 @@ std::string refusal(const Recipe& recipe) {
 }
 
 TEST(BladeTool, SaysWhatItCannotCut) {
-  Recipe solid = block({"voxel", 2, 0});
-  solid.body += "\nmodel = \"fem\"";
-  EXPECT_NE(refusal(solid).find("cuts lattices of springs, tetrahedra of first order and what a "
-                                "[[connection]] joins, and \"body\" is of cells of finite elements"),
-            std::string::npos)
-      << refusal(solid);
   Recipe untold = block({"voxel", 2, 0});
   untold.material.resize(untold.material.find("\ncut_toughness"));
   EXPECT_NE(refusal(untold).find("cut_toughness_J_per_m2"), std::string::npos) << refusal(untold);
