@@ -13,6 +13,7 @@ namespace palpate::physics {
 /// An element between two nodes that is no more. No two elements join the same nodes.
 struct EdgeGone {
   Index a = 0, b = 0;
+  FaceCut cut{};  // where a blade did it, on the way from a to b
 };
 
 /// A cell that is no more, of a body whose cells live and break as a whole: its corners. Elements that no other cell held are gone

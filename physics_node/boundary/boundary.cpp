@@ -125,18 +125,18 @@ const Bearers* Boundary::carried(std::uint32_t vertex) const noexcept {
 }
 
 std::int64_t Boundary::corner(std::uint32_t facet, std::size_t corner) const noexcept {
-  const auto at = vertex(facet, corner);
-  if (!at || (*at < surface_.n_moving() && surface_.bearers.empty())) return mass(facet, corner);
-  if (is_copy(facet, corner))
+  if (lip(facet, corner) != nullptr)
     return std::int64_t{body_.body().capacity()} + static_cast<std::int64_t>(surface_.n_vertices()) +
            mass(facet, corner);
+  const auto at = vertex(facet, corner);
+  if (!at || (*at < surface_.n_moving() && surface_.bearers.empty())) return mass(facet, corner);
   return std::int64_t{body_.body().capacity()} + *at;
 }
 
 Bearers Boundary::bearers(std::uint32_t facet, std::size_t corner) const noexcept {
+  if (const LiveSkin::Lip* of = lip(facet, corner)) return of->by;
   const auto at = vertex(facet, corner);
   if (at && *at >= surface_.n_moving()) return {};
-  if (at && is_copy(facet, corner)) return skin_->bearers_of_copy(mass(facet, corner));
   const Bearers* by = at ? carried(*at) : nullptr;
   return by != nullptr ? *by : Bearers::alone(mass(facet, corner));
 }
@@ -153,15 +153,14 @@ Vec3 Boundary::place(std::uint32_t vertex, const NodeMotion& moving) const noexc
 }
 
 Vec3 Boundary::position(std::uint32_t facet, std::size_t corner, const NodeMotion& moving) const noexcept {
+  if (const LiveSkin::Lip* of = lip(facet, corner))
+    return of->rest + of->by.mean([&](Index node) { return moving.displacement(node); });
   const auto at = vertex(facet, corner);
-  if (at && is_copy(facet, corner))
-    return surface_.rest[*at] + skin_->bearers_of_copy(mass(facet, corner)).mean([&](Index node) {
-      return moving.displacement(node);
-    });
   return at ? place(*at, moving) : moving.position(open_at(facet).masses[corner]);
 }
 
 Vec3 Boundary::rest(std::uint32_t facet, std::size_t corner) const noexcept {
+  if (const LiveSkin::Lip* of = lip(facet, corner)) return of->rest;
   const auto at = vertex(facet, corner);
   return at ? surface_.rest[*at] : body_.body().rest_position(open_at(facet).masses[corner]);
 }

@@ -91,9 +91,9 @@ class Boundary {
   /// The vertex as loaded at a corner; none: a mass that had none.
   std::optional<std::uint32_t> vertex(std::uint32_t facet, std::size_t corner) const noexcept;
   const Bearers* carried(std::uint32_t vertex) const noexcept;
-  /// Is it a copy of a node at the skin, which has a vertex of its own there?
-  bool is_copy(std::uint32_t facet, std::size_t corner) const noexcept {
-    return skin_ && !is_loaded(facet) && body_.body().origin(mass(facet, corner)) != mass(facet, corner);
+  /// The corner of a lip that it is; else null.
+  const LiveSkin::Lip* lip(std::uint32_t facet, std::size_t corner) const noexcept {
+    return skin_ && !is_loaded(facet) ? skin_->lip(open_at(facet).masses[corner]) : nullptr;
   }
   Vec3 displacement(std::uint32_t vertex, const NodeMotion& moving) const noexcept;  // of one that moves
   Vec3 place(std::uint32_t vertex, const NodeMotion& moving) const noexcept;

@@ -25,20 +25,17 @@ void LiveElements::copy_faces(const Body& body) {
     }
 }
 
-/// Cells with a copy at a corner, and those beside them that an open face parts from these.
 void LiveElements::copy_parted(const Body& body) {
   parted_.clear();
   const CellNet* net = body.cell_net();
   if (net == nullptr) return;
   std::vector<Index> cells(net->parted().begin(), net->parted().end());
-  for (const Index cell : net->parted())
-    for (std::size_t f = 0; f < CellNet::n_faces; ++f)
-      if (const Index other = net->beyond(cell, f); other != CellNet::none && net->is_open(cell, f))
-        cells.push_back(other);
+  cells.insert(cells.end(), net->opened().begin(), net->opened().end());
   std::ranges::sort(cells);
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   for (const Index cell : cells) {
-    PartedCell& one = parted_.emplace_back(PartedCell{cell, net->corners(cell), 0});
+    PartedCell& one = parted_.emplace_back(PartedCell{cell, net->corners(cell), 0, {}});
+    for (std::size_t axis = 0; axis < 3; ++axis) one.cut_at[axis] = net->cut_at(cell, axis);
     for (std::size_t f = 0; f < CellNet::n_faces; ++f)
       if (net->beyond(cell, f) != CellNet::none && net->is_exposed(cell, f))
         one.open = static_cast<std::uint8_t>(one.open | 1U << f);

@@ -35,11 +35,12 @@ class LiveElements {
   };
   std::span<const Face> faces() const { return faces_; }  // in the order of the tetrahedra
 
-  /// A cell of finite elements that a cut has parted from others.
+  /// A cell of finite elements that has a copy at a corner, or an open face.
   struct PartedCell {
     Index cell = 0;  // its lowest corner, in storage
     CellNet::Corners corners{};
-    std::uint8_t open = 0;  // bit f: its face f can be touched, and another cell lay behind it
+    std::uint8_t open = 0;            // bit f: its face f can be touched, and another cell lay behind it
+    std::array<FaceCut, 3> cut_at{};  // by axis, as CellNet has it
   };
   std::span<const PartedCell> parted() const { return parted_; }  // by `cell`
   const PartedCell* parted(Index cell) const noexcept;            // null: it is as loaded

@@ -101,6 +101,9 @@ bool Boundary::is_facet(std::uint32_t facet, const SiteFacets::Corners& masses) 
 bool Boundary::is_as_loaded(std::size_t first, std::size_t last,
                             std::span<const SiteFacets::Corners> now) const noexcept {
   if (last - first != now.size()) return false;
+  for (const SiteFacets::Corners& masses : now)
+    for (const Index mass : masses)
+      if (skin_ && skin_->lip(mass) != nullptr) return false;  // it has moved from where it was
   for (std::size_t n = 0; n < now.size(); ++n)
     if (!is_facet(static_cast<std::uint32_t>(first + n), now[n])) return false;
   return true;

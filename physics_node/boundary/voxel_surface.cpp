@@ -3,6 +3,7 @@
 
 #include "physics_node/body/build_lattice.h"
 #include "physics_node/boundary/cut_cells.h"
+#include "physics_node/boundary/cut_lips.h"
 #include "physics_node/boundary/smooth_skin.h"
 #include "physics_node/boundary/surface.h"
 #include "physics_node/boundary/voxel_facets.h"
@@ -35,13 +36,17 @@ class Numbering {
     const Vec3 on_lattice =
         mass >= 0 ? body_.lattice.rest_position(body_.lattice.mass_at(corner - shift_))
                   : Vec3(body_.cells->corner + body_.cells->spacing.cwiseProduct(corner.cast<double>()));
-    const Vec3 rest = fan < 0 ? on_lattice : skin_->place(corner, fan);
+    Vec3 rest = fan < 0 ? on_lattice : skin_->place(corner, fan);
+    CellsRound round;
+    if (skin_ && mass >= 0 && !live_.parted().empty()) round = cells_round(corner, mass);
+    if (const CutLip lip = lip_of(round, body_.cells->spacing); lip.n > 0)
+      rest += fan < 0 ? lip.place : lip.from_skin(rest - on_lattice);
     std::int64_t value = 0;
     if (mass >= 0) {
       value = static_cast<std::int64_t>(surface.cell.size());
       surface.cell.push_back(mass);
       surface.rest.push_back(rest);
-      if (skin_) add_bearers(corner, fan, mass, rest, surface);
+      if (skin_) add_bearers(corner, fan, mass, rest, round.any_parted ? &round : nullptr, surface);
     } else {
       scenery_.push_back(rest);
       value = -static_cast<std::int64_t>(scenery_.size());
@@ -72,34 +77,28 @@ class Numbering {
                              : parted->corners[static_cast<std::size_t>((corner - cell).dot(Vec3i(1, 2, 4)))];
   }
   Index storage_of(const Vec3i& cell) const { return body_.lattice.mass_at(cell - shift_); }
-  /// Where a cell at the corner has been parted, one that has the node.
-  std::optional<Bearers> bearers_at_cut(const Vec3i& corner, int fan, Index mass, const Vec3& rest) const {
-    if (live_.parted().empty()) return std::nullopt;
-    std::array<CellNet::Corners, 8> corners{};
-    std::array<bool, 8> has{};
-    bool any = false;
+  CellsRound cells_round(const Vec3i& corner, Index node) const {
+    CellsRound round;
     for (unsigned o = 0; o < 8; ++o) {
       const Vec3i cell = SmoothSkin::cell_at(corner, o);
       if (body_.cells->share_of(cell.x(), cell.y(), cell.z()) <= 0) continue;
       const Index lowest = storage_of(cell);
       const auto* parted = live_.parted(lowest);
-      any = any || parted != nullptr;
-      corners[o] = parted != nullptr ? parted->corners : body_.cell_net()->loaded_corners(lowest);
-      has[o] = corners[o][7 - o] == mass;
+      round.any_parted = round.any_parted || parted != nullptr;
+      round.corners[o] = parted != nullptr ? parted->corners : body_.cell_net()->loaded_corners(lowest);
+      round.has[o] = round.corners[o][7 - o] == node;
+      if (parted != nullptr) round.cut_at[o] = parted->cut_at;
     }
-    if (!any) return std::nullopt;
-    return skin_->bearers_of_part(corner, fan, rest, mass,
-                                  [&](unsigned o) { return has[o] ? &corners[o] : nullptr; });
+    return round;
   }
-  void add_bearers(const Vec3i& corner, int fan, Index mass, const Vec3& rest, Surface& surface) const {
-    if (fan >= 0)
-      if (const auto by = bearers_at_cut(corner, fan, mass, rest)) {
-        surface.bearers.push_back(*by);
-        surface.fan.push_back(static_cast<std::uint8_t>(fan));
-        return;
-      }
+  void add_bearers(const Vec3i& corner, int fan, Index mass, const Vec3& rest, const CellsRound* at_cut,
+                   Surface& surface) const {
     const auto alive = [this](const Vec3i& cell) { return !cut_.is_cut(cell); };
-    surface.bearers.push_back(fan < 0 ? Bearers::alone(mass) : skin_->bearers(corner, fan, rest, alive));
+    const auto corners_at = [at_cut](unsigned o) { return at_cut->corners_at(o); };
+    surface.bearers.push_back(at_cut != nullptr
+                                  ? skin_->bearers_of_part(corner, std::max(fan, 0), rest, mass, corners_at)
+                              : fan < 0 ? Bearers::alone(mass)
+                                        : skin_->bearers(corner, fan, rest, alive));
     surface.fan.push_back(static_cast<std::uint8_t>(fan < 0 ? no_fan : fan));
   }
 

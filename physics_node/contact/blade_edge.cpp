@@ -195,7 +195,7 @@ BladeOutcome BladeEdge::step(BladeLinks& links, BladeStrands& strands, const Bla
   purse_ -= done.released;
   press(links, frame, dt, done);
   strands.slide(frame, lag_, done);
-  cut(links, cuts);
+  cut(links, frame.side, cuts);
   links.remember();
   bites_ = std::ranges::any_of(strips_, [](const BladeStrip& strip) { return strip.bites; });
   before_ = frame;
@@ -213,7 +213,9 @@ void BladeEdge::find_slot() noexcept {
 }
 
 /// Elements that the edge has passed, and those that its body has come to lie in.
-void BladeEdge::cut(BladeLinks& links, std::vector<EdgeGone>& cuts) noexcept {
+void BladeEdge::cut(BladeLinks& links, const Vec3& side, std::vector<EdgeGone>& cuts) noexcept {
+  const std::array<float, 3> normal{static_cast<float>(side.x()), static_cast<float>(side.y()),
+                                    static_cast<float>(side.z())};
   const double passed = BladeStrips::passed_by * links.spacing(), behind = cut_behind * links.spacing();
   const std::span<const BladeLinks::Node> nodes = links.nodes();
   for (BladeLinks::Link& link : links.links()) {
@@ -223,7 +225,8 @@ void BladeEdge::cut(BladeLinks& links, std::vector<EdgeGone>& cuts) noexcept {
     const bool has_come =
         strip.bites || strip.follows;  // or did before this step, and there is nothing ahead any more
     if (!has_come || at.q >= strip.q - passed || at.q < strip.q - behind) continue;
-    if (links.sever(link)) cuts.push_back({nodes[link.a].cell, nodes[link.b].cell});
+    if (links.sever(link))
+      cuts.push_back({nodes[link.a].cell, nodes[link.b].cell, {static_cast<float>(at.t), normal}});
   }
 }
 

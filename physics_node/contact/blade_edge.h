@@ -73,7 +73,7 @@ class BladeEdge {
   void find_blade(const BladeStrands& strands, double dt) noexcept;
   void slide(BladeStrip& strip, BladeOutcome& done) const noexcept;
   void press(BladeLinks& links, const BladeFrame& frame, double dt, BladeOutcome& done) noexcept;
-  void cut(BladeLinks& links, std::vector<EdgeGone>& cuts) noexcept;
+  void cut(BladeLinks& links, const Vec3& side, std::vector<EdgeGone>& cuts) noexcept;
 
   static constexpr double held_by =
       20;  // Why: an edge of which a fifth is in tissue is still four times as stiff as the hand's spring

@@ -29,6 +29,7 @@ CellNet::CellNet(const Lattice& lattice, std::span<const float> stiffness, std::
       most_copies_(most_copies),
       is_cell_(stiffness.size(), 0),
       open_(stiffness.size(), 0),
+      cut_(3 * stiffness.size(), 0),
       record_(stiffness.size(), -1),
       has_split_(stiffness.size(), 0) {
   for (const Index cell : lattice.masses)
@@ -37,6 +38,8 @@ CellNet::CellNet(const Lattice& lattice, std::span<const float> stiffness, std::
   parted_.reserve(most_parted);
   corners_.reserve(most_parted);
   origin_.reserve(most_copies);
+  opened_.reserve(cells_.size());
+  cuts_.reserve(std::min(2 * most_copies, 3 * cells_.size()));
   splits_.reserve(most_copies);
 }
 
@@ -106,14 +109,19 @@ std::size_t CellNet::face_between(Index a, Index b) const noexcept {
   return f;
 }
 
-bool CellNet::open(Index a, Index b) noexcept {
+bool CellNet::open(Index a, Index b, const FaceCut& cut) noexcept {
   if (a < 0 || a >= n_loaded() || !has_cell(a)) return false;
   const std::size_t f = face_between(a, b);
   if (f == n_faces || is_open(a, f)) return false;
-  if (most_copies_ - origin_.size() < most_splits_a_face) {
+  if (most_copies_ - origin_.size() < most_splits_a_face || cuts_.size() == cuts_.capacity()) {
     ++left_out_;
     return false;
   }
+  for (const Index cell : {a, b})
+    if (open_[at(cell)] == 0) opened_.push_back(cell);
+  const bool upwards = f % 2 == 1;
+  cut_[3 * at(upwards ? a : b) + f / 2] = static_cast<std::int32_t>(cuts_.size());
+  cuts_.push_back({std::clamp(upwards ? cut.share : 1 - cut.share, 0.0F, 1.0F), cut.normal});
   open_[at(a)] = static_cast<std::uint8_t>(open_[at(a)] | 1U << f);
   open_[at(b)] = static_cast<std::uint8_t>(open_[at(b)] | 1U << (f ^ 1U));
   ++n_open_;
@@ -174,6 +182,8 @@ void CellNet::part(Index node, Index from) noexcept {
 void CellNet::forget_cuts() noexcept {
   for (const Index cell : parted_) record_[at(cell)] = -1;
   parted_.clear();
+  opened_.clear();
+  cuts_.clear();
   corners_.clear();
   std::ranges::fill(open_, std::uint8_t{0});
   splits_.clear();

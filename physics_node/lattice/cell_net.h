@@ -52,6 +52,12 @@ class CellNet {
     return has_cell(other) ? other : none;
   }
   bool is_open(Index cell, std::size_t face) const noexcept { return (open_[at(cell)] >> face & 1) != 0; }
+  /// Cells with an open face, in the order in which they came to; each once.
+  std::span<const Index> opened() const noexcept { return opened_; }
+  /// Where a blade went between a cell and the next up an axis.
+  const FaceCut& cut_at(Index cell, std::size_t axis) const noexcept {
+    return is_open(cell, 2 * axis + 1) ? cuts_[at(cut_[3 * at(cell) + axis])] : nowhere;
+  }
   /// Can something touch this face? An outer one, or an open one whose sides do not have the same nodes.
   bool is_exposed(Index cell, std::size_t face) const noexcept;
 
@@ -86,9 +92,9 @@ class CellNet {
 
   /// A new list of what splits.
   void begin() noexcept { splits_.clear(); }
-  /// Opens the face between two cells. Allocates nothing.
+  /// Opens the face between two cells. Allocates nothing. @param cut  on the way from a to b
   /// @return whether it was joined; false, too, where there is no room for more copies, which is counted
-  bool open(Index a, Index b) noexcept;
+  bool open(Index a, Index b, const FaceCut& cut = {}) noexcept;
   std::span<const NodeSplit> splits() const noexcept { return splits_; }  // since begin(), in their order
   std::uint64_t left_out() const noexcept { return left_out_; }           // faces for which there was no room
   std::int64_t n_open() const noexcept { return n_open_; }
@@ -106,6 +112,7 @@ class CellNet {
   }
 
  private:
+  static constexpr FaceCut nowhere{-1, {}};
   static std::size_t at(Index n) noexcept { return static_cast<std::size_t>(n); }
   /// The storage cell beside another.
   Index step(Index cell, std::size_t face) const noexcept;
@@ -120,7 +127,9 @@ class CellNet {
   Index half_, pitch_, layer_;  // of storage: half a row, to the next row, to the next plane
   std::size_t most_copies_ = 0;
   std::vector<std::uint8_t> is_cell_, open_;  // by storage cell; open_: bit f: its face f is
-  std::vector<Index> cells_;
+  std::vector<std::int32_t> cut_;             // 3 cell + axis: its number in cuts_
+  std::vector<FaceCut> cuts_;
+  std::vector<Index> cells_, opened_;
   std::vector<std::int32_t> record_;  // by storage cell: its number in parted_; -1: none
   std::vector<Index> parted_;
   std::vector<Corners> corners_;  // of each of parted_

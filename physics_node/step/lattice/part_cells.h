@@ -16,7 +16,7 @@ std::int64_t part_cells(Body& body, LatticeState<Real>& state, std::span<const E
   CellNet& net = *body.solid->net;
   const std::size_t known = net.splits().size();
   std::int64_t opened = 0;
-  for (const EdgeGone& gone : between) opened += net.open(gone.a, gone.b) ? 1 : 0;
+  for (const EdgeGone& gone : between) opened += net.open(gone.a, gone.b, gone.cut) ? 1 : 0;
   for (const NodeSplit& split : net.splits().subspan(known)) {
     share_node(body, state, split);
     on_split(split);
