@@ -150,6 +150,13 @@ int view(const ViewOptions& options) {
     throw InputError(
         fmt::format("--keep {:g},{:g}: keeps no voxel of {}; palpate info says from what to what it goes",
                     keep.lo, keep.hi, options.volume));
+  if (options.inside && std::ranges::none_of(volume.intensity, [&](float value) {
+        return is_kept(value) && static_cast<double>(value) >= *options.inside;
+      }))
+    throw InputError(
+        fmt::format("--inside {:g}: no voxel of {} that is kept is as intense; palpate info says from what "
+                    "to what it goes",
+                    *options.inside, options.volume));
   std::error_code error;
   fs::create_directories(out, error);
   if (error) throw InputError(fmt::format("--out {}: cannot be made ({})", out.string(), error.message()));

@@ -7,6 +7,8 @@
 namespace palpate::physics {
 namespace {
 
+constexpr double shut_gap = 0.3;  // of a cell. Why: a tip that finds less of a gap does not go into it
+
 /// With every element, whatever is broken by now.
 Surface surface_as_loaded(const Body& body) {
   LiveElements all(body);
@@ -76,7 +78,9 @@ void Boundary::facets_near(const Vec3& p, double radius, const NodeMotion& movin
   const auto take = [&](std::uint32_t facet) {
     if (!surface_.bearers.empty() && (nearly_centroid(facet, moving) - p).squaredNorm() > around * around)
       return;
-    if (exists(facet) && (centroid(facet, moving) - p).squaredNorm() <= radius * radius) out.push_back(facet);
+    if (exists(facet) && (centroid(facet, moving) - p).squaredNorm() <= radius * radius &&
+        !is_shut(facet, moving))
+      out.push_back(facet);
   };
   for (const std::uint32_t facet : moving_facets_) take(facet);
   const auto n_loaded = static_cast<std::uint32_t>(surface_.facets.size());
@@ -157,6 +161,22 @@ Vec3 Boundary::position(std::uint32_t facet, std::size_t corner, const NodeMotio
     return of->rest + of->by.mean([&](Index node) { return moving.displacement(node); });
   const auto at = vertex(facet, corner);
   return at ? place(*at, moving) : moving.position(open_at(facet).masses[corner]);
+}
+
+/// Of what opened.
+Vec3 Boundary::now(Index mass, const NodeMotion& moving) const noexcept {
+  const LiveSkin::Lip* lip = skin_ ? skin_->lip(mass) : nullptr;
+  if (lip == nullptr) return moving.position(mass);
+  return lip->rest + lip->by.mean([&](Index node) { return moving.displacement(node); });
+}
+
+bool Boundary::is_shut(std::uint32_t facet, const NodeMotion& moving) const noexcept {
+  if (is_loaded(facet) || open_at(facet).across[0] < 0) return false;
+  const OpenFacet& open = open_at(facet);
+  Vec3 apart = Vec3::Zero();
+  for (std::size_t c = 0; c < 4; ++c) apart += now(open.across[c], moving) - now(open.masses[c], moving);
+  const Vec3 area = centroid_and_area(facet, moving).area;
+  return apart.dot(area) < 4 * shut_gap * body_.body().spacing() * area.norm();
 }
 
 Vec3 Boundary::rest(std::uint32_t facet, std::size_t corner) const noexcept {

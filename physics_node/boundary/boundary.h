@@ -43,7 +43,8 @@ class Boundary {
   std::size_t n_open() const noexcept { return n_open_; }
   std::uint64_t left_out() const noexcept { return left_out_; }
 
-  /// Appends the facets whose centroid lies within `radius` of `p` now. Allocates only while `out` grows.
+  /// Appends the facets whose centroid lies within `radius` of `p` now, but for lips of cuts that lie on each other: to a tool tissue is
+  /// there as whole as before. Allocates only while `out` grows.
   void facets_near(const Vec3& p, double radius, const NodeMotion& moving,
                    std::vector<std::uint32_t>& out) const;
   /// No more than so many numbers are ever appended at once.
@@ -82,7 +83,8 @@ class Boundary {
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   struct OpenFacet {
     SiteFacets::Corners masses{};
-    std::uint32_t next = none;  // of the same site, or free
+    SiteFacets::Corners across{-1, -1, -1, -1};  // of a lip of a cut: of the other lip
+    std::uint32_t next = none;                   // of the same site, or free
     bool open = false;
   };
 
@@ -97,6 +99,9 @@ class Boundary {
   }
   Vec3 displacement(std::uint32_t vertex, const NodeMotion& moving) const noexcept;  // of one that moves
   Vec3 place(std::uint32_t vertex, const NodeMotion& moving) const noexcept;
+  Vec3 now(Index mass, const NodeMotion& moving) const noexcept;
+  /// Is it a lip of a cut, on which the other one lies? Nothing comes between them.
+  bool is_shut(std::uint32_t facet, const NodeMotion& moving) const noexcept;
   Vec3 nearly_centroid(std::uint32_t facet, const NodeMotion& moving) const noexcept;
   Vec3 settled(std::uint32_t facet, std::size_t corner) const noexcept;
   bool is_loaded(std::uint32_t facet) const noexcept { return facet < surface_.facets.size(); }

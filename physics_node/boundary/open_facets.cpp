@@ -130,7 +130,7 @@ void Boundary::open(std::uint32_t site, const SiteFacets::Corners& masses) noexc
     ++left_out_;
     return;
   }
-  open_[at] = {.masses = masses, .next = first_[site], .open = true};
+  open_[at] = {.masses = masses, .across = sites_->across(site, masses), .next = first_[site], .open = true};
   first_[site] = at;
   ++n_open_;
 }

@@ -1,6 +1,7 @@
 #include "physics_node/boundary/site_facets.h"
 
 #include <algorithm>
+#include <span>
 
 #include "physics_node/boundary/cut_cells.h"
 #include "physics_node/boundary/fcc_facets.h"
@@ -52,6 +53,25 @@ class VoxelSites final : public SiteFacets {
       if (!rigid || is_deformable(cell + face.outward)) facets.on_face(cell, face, take);
     if (cut.is_cut(cell)) facets.inside(cell, take);
     return n;
+  }
+
+  Corners across(std::uint32_t site, const Corners& masses) const noexcept override {
+    const Index lowest = net_ != nullptr ? now_.mass(cells_.cell_of(site)) : -1;
+    if (lowest < 0 || !net_->has_cell(lowest)) return SiteFacets::across(site, masses);
+    const CellNet::Corners mine = net_->corners(lowest);
+    for (std::size_t f = 0; f < voxel_faces.size(); ++f) {
+      std::array<std::size_t, 4> k{};
+      bool same = true;
+      for (std::size_t c = 0; c < 4; ++c) {
+        k[c] = static_cast<std::size_t>(voxel_faces[f].corners[c].dot(Vec3i(1, 2, 4)));
+        same = same && mine[k[c]] == masses[c];
+      }
+      if (!same || net_->beyond(lowest, f) == CellNet::none) continue;
+      const CellNet::Corners theirs = net_->corners(net_->beyond(lowest, f));
+      const std::size_t axis = std::size_t{1} << f / 2;
+      return {theirs[k[0] ^ axis], theirs[k[1] ^ axis], theirs[k[2] ^ axis], theirs[k[3] ^ axis]};
+    }
+    return SiteFacets::across(site, masses);
   }
 
   bool is_rigid(std::uint32_t site) const noexcept override { return !is_deformable(cells_.cell_of(site)); }
@@ -143,6 +163,22 @@ class MeshSites final : public SiteFacets {
       out[n++] = {face[0], face[1], face[2], face[2]};
     }
     return n;
+  }
+
+  Corners across(std::uint32_t site, const Corners& masses) const noexcept override {
+    const auto tet = static_cast<Index>(site);
+    for (std::size_t f = 0; f < 4; ++f) {
+      const MeshTriangle mine = net_.face(tet, f);
+      const Index other = net_.beyond(tet, f);
+      if (other == TetNet::none || !std::ranges::equal(mine, std::span(masses).first(3))) continue;
+      Corners theirs{-1, -1, -1, -1};
+      for (std::size_t c = 0; c < 3; ++c)
+        for (const Index node : net_.corners(other))
+          if (net_.origin(node) == net_.origin(mine[c])) theirs[c] = node;
+      theirs[3] = theirs[2];
+      return theirs;
+    }
+    return SiteFacets::across(site, masses);
   }
 
   bool is_rigid(std::uint32_t) const noexcept override { return false; }

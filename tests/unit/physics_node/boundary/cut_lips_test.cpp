@@ -62,6 +62,13 @@ struct CutBall {
     surface->follow();
     surface->update();
   }
+  /// All that there are, touchable or not.
+  std::vector<std::uint32_t> facets() const {
+    std::vector<std::uint32_t> all;
+    for (std::uint32_t f = 0; f < surface->most_facets(); ++f)
+      if (surface->exists(f)) all.push_back(f);
+    return all;
+  }
   Surface drawn() const { return make_surface(*moving, std::nullopt, 0xff8080ffU); }
 
   std::unique_ptr<BodyModel> moving;
@@ -106,9 +113,7 @@ TEST(CutLips, LieOnThePlaneOfTheBladeDrawnAndFelt) {
     EXPECT_LT(seen.off, 0.1 * edge) << n.transpose();
     EXPECT_NEAR(seen.area, 2 * section, 0.06 * 2 * section) << n.transpose();
     const Lips felt = lips_near(n, d, [&](const auto& take) {
-      std::vector<std::uint32_t> facets;
-      ball.surface->facets_near(middle_of_ball, 1, *ball.moving, facets);
-      for (const std::uint32_t f : facets)
+      for (const std::uint32_t f : ball.facets())
         take({ball.surface->position(f, 0, *ball.moving), ball.surface->position(f, 1, *ball.moving),
               ball.surface->position(f, 2, *ball.moving), ball.surface->position(f, 3, *ball.moving)});
     });
@@ -134,12 +139,37 @@ TEST(CutLips, LeaveNoGap) {
           ball.moving->place(node, Vec3(0.02 * x.y(), copy ? 0.0006 : 0.01 * x.z(), copy ? 0.0004 : 0.0),
                              Vec3::Zero());
         });
-        std::vector<std::uint32_t> facets;
-        ball.surface->facets_near(middle_of_ball, 1, *ball.moving, facets);
         Vec3 area = Vec3::Zero();
-        for (const std::uint32_t f : facets) area += ball.surface->centroid_and_area(f, *ball.moving).area;
+        for (const std::uint32_t f : ball.facets())
+          area += ball.surface->centroid_and_area(f, *ball.moving).area;
         EXPECT_LT(area.norm(), 1e-12) << n.transpose() << half;
       }
+}
+
+/// Lips that lie on each other are no gap to a tool, and bear no tip; those that are apart are and do.
+TEST(CutLips, AreTouchedWhereTheyAreApart) {
+  const Vec3 n(0, 1, 0);
+  CutBall ball;
+  const auto near = [&] {
+    std::vector<std::uint32_t> facets;
+    ball.surface->facets_near(middle_of_ball, 0.5 * ball_radius, *ball.moving, facets);
+    return facets.size();
+  };
+  EXPECT_EQ(near(), 0U);
+  ball.cut(n, middle_of_ball.y() + 0.0007, everywhere);
+  EXPECT_EQ(near(), 0U);
+  const auto pull = [&](double way) {
+    const CellNet& net = *ball.moving->body().cell_net();
+    for (const Index c : net.cells())
+      if (ball.centre_of(c).y() > middle_of_ball.y() + 0.0007)
+        for (const Index node : net.corners(c)) ball.moving->place(node, Vec3(0, way, 0), Vec3::Zero());
+  };
+  pull(0.0004);
+  EXPECT_EQ(near(), 0U);
+  pull(-0.001);
+  EXPECT_EQ(near(), 0U) << "through each other";
+  pull(0.001);
+  EXPECT_GT(near(), 60U);
 }
 
 /// Both lips lie on each other while nothing pulls, and each goes with its own half.

@@ -241,9 +241,8 @@ TEST(ScalpelInCells, OpensFacetsOnBothSides) {
   const BodyModel& moving = cut.world.body(0);
   double opened = 0;
   Vec3 sum = Vec3::Zero();
-  std::vector<std::uint32_t> facets;
-  fresh.facets_near(Vec3::Zero(), 1, moving, facets);
-  for (const std::uint32_t facet : facets) {
+  for (std::uint32_t facet = 0; facet < fresh.most_facets(); ++facet) {
+    if (!fresh.exists(facet)) continue;
     sum += fresh.centroid_and_area(facet, moving).area;
     if (std::abs(fresh.settled_centroid(facet).y()) < 1.1e-3 &&
         std::abs(fresh.rest_area(facet).normalized().y()) > 0.9)
@@ -251,6 +250,41 @@ TEST(ScalpelInCells, OpensFacetsOnBothSides) {
   }
   EXPECT_LT(sum.norm(), 1e-9) << "closed";
   EXPECT_NEAR(opened, 2 * cut.book().cut_area(), 0.2 * cut.book().cut_area());
+}
+
+/// A tip that stands still on a cut gets no energy from it: lips that lie on each other bear nothing.
+TEST(ScalpelInCells, IsPressedAsWholeTissueBesideIt) {
+  Recipe recipe = block({.cell_mm = 2, .speed = 0});
+  recipe.body = "model = \"fem\"\nat_mm = [0, 0, 0]\nfixed = [\"-z\", \"-y\", \"+y\"]";
+  recipe.world +=
+      "[[tool]]\nname = \"tip\"\nshape = \"point\"\nradius_mm = 3\ndevice = \"other\"\nforce_model = "
+      "\"norton\"\n"
+      "[device.other]\ndriver = \"simulated\"\nwaypoints = [[0, 0, 0, 30], [1, 0, 0, 20]]\n";
+  for (const bool is_cut : {false, true}) {
+    World world(scene_of(recipe));
+    BodyModel& moving = world.body(0);
+    const CellNet& net = net_of(world);
+    const Body& body = moving.body();
+    std::vector<EdgeGone> faces;
+    for (const Index cell : net.cells())
+      if (const Index other = net.beyond(cell, 3); other != CellNet::none &&
+                                                   body.rest_position(cell).y() < -0.5e-3 &&
+                                                   body.rest_position(other).y() > -0.5e-3)
+        faces.push_back({cell, other, {}});
+    if (is_cut) {
+      EXPECT_EQ(moving.cut(faces), 75);
+    }
+    const auto hand = [](double t) {
+      return Vec3(0, 0.001, std::max(0.002, 0.012 - 0.05 * t));  // 3 mm deep
+    };
+    for (std::size_t n = 1; n <= 800; ++n) {
+      std::array<std::optional<ToolState>, 2> hands{std::nullopt, recorded_hand(hand, n)};
+      hands[1]->tool = 1;
+      world.frame(hands);
+    }
+    EXPECT_LT(std::abs(world.tool(1).book().tissue_work()), 4e-3) << is_cut;
+    EXPECT_GT(world.tool(1).borne().norm(), 0.05) << is_cut;
+  }
 }
 
 std::string refusal(const std::string& material, const std::string& body = "") {
