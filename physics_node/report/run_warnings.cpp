@@ -47,8 +47,11 @@ std::string remedy(const World& world) {
 /// For want of room, of all bodies.
 std::uint64_t faces_kept_joined(const World& world) noexcept {
   std::uint64_t n = 0;
-  for (std::size_t b = 0; b < world.n_bodies(); ++b)
-    if (const auto& mesh = world.body(b).body().mesh; mesh && mesh->net) n += mesh->net->left_out();
+  for (std::size_t b = 0; b < world.n_bodies(); ++b) {
+    const Body& body = world.body(b).body();
+    if (body.mesh && body.mesh->net) n += body.mesh->net->left_out();
+    if (const CellNet* net = body.cell_net()) n += net->left_out();
+  }
   return n;
 }
 

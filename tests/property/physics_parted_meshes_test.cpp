@@ -33,7 +33,7 @@ Recipe tough_box(const std::array<int, 3>& cells = {5, 4, 3}, double edge = 0.00
 std::unique_ptr<BodyModel> model_to_part(const Recipe& recipe) {
   const Scene scene = scene_of(recipe);
   Body body = build_body(scene.bodies.at(0), scene.materials);
-  make_ready_for_cuts(scene.bodies.at(0), body);
+  make_ready_for_cuts(scene.bodies.at(0), scene.materials, body);
   return make_body_model(std::move(body), Precision::double_);
 }
 

@@ -17,6 +17,7 @@ palpate_test(NAME physics_cracks_test KIND property SOURCES physics_cracks_test.
 # Springs that a tool cuts.
 palpate_test(NAME physics_cuts_test KIND property SOURCES physics_cuts_test.cpp LIBS palpate_physics_worlds)
 palpate_test(NAME physics_parted_meshes_test KIND property SANITIZERS address SOURCES physics_parted_meshes_test.cpp LIBS palpate_physics_worlds)
+palpate_test(NAME physics_parted_cells_test KIND property SANITIZERS address SOURCES physics_parted_cells_test.cpp LIBS palpate_physics_worlds)
 palpate_test(NAME physics_failure_test KIND property SOURCES physics_failure_test.cpp LIBS palpate_physics_worlds)
 palpate_test(NAME physics_yield_test KIND property SOURCES physics_yield_test.cpp LIBS palpate_physics_worlds)
 # Meshes of tetrahedra through the door of a scene: closed forms, laws, contact.

@@ -258,7 +258,7 @@ TEST(ScalpelInCells, IsPressedAsWholeTissueBesideIt) {
   recipe.body = "model = \"fem\"\nat_mm = [0, 0, 0]\nfixed = [\"-z\", \"-y\", \"+y\"]";
   recipe.world +=
       "[[tool]]\nname = \"tip\"\nshape = \"point\"\nradius_mm = 3\ndevice = \"other\"\nforce_model = "
-      "\"norton\"\n"
+      "\"direct\"\n"
       "[device.other]\ndriver = \"simulated\"\nwaypoints = [[0, 0, 0, 30], [1, 0, 0, 20]]\n";
   for (const bool is_cut : {false, true}) {
     World world(scene_of(recipe));
