@@ -1,4 +1,5 @@
-// scenes/head_anywhere.toml: one head, pressed at four places, of which only what is near to the finger is computed.
+// Scenes of all of a head: one pressed at four places, of which only what is near to the finger is computed, and one whose
+// cheek is cut open.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,20 +37,23 @@ class HeadAnywhere : public CommandRun {
     }
     return largest;
   }
+  void simulate(const std::string& scene, const std::string& options = {}) {
+    ASSERT_TRUE(fs::exists(head)) << "install the Debian package invesalius-examples";
+    fs::create_directories(folder / "data");
+    fs::create_directories(folder / "scenes");
+    ASSERT_EQ(
+        palpate(std::string("import ") + head + " --out " + test::quoted(folder / "data" / "cranium.h5")), 0)
+        << log;
+    fs::copy_file(fs::path(SCENES) / scene, folder / "scenes" / scene);
+    ASSERT_EQ(palpate("simulate " + test::quoted(folder / "scenes" / scene) + options +
+                      " --no-frames --out " + test::quoted(folder / "out")),
+              0)
+        << log;
+  }
 };
 
 TEST_F(HeadAnywhere, GivesWayAtCheekForeheadEarAndNape) {
-  ASSERT_TRUE(fs::exists(head)) << "install the Debian package invesalius-examples";
-  fs::create_directories(folder / "data");
-  fs::create_directories(folder / "scenes");
-  ASSERT_EQ(palpate(std::string("import ") + head + " --out " + test::quoted(folder / "data" / "cranium.h5")),
-            0)
-      << log;
-  fs::copy_file(fs::path(SCENES) / "head_anywhere.toml", folder / "scenes" / "head_anywhere.toml");
-  ASSERT_EQ(palpate("simulate " + test::quoted(folder / "scenes" / "head_anywhere.toml") +
-                    " --no-frames --out " + test::quoted(folder / "out")),
-            0)
-      << log;
+  ASSERT_NO_FATAL_FAILURE(simulate("head_anywhere.toml"));
   // Skin pushes outward: the face looks to +y, its right ear to -x.
   const Vec3 cheek = largest_between(0.8, 1.1), forehead = largest_between(2.5, 2.8),
              ear = largest_between(4.5, 4.8), nape = largest_between(6.3, 6.6);
@@ -68,6 +72,22 @@ TEST_F(HeadAnywhere, GivesWayAtCheekForeheadEarAndNape) {
   EXPECT_EQ(summary["guard"]["restored"].get<int>(), 0);
   EXPECT_GT(summary["bodies"]["head"]["sleeping_fraction"].get<double>(), 0.97);
   EXPECT_GT(summary["bodies"]["head"]["masses"].get<int>(), 130'000);
+}
+
+TEST_F(HeadAnywhere, IsCutOpenAtTheCheek) {
+  ASSERT_NO_FATAL_FAILURE(simulate("scalpel_head.toml", " --seconds 2.4"));
+  const auto summary = read_json((folder / "out" / "summary.json").string());
+  const auto& blade = summary["tools"]["scalpel"];
+  const double area = blade["cut_area_mm2"].get<double>();
+  EXPECT_GT(area, 150);
+  EXPECT_NEAR(summary["energy"]["cut"].get<double>(), 190e-6 * area, 1e-6);
+  // 20 mm of edge, of which not all lies in tissue that moves.
+  EXPECT_GT(blade["force_peak"].get<double>(), 3.0);
+  EXPECT_LT(blade["force_peak"].get<double>(), 1.1 * 190 * 0.020);
+  EXPECT_LT(summary["energy"]["balance_error"].get<double>(), 1e-3);
+  EXPECT_EQ(summary["guard"]["restored"].get<int>(), 0);
+  EXPECT_EQ(summary["bodies"]["head"]["fragments"].get<int>(), 1);
+  EXPECT_GT(summary["bodies"]["head"]["min_corner_J"].get<double>(), 0.05);
 }
 
 }  // namespace
