@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <optional>
 #include <sstream>
 #include <vector>
@@ -159,6 +160,60 @@ TEST_F(ShippedScenes, ALobeOfTetrahedraIsOpened) {
   EXPECT_GT(lobe["min_corner_J"].get<double>(), 0.4);
   EXPECT_LT(summary["energy"]["balance_error"].get<double>(), 1e-4);
   EXPECT_TRUE(summary["warnings"].empty()) << summary["warnings"];
+}
+
+/// A tip that comes to a cut of before and stands there: lips that lie on each other bear nothing, and feed it nothing.
+TEST_F(ShippedScenes, ATipRestsOnACutAsOnWholeTissue) {
+  const fs::path scene = folder / "tip_on_a_cut.toml";
+  std::ofstream(scene) << R"(title = "A tip on a cut"
+gravity_m_per_s2 = [0, 0, 0]
+[scene]
+seconds = 1.2
+[[body]]
+name = "block"
+lattice = "voxel"
+model = "fem"
+shape = "box"
+size_mm = [24, 20, 10]
+spacing_mm = 2
+fixed = ["-z", "-y", "+y"]
+material = "m"
+[material.m]
+density_kg_per_m3 = 1000
+modulus_kPa = 200
+viscosity_Pa_s = 5
+cut_toughness_J_per_m2 = 190
+[[tool]]
+name = "scalpel"
+shape = "scalpel"
+length_mm = 40
+stiffness_N_per_m = 800
+device = "one"
+[device.one]
+driver = "simulated"
+hand = "rigid"
+force_limit_N = 20
+waypoints = [[0, 50, 0.3, -9], [0.4, -30, 0.3, -9], [0.5, -60, 0.3, -9], [1.2, -60, 0.3, -9]]
+[[tool]]
+name = "tip"
+shape = "point"
+radius_mm = 3
+force_model = "norton"
+device = "other"
+[device.other]
+driver = "simulated"
+hand = "rigid"
+waypoints = [[0, 0, 1, 20], [0.5, 0, 1, 8], [0.7, 0, 1, 2], [1.2, 0, 1, 2]]
+)";
+  ASSERT_EQ(palpate("simulate " + test::quoted(scene) + " --no-frames --out " + test::quoted(folder / "cut")),
+            0)
+      << log;
+  const auto summary = read_json((folder / "cut" / "summary.json").string());
+  EXPECT_GT(summary["tools"]["scalpel"]["cut_area_mm2"].get<double>(), 200);
+  const auto& tip = summary["tools"]["tip"];
+  EXPECT_GT(tip["force_peak"].get<double>(), 0.5);
+  EXPECT_LT(tip["tissue_work"].get<double>(), 1e-3)
+      << "0.3 mJ without a cut, 200 of lips that push it to and fro";
 }
 
 /// A patient's liver, from a labelled image to a force: what the hand feels is what the tissue bears.

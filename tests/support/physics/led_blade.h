@@ -1,6 +1,7 @@
 #pragma once
 // A world whose one tool is a blade, and a hand that leads it a frame at a time.
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -32,6 +33,25 @@ struct LedBlade {
     const auto n = static_cast<int>(std::ceil((end - begin).norm() / speed * 1e3));
     for (int i = 1; i <= n; ++i) forces.push_back(to(begin + (end - begin) * i / n));
     return forces;
+  }
+  /// What a straight stroke is like, in the mean of its frames.
+  struct Stroke {
+    double force = 0;    // against its way [N]
+    double jump = 0;     // the most from one frame to the next [N]
+    double opened = 0;   // of area, by its way [m]
+    double viscous = 0;  // what tissue dissipates, by its way [N]
+  };
+  Stroke stroke(const Vec3& end, double speed) {
+    const Vec3 way = end - path.back();
+    const double dissipated = world.ledger().dissipated, opened = book().cut_area();
+    const std::vector<Vec3> forces = along(end, speed);
+    Stroke of{0, 0, (book().cut_area() - opened) / way.norm(),
+              (world.ledger().dissipated - dissipated) / way.norm()};
+    for (std::size_t i = 0; i < forces.size(); ++i) {
+      of.force -= forces[i].dot(way.normalized()) / static_cast<double>(forces.size());
+      if (i > 0) of.jump = std::max(of.jump, (forces[i] - forces[i - 1]).norm());
+    }
+    return of;
   }
   const TouchBook& book() { return world.tool(0).book(); }
 

@@ -74,19 +74,10 @@ TEST_P(ScalpelInTetrahedra, FeelsToughnessTimesLengthAndPaysForTheAreaThatItOpen
   const double begin = 0.020, end = -0.035, from = begin + 0.45 * (end - begin),
                to = begin + 0.65 * (end - begin);
   cut.along(Vec3(from, plane, -0.010), c.speed);
-  const EnergyLedger at_from = cut.world.ledger();
-  const double opened = cut.book().cut_area();
-  const std::vector<Vec3> steady = cut.along(Vec3(to, plane, -0.010), c.speed);
-  const EnergyLedger at_to = cut.world.ledger();
-  double mean = 0, jump = 0;
-  for (std::size_t i = 0; i < steady.size(); ++i) {
-    mean += steady[i].x() / static_cast<double>(steady.size());
-    if (i > 0) jump = std::max(jump, (steady[i] - steady[i - 1]).norm());
-  }
-  EXPECT_NEAR((cut.book().cut_area() - opened) / (from - to), size.z(), 0.03 * size.z());
-  const double viscous = (at_to.dissipated - at_from.dissipated) / (from - to);
-  EXPECT_NEAR(mean - viscous, toughness * size.z(), 0.05 * toughness * size.z());
-  EXPECT_LT(jump, 0.03 * toughness * size.z()) << "of a frame";
+  const LedBlade::Stroke steady = cut.stroke(Vec3(to, plane, -0.010), c.speed);
+  EXPECT_NEAR(steady.opened, size.z(), 0.03 * size.z());
+  EXPECT_NEAR(steady.force - steady.viscous, toughness * size.z(), 0.05 * toughness * size.z());
+  EXPECT_LT(steady.jump, 0.03 * toughness * size.z()) << "of a frame";
 
   cut.along(Vec3(end, plane, -0.010), c.speed);
   const double area = size.x() * size.z();

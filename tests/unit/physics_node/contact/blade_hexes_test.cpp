@@ -77,20 +77,11 @@ TEST_P(ScalpelInCells, FeelsToughnessTimesLengthAndPaysForTheAreaThatItOpens) {
   const double begin = 0.020, end = -0.035, from = begin + 0.45 * (end - begin),
                to = begin + 0.65 * (end - begin);
   cut.along(Vec3(from, plane, -0.010), c.speed);
-  const EnergyLedger at_from = cut.world.ledger();
-  const double opened = cut.book().cut_area();
-  const std::vector<Vec3> steady = cut.along(Vec3(to, plane, -0.010), c.speed);
-  const EnergyLedger at_to = cut.world.ledger();
-  double mean = 0, jump = 0;
-  for (std::size_t i = 0; i < steady.size(); ++i) {
-    mean += steady[i].x() / static_cast<double>(steady.size());
-    if (i > 0) jump = std::max(jump, (steady[i] - steady[i - 1]).norm());
-  }
-  EXPECT_NEAR((cut.book().cut_area() - opened) / (from - to), size.z(), 0.03 * size.z());
-  const double viscous = (at_to.dissipated - at_from.dissipated) / (from - to);
-  EXPECT_NEAR(mean - viscous, toughness * size.z(), 0.05 * toughness * size.z());
+  const LedBlade::Stroke steady = cut.stroke(Vec3(to, plane, -0.010), c.speed);
+  EXPECT_NEAR(steady.opened, size.z(), 0.03 * size.z());
+  EXPECT_NEAR(steady.force - steady.viscous, toughness * size.z(), 0.05 * toughness * size.z());
   // The edge lies along rows of cells, which open all at once.
-  EXPECT_LT(jump, 0.12 * toughness * size.z()) << "of a frame";
+  EXPECT_LT(steady.jump, 0.12 * toughness * size.z()) << "of a frame";
 
   cut.along(Vec3(end, plane, -0.010), c.speed);
   const double area = size.x() * size.z();
@@ -108,6 +99,20 @@ INSTANTIATE_TEST_SUITE_P(Cells, ScalpelInCells,
                          testing::Values(Case{2, 0.05}, Case{2, 0.2}, Case{1, 0.2},
                                          Case{2, 0.2, true, "single"}),
                          [](const testing::TestParamInfo<Case>& one) { return std::to_string(one.index); });
+
+/// All faces in the plane between cells that is nearest to the blade's.
+std::vector<EdgeGone> across_the_plane(const World& world) {
+  const Body& body = world.body(0).body();
+  const CellNet& net = net_of(world);
+  std::vector<EdgeGone> faces;
+  for (const Index cell : net.cells()) {
+    const Index other = net.beyond(cell, 3);
+    if (other != CellNet::none && body.rest_position(cell).y() < -0.5e-3 &&
+        body.rest_position(other).y() > -0.5e-3)
+      faces.push_back({cell, other, {}});
+  }
+  return faces;
+}
 
 double mass_of(const Body& body) {
   double sum = 0;
@@ -137,12 +142,7 @@ TEST(ScalpelInCells, LeavesTwoBodies) {
   BodyModel& moving = world.body(0);
   const CellNet& net = net_of(world);
   const Body& body = moving.body();
-  std::vector<EdgeGone> faces;
-  for (const Index cell : net.cells())
-    if (const Index other = net.beyond(cell, 3); other != CellNet::none &&
-                                                 body.rest_position(cell).y() < -0.5e-3 &&
-                                                 body.rest_position(other).y() > -0.5e-3)
-      faces.push_back({cell, other});
+  const std::vector<EdgeGone> faces = across_the_plane(world);
   ASSERT_EQ(faces.size(), 15U * 5U);
   const double energy = moving.energy_now();
   EXPECT_EQ(moving.cut(faces), 75);
@@ -250,41 +250,6 @@ TEST(ScalpelInCells, OpensFacetsOnBothSides) {
   }
   EXPECT_LT(sum.norm(), 1e-9) << "closed";
   EXPECT_NEAR(opened, 2 * cut.book().cut_area(), 0.2 * cut.book().cut_area());
-}
-
-/// A tip that stands still on a cut gets no energy from it: lips that lie on each other bear nothing.
-TEST(ScalpelInCells, IsPressedAsWholeTissueBesideIt) {
-  Recipe recipe = block({.cell_mm = 2, .speed = 0});
-  recipe.body = "model = \"fem\"\nat_mm = [0, 0, 0]\nfixed = [\"-z\", \"-y\", \"+y\"]";
-  recipe.world +=
-      "[[tool]]\nname = \"tip\"\nshape = \"point\"\nradius_mm = 3\ndevice = \"other\"\nforce_model = "
-      "\"direct\"\n"
-      "[device.other]\ndriver = \"simulated\"\nwaypoints = [[0, 0, 0, 30], [1, 0, 0, 20]]\n";
-  for (const bool is_cut : {false, true}) {
-    World world(scene_of(recipe));
-    BodyModel& moving = world.body(0);
-    const CellNet& net = net_of(world);
-    const Body& body = moving.body();
-    std::vector<EdgeGone> faces;
-    for (const Index cell : net.cells())
-      if (const Index other = net.beyond(cell, 3); other != CellNet::none &&
-                                                   body.rest_position(cell).y() < -0.5e-3 &&
-                                                   body.rest_position(other).y() > -0.5e-3)
-        faces.push_back({cell, other, {}});
-    if (is_cut) {
-      EXPECT_EQ(moving.cut(faces), 75);
-    }
-    const auto hand = [](double t) {
-      return Vec3(0, 0.001, std::max(0.002, 0.012 - 0.05 * t));  // 3 mm deep
-    };
-    for (std::size_t n = 1; n <= 800; ++n) {
-      std::array<std::optional<ToolState>, 2> hands{std::nullopt, recorded_hand(hand, n)};
-      hands[1]->tool = 1;
-      world.frame(hands);
-    }
-    EXPECT_LT(std::abs(world.tool(1).book().tissue_work()), 4e-3) << is_cut;
-    EXPECT_GT(world.tool(1).borne().norm(), 0.05) << is_cut;
-  }
 }
 
 std::string refusal(const std::string& material, const std::string& body = "") {

@@ -102,21 +102,12 @@ TEST_P(Scalpel, FeelsToughnessTimesLengthAndPaysForTheAreaThatItOpens) {
                to = begin + 0.65 * (end - begin);
   std::vector<Vec3> forces = cut.along(Vec3(from, plane, -0.010), c.speed);
   // While all of the thickness is before the edge.
-  const EnergyLedger at_from = cut.world.ledger();
-  const double opened = cut.book().cut_area();
-  const std::vector<Vec3> steady = cut.along(Vec3(to, plane, -0.010), c.speed);
-  const EnergyLedger at_to = cut.world.ledger();
-  double mean = 0, jump = 0;
-  for (std::size_t i = 0; i < steady.size(); ++i) {
-    mean += steady[i].x() / static_cast<double>(steady.size());
-    if (i > 0) jump = std::max(jump, (steady[i] - steady[i - 1]).norm());
-  }
-  EXPECT_NEAR((cut.book().cut_area() - opened) / (from - to), thickness, 0.03 * thickness);
+  const LedBlade::Stroke steady = cut.stroke(Vec3(to, plane, -0.010), c.speed);
+  EXPECT_NEAR(steady.opened, thickness, 0.03 * thickness);
   // What tissue's own viscosity takes as it is pushed aside is felt, too.
-  const double viscous = (at_to.dissipated - at_from.dissipated) / (from - to);
-  EXPECT_LT(viscous, 0.1 * toughness * thickness);
-  EXPECT_NEAR(mean - viscous, toughness * thickness, 0.03 * toughness * thickness);
-  EXPECT_LT(jump, 0.03 * toughness * thickness) << "of a frame";
+  EXPECT_LT(steady.viscous, 0.1 * toughness * thickness);
+  EXPECT_NEAR(steady.force - steady.viscous, toughness * thickness, 0.03 * toughness * thickness);
+  EXPECT_LT(steady.jump, 0.03 * toughness * thickness) << "of a frame";
 
   cut.along(Vec3(end, plane, -0.010), c.speed);
   // No strands: what was one body is two, and no crumbs have come off. A mass beside the plane may have gone to the other lip.
