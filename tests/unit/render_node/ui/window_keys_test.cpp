@@ -156,7 +156,8 @@ TEST(Window, HidesABodyByItsEye) {
   const int middle = (1024 + static_cast<int>(panel_width * 768 / 720)) / 2;
   ASSERT_GT(first.at(middle, 384)[0], first.at(middle, 384)[2] + 15) << "skin";
   bool hidden = false;
-  for (int y = 40; y < 700 && !hidden; y += 6) {  // wherever its row may be, before its name
+  // Wherever its row may be, before its name; from below, where the opacity of tissue is not met first.
+  for (int y = 700; y > 40 && !hidden; y -= 6) {
     shown.hand->move(24, y);
     shown.draw();
     shown.hand->click(1);
