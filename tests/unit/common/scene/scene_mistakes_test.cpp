@@ -231,11 +231,11 @@ INSTANTIATE_TEST_SUITE_P(
         {"modulus_kPa = 20", "modulus_kPa = 1e13", "15:15", "of 1e-12 to 1e+12 in size"},
         {"name = \"slab\"", "name = \"\"", "48:8", "\"name\" in [[body]] is \"\"; write a name"},
         {"[1.5, 0, 0, 40]", "[1e7, 0, 0, 40]", "89:29", "each at most 1e6"},
-        {"seconds = 12.5", "seconds = 0", "113:11", "is 0; write a number above 0 and at most 1000000"},
-        {"seconds = 12.5", "seconds = nan", "113:11", "is nan; write a number above 0 and at most 1000000"},
-        {"seconds = 12.5", "second = 1", "113:1",
+        {"seconds = 12.5", "seconds = 0", "115:11", "is 0; write a number above 0 and at most 1000000"},
+        {"seconds = 12.5", "seconds = nan", "115:11", "is nan; write a number above 0 and at most 1000000"},
+        {"seconds = 12.5", "second = 1", "115:1",
          "unknown key \"second\" in [scene]; did you mean \"seconds\"?"},
-        {"what = [\"positions\"]", "what = \"positions\"", "109:8",
+        {"what = [\"positions\"]", "what = \"positions\"", "111:8",
          "write a list of \"positions\", \"forces\" and \"energy\""},
     }));
 
