@@ -23,6 +23,7 @@
 #include "deploy/palpate/scene_draft.h"
 #include "deploy/palpate/subcommands.h"
 #include "physics_node/appearance/appearance.h"
+#include "render_node/model/inside_control.h"
 #include "render_node/picture.h"
 #include "render_node/ui/window.h"
 
@@ -32,7 +33,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double most_cells = 4e6;    // Why: more take seconds to draw in software, and GB
-constexpr double veil = 0.35;         // opacity of what lies before the inside
 constexpr double bytes_of_work = 40;  // of a cell, at most: read, resampled, kept, drawn
 
 struct ViewOptions {
@@ -61,7 +61,8 @@ std::array<int, 3> partition_of(const std::array<int, 3>& size) {
 /// A scene without a hand. Some cells in its middle may move, since a body must have some that do.
 std::string scene_text(const ViewOptions& options, const std::string& scene, const KeepWindow& keep,
                        const std::array<int, 3>& partition) {
-  return fmt::format(R"(# {}: written by palpate view.
+  return fmt::format(
+      R"(# {}: written by palpate view.
 #   palpate run SCENE --nodes physics,render
 title = {}
 gravity_m_per_s2 = [0, 0, 0]
@@ -84,12 +85,12 @@ viscosity_Pa_s    = 1
 [render]
 size_px = [1280, 720]
 {})",
-                     in_comment(fs::path(options.volume).filename().string()),
-                     in_quotes(fs::path(options.volume).stem().string()),
-                     in_quotes(named_from(options.volume, scene)), partition[0], partition[1], partition[2],
-                     keep.lo, keep.hi,
-                     options.inside ? fmt::format("inside  = {:.9g}\nopacity = {:g}\n", *options.inside, veil)
-                                    : std::string());
+      in_comment(fs::path(options.volume).filename().string()),
+      in_quotes(fs::path(options.volume).stem().string()), in_quotes(named_from(options.volume, scene)),
+      partition[0], partition[1], partition[2], keep.lo, keep.hi,
+      options.inside
+          ? fmt::format("inside  = {:.9g}\nopacity = {:g}\n", *options.inside, render::InsideControl::veil)
+          : std::string());
 }
 
 struct Look {

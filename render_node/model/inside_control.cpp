@@ -21,7 +21,7 @@ InsideControl::InsideControl(const Scene& scene)
   const ThresholdControl scale(scene);
   lo_ = scale.lo(), hi_ = scale.hi();
   from_ = std::clamp(scene.render->inside.value_or(lo_ < 0 ? bone : (lo_ + hi_) / 2), lo_, hi_);
-  sent_ = scene.render->inside;
+  pace_.obey(scene.render->inside);
 }
 
 void InsideControl::toggle() noexcept {
@@ -41,14 +41,7 @@ void InsideControl::obey(const std::optional<double>& value) noexcept {
   if (!applies_) return;
   on_ = value.has_value();
   if (value) from_ = *value;
-  sent_ = value;
-}
-
-bool InsideControl::due(double now, bool released) noexcept {
-  if (!applies_ || value() == sent_ || (!released && now - sent_at_ < shortest_s)) return false;
-  sent_ = value();
-  sent_at_ = now;
-  return true;
+  pace_.obey(value);
 }
 
 }  // namespace palpate::render

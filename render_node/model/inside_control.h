@@ -5,12 +5,12 @@
 #include <optional>
 
 #include "common/scene/scene_fwd.h"
+#include "render_node/model/command_pace.h"
 
 namespace palpate::render {
 
 class InsideControl {
  public:
-  static constexpr double shortest_s = 0.2;  // between two commands
   static constexpr double least_opacity = 0.05;
   static constexpr double veil =
       0.35;  // opacity that the inside is shown through, if a person has chosen no other
@@ -32,13 +32,12 @@ class InsideControl {
   /// Somebody commanded this: show it, and do not command it again.
   void obey(const std::optional<double>& value) noexcept;
   /// What to command now, if anything. @param now  wall time [s]
-  bool due(double now, bool released) noexcept;
+  bool due(double now, bool released) noexcept { return applies_ && pace_.due(value(), now, released); }
 
  private:
   bool applies_ = false, on_ = false;
   double lo_ = 0, hi_ = 255, from_ = 0, opacity_ = 1;
-  std::optional<double> sent_;
-  double sent_at_ = -1e9;
+  CommandPace<std::optional<double>> pace_;
 };
 
 }  // namespace palpate::render

@@ -8,7 +8,7 @@
 namespace palpate::render {
 
 SectionControl::SectionControl(const Scene& scene)
-    : applies_(!bodies_with_section(scene).empty()), value_(scene.render->section), sent_(value_) {
+    : applies_(!bodies_with_section(scene).empty()), value_(scene.render->section), pace_(value_) {
   if (value_) last_[static_cast<std::size_t>(value_->axis)] = value_->at;
 }
 
@@ -32,13 +32,6 @@ void SectionControl::move_to(double at, const Eigen::AlignedBox3d& box) noexcept
 
 void SectionControl::move(int steps, const Eigen::AlignedBox3d& box) noexcept {
   if (value_ && !box.isEmpty()) move_to(value_->at + 0.01 * steps * box.sizes()[value_->axis], box);
-}
-
-bool SectionControl::due(double now, bool released) noexcept {
-  if (value_ == sent_ || (!released && now - sent_at_ < shortest_s)) return false;
-  sent_ = value_;
-  sent_at_ = now;
-  return true;
 }
 
 }  // namespace palpate::render

@@ -5,13 +5,12 @@
 #include <optional>
 
 #include "common/scene/section_spec.h"
+#include "render_node/model/command_pace.h"
 
 namespace palpate::render {
 
 class SectionControl {
  public:
-  static constexpr double shortest_s = 0.2;  // between two commands
-
   explicit SectionControl(const Scene& scene);
 
   bool applies() const noexcept { return applies_; }  // false: no body has a section to show
@@ -27,15 +26,15 @@ class SectionControl {
   void move(int steps, const Eigen::AlignedBox3d& box) noexcept;
 
   /// Somebody commanded this: show it, and do not command it again.
-  void obey(const std::optional<SectionSpec>& value) noexcept { value_ = sent_ = value; }
+  void obey(const std::optional<SectionSpec>& value) noexcept { value_ = value, pace_.obey(value); }
   /// What to command now, if anything. @param now  wall time [s]
-  bool due(double now, bool released) noexcept;
+  bool due(double now, bool released) noexcept { return pace_.due(value_, now, released); }
 
  private:
   bool applies_ = false;
-  std::optional<SectionSpec> value_, sent_;
+  std::optional<SectionSpec> value_;
   std::array<std::optional<double>, 3> last_;  // across each axis [m]
-  double sent_at_ = -1e9;
+  CommandPace<std::optional<SectionSpec>> pace_;
 };
 
 }  // namespace palpate::render

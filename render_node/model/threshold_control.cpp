@@ -19,16 +19,13 @@ ThresholdControl::ThresholdControl(const Scene& scene) {
       lo_ = -1024;
       hi_ = 3071;
     }
-    value_ = sent_ = std::clamp(scene.render->threshold.value_or(volume->keep_min), lo_, hi_);
+    obey(std::clamp(scene.render->threshold.value_or(volume->keep_min), lo_, hi_));
     return;
   }
 }
 
 std::optional<double> ThresholdControl::due(double now, bool released) noexcept {
-  if (value_ == sent_ || (!released && now - sent_at_ < shortest_s)) return std::nullopt;
-  sent_ = value_;
-  sent_at_ = now;
-  return value_;
+  return pace_.due(value_, now, released) ? std::optional(value_) : std::nullopt;
 }
 
 }  // namespace palpate::render

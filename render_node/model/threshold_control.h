@@ -4,13 +4,12 @@
 #include <optional>
 
 #include "common/scene/scene_fwd.h"
+#include "render_node/model/command_pace.h"
 
 namespace palpate::render {
 
 class ThresholdControl {
  public:
-  static constexpr double shortest_s = 0.2;  // between two commands
-
   /// Range and start from the first volume of the scene: -1024..3071 where its window is that of a CT,
   /// 0..255 otherwise.
   explicit ThresholdControl(const Scene& scene);
@@ -23,7 +22,7 @@ class ThresholdControl {
   /// The hand set the slider.
   void set(double value) noexcept { value_ = value; }
   /// Somebody commanded this value: show it, and do not command it again.
-  void obey(double value) noexcept { value_ = sent_ = value; }
+  void obey(double value) noexcept { value_ = value, pace_.obey(value); }
   /// What to command now, if anything: a value not yet commanded, not sooner than allowed unless released.
   /// @param now  wall time [s]
   std::optional<double> due(double now, bool released) noexcept;
@@ -31,7 +30,7 @@ class ThresholdControl {
  private:
   bool applies_ = false;
   double lo_ = 0, hi_ = 255, value_ = 0;
-  double sent_ = 0, sent_at_ = -1e9;
+  CommandPace<double> pace_;
 };
 
 }  // namespace palpate::render

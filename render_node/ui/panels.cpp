@@ -102,6 +102,15 @@ void buttons(std::initializer_list<ActionButton> all, int a_line, PanelWishes& w
   }
 }
 
+/// A slider over the width of the column. @return it was let go after it had moved
+bool slider(const char* name, double lo, double hi, const char* format, double& value) {
+  auto shown = static_cast<float>(value);
+  ImGui::SetNextItemWidth(-1);
+  if (ImGui::SliderFloat(name, &shown, static_cast<float>(lo), static_cast<float>(hi), format))
+    value = static_cast<double>(shown);
+  return ImGui::IsItemDeactivatedAfterEdit();
+}
+
 /// Across which axis bodies are cut open, and where.
 void section_rows(const ViewModel& model, const PanelFacts& facts, SectionControl& section,
                   PanelWishes& wishes) {
@@ -126,21 +135,11 @@ void section_rows(const ViewModel& model, const PanelFacts& facts, SectionContro
   }
   if (!section.value() || model.box().isEmpty()) return;
   const int axis = section.value()->axis;
-  auto at = static_cast<float>(mm_from_m(section.value()->at));
-  ImGui::SetNextItemWidth(-1);
-  if (ImGui::SliderFloat("##section", &at, static_cast<float>(mm_from_m(model.box().min()[axis])),
-                         static_cast<float>(mm_from_m(model.box().max()[axis])), "%.1f mm"))
-    section.move_to(m_from_mm(static_cast<double>(at)), model.box());
-  wishes.section_released = ImGui::IsItemDeactivatedAfterEdit();
-}
-
-/// A slider over the width of the column. @return it was let go after it had moved
-bool slider(const char* name, double lo, double hi, const char* format, double& value) {
-  auto shown = static_cast<float>(value);
-  ImGui::SetNextItemWidth(-1);
-  if (ImGui::SliderFloat(name, &shown, static_cast<float>(lo), static_cast<float>(hi), format))
-    value = static_cast<double>(shown);
-  return ImGui::IsItemDeactivatedAfterEdit();
+  const double before = mm_from_m(section.value()->at);
+  double at = before;
+  wishes.section_released = slider("##section", mm_from_m(model.box().min()[axis]),
+                                   mm_from_m(model.box().max()[axis]), "%.1f mm", at);
+  if (at != before) section.move_to(m_from_mm(at), model.box());
 }
 
 /// What lies inside of images, and how far one sees through what lies before it.
@@ -167,13 +166,10 @@ PanelWishes controls(const ViewModel& model, const PanelFacts& facts, ThresholdC
   PanelWishes wishes;
   if (threshold.applies()) {
     if (facts.interactive) {
-      auto value = static_cast<float>(threshold.value());
+      double value = threshold.value();
       ImGui::TextDisabled("tissue from intensity");
-      ImGui::SetNextItemWidth(-1);
-      wishes.threshold_moved = ImGui::SliderFloat("##threshold", &value, static_cast<float>(threshold.lo()),
-                                                  static_cast<float>(threshold.hi()), "%.0f");
-      if (wishes.threshold_moved) threshold.set(static_cast<double>(value));
-      wishes.threshold_released = ImGui::IsItemDeactivatedAfterEdit();
+      wishes.threshold_released = slider("##threshold", threshold.lo(), threshold.hi(), "%.0f", value);
+      threshold.set(value);
     } else {
       row("tissue from intensity", fmt::format("{:.0f}", threshold.value()));
     }

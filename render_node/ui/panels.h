@@ -32,8 +32,7 @@ struct PanelFacts {
 
 /// What the person asked for in this frame.
 struct PanelWishes {
-  bool threshold_moved = false;  // ThresholdControl has the value
-  bool threshold_released = false;
+  bool threshold_released = false;  // ThresholdControl has the value
   bool section_released = false;
   bool inside_released = false;
   std::vector<Action> actions;  // by buttons, as if by keys
