@@ -107,8 +107,7 @@ void World::move_bodies(double dt, bool watch) noexcept {
   // Why: what a cut lets go of moves otherwise in the next step than in this, and a damper's power tells too much then.
   const bool parts = std::ranges::any_of(toolbox_.pressing, [this](const PressingTool* tool) {
     const Body& body = bodies_[tool->touched_body()]->body();
-    return tool->follows_steps() && tool->may_press() &&
-           ((body.mesh && body.mesh->net) || body.cell_net() != nullptr);
+    return tool->follows_steps() && tool->may_press() && is_of_finite_elements(body) && any_cut(body);
   });
   const ExplicitStep how{.dt = dt,
                          .gravity = scene_.gravity,

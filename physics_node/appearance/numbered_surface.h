@@ -54,7 +54,7 @@ class NumberedSurface {
     const Index cell = cell_[vertex];
     if (cell < 0) return rest_[vertex];
     if (bearers_.empty()) return rest_[vertex] + moving.displacement(cell);
-    return rest_[vertex] + bearers_[vertex].mean([&](Index node) { return moving.displacement(node); });
+    return rest_[vertex] + bearers_[vertex].displacement(moving);
   }
 
   using Corners = std::array<std::uint32_t, 4>;

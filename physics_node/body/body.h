@@ -49,12 +49,11 @@ struct Body {
   Index n_nodes() const noexcept { return static_cast<Index>(nodes().size()); }
   /// The number of every node is below this, and of every copy of one.
   Index capacity() const noexcept {
-    if (mesh) return n_nodes() + static_cast<Index>(mesh->most_copies());
-    return lattice.n_cells() + (cell_net() != nullptr ? static_cast<Index>(cell_net()->most_copies()) : 0);
+    return (mesh ? n_nodes() : lattice.n_cells()) + static_cast<Index>(most_copies());
   }
   std::size_t most_copies() const noexcept {
-    return static_cast<std::size_t>(capacity()) -
-           (mesh ? nodes().size() : static_cast<std::size_t>(lattice.n_cells()));
+    if (mesh) return mesh->most_copies();
+    return cell_net() != nullptr ? cell_net()->most_copies() : 0;
   }
   /// Of cells of finite elements that may be cut; else null.
   CellNet* cell_net() const noexcept { return solid ? solid->net.get() : nullptr; }

@@ -28,6 +28,11 @@ struct Bearers {
     for (std::uint32_t i = 0; i < n; ++i) sum += weight[i] * at(node[i]);
     return sum;
   }
+  /// Of the place, as its masses move. @param moving  NodeMotion [m]
+  template <class Moving>
+  Vec3 displacement(const Moving& moving) const noexcept {
+    return mean([&](Index one) { return moving.displacement(one); });
+  }
   /// Is it so of all of them? @param is  bool(node)
   template <class Is>
   bool all(const Is& is) const noexcept {

@@ -148,7 +148,7 @@ Bearers Boundary::bearers(std::uint32_t facet, std::size_t corner) const noexcep
 Vec3 Boundary::displacement(std::uint32_t vertex, const NodeMotion& moving) const noexcept {
   const Bearers* by = carried(vertex);
   if (by == nullptr) return moving.displacement(surface_.cell[vertex]);
-  return by->mean([&](Index node) { return moving.displacement(node); });
+  return by->displacement(moving);
 }
 
 Vec3 Boundary::place(std::uint32_t vertex, const NodeMotion& moving) const noexcept {
@@ -157,8 +157,7 @@ Vec3 Boundary::place(std::uint32_t vertex, const NodeMotion& moving) const noexc
 }
 
 Vec3 Boundary::position(std::uint32_t facet, std::size_t corner, const NodeMotion& moving) const noexcept {
-  if (const LiveSkin::Lip* of = lip(facet, corner))
-    return of->rest + of->by.mean([&](Index node) { return moving.displacement(node); });
+  if (const LiveSkin::Lip* of = lip(facet, corner)) return of->position(moving);
   const auto at = vertex(facet, corner);
   return at ? place(*at, moving) : moving.position(open_at(facet).masses[corner]);
 }
@@ -166,8 +165,7 @@ Vec3 Boundary::position(std::uint32_t facet, std::size_t corner, const NodeMotio
 /// Of what opened.
 Vec3 Boundary::now(Index mass, const NodeMotion& moving) const noexcept {
   const LiveSkin::Lip* lip = skin_ ? skin_->lip(mass) : nullptr;
-  if (lip == nullptr) return moving.position(mass);
-  return lip->rest + lip->by.mean([&](Index node) { return moving.displacement(node); });
+  return lip != nullptr ? lip->position(moving) : moving.position(mass);
 }
 
 bool Boundary::is_shut(std::uint32_t facet, const NodeMotion& moving) const noexcept {

@@ -17,7 +17,6 @@ struct CellsRound {
   std::array<bool, 8> has{};  // the node at a corner; others have a copy of it, or are not there
   std::array<CellNet::Corners, 8> corners;       // of those
   std::array<std::array<FaceCut, 3>, 8> cut_at;  // between it and the next up an axis
-  bool any_parted = false;                       // a cell there has a copy at some corner
 
   CellsRound() noexcept {
     for (auto& of_cell : cut_at) of_cell.fill({-1, {}});

@@ -17,18 +17,14 @@ class ExposedNodes {
   bool contains(Index node, const Adjacency& now) const noexcept {
     if (mesh_ != nullptr && mesh_->net) return mesh_->net->is_exposed(node);
     if (mesh_ != nullptr) return mesh_->is_outer[static_cast<std::size_t>(node)] != 0;
-    if (cells_ != nullptr) node = as_loaded(node);
-    if (node < 0) return true;
-    if (lattice_->is_beyond(node)) return false;
+    const Index loaded = cells_ != nullptr ? cells_->origin(node) : node;
+    if (lattice_->is_beyond(loaded)) return false;
+    if (cells_ != nullptr && cells_->n_copies() > 0 && cells_->is_exposed(node)) return true;
+    node = loaded;
     return now.degree(node) < complete_degree(node) || (open_ones_ && lies_open(node)) || now.has_lost(node);
   }
 
  private:
-  /// -1: a node that a cut has made one of a face.
-  Index as_loaded(Index node) const noexcept {
-    if (cells_->n_copies() == 0 || lattice_->is_beyond(cells_->origin(node))) return cells_->origin(node);
-    return cells_->is_exposed(node) ? -1 : cells_->origin(node);
-  }
   int complete_degree(Index node) const noexcept;
   bool lies_open(Index node) const noexcept;
 

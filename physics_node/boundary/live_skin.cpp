@@ -53,7 +53,6 @@ CellsRound LiveSkin::cells_round(Index node) const noexcept {
   net.each_around(node, [&](Index cell, std::size_t k) {
     round.corners[7 - k] = net.corners(cell);
     round.has[7 - k] = round.corners[7 - k][k] == node;
-    round.any_parted = round.any_parted || net.is_parted(cell);
     for (std::size_t axis = 0; axis < 3; ++axis) round.cut_at[7 - k][axis] = net.cut_at(cell, axis);
   });
   return round;

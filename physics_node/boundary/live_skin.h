@@ -30,6 +30,7 @@ class LiveSkin {
   struct Lip {
     Vec3 rest = Vec3::Zero();  // [m]
     Bearers by;
+    Vec3 position(const NodeMotion& moving) const noexcept { return rest + by.displacement(moving); }
   };
   /// null: it is none
   const Lip* lip(Index node) const noexcept {

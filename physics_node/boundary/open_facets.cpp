@@ -101,9 +101,11 @@ bool Boundary::is_facet(std::uint32_t facet, const SiteFacets::Corners& masses) 
 bool Boundary::is_as_loaded(std::size_t first, std::size_t last,
                             std::span<const SiteFacets::Corners> now) const noexcept {
   if (last - first != now.size()) return false;
+  const auto is_lip = [this](Index mass) {
+    return skin_->lip(mass) != nullptr;
+  };  // it has moved from where it was
   for (const SiteFacets::Corners& masses : now)
-    for (const Index mass : masses)
-      if (skin_ && skin_->lip(mass) != nullptr) return false;  // it has moved from where it was
+    if (skin_ && std::ranges::any_of(masses, is_lip)) return false;
   for (std::size_t n = 0; n < now.size(); ++n)
     if (!is_facet(static_cast<std::uint32_t>(first + n), now[n])) return false;
   return true;

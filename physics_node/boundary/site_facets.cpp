@@ -63,7 +63,7 @@ class VoxelSites final : public SiteFacets {
       std::array<std::size_t, 4> k{};
       bool same = true;
       for (std::size_t c = 0; c < 4; ++c) {
-        k[c] = static_cast<std::size_t>(voxel_faces[f].corners[c].dot(Vec3i(1, 2, 4)));
+        k[c] = corner_number(voxel_faces[f].corners[c]);
         same = same && mine[k[c]] == masses[c];
       }
       if (!same || net_->beyond(lowest, f) == CellNet::none) continue;
@@ -88,8 +88,7 @@ class VoxelSites final : public SiteFacets {
       const Vec3i beyond = cell + face.outward;
       const bool covered = cells_.is_filled(beyond.x(), beyond.y(), beyond.z());
       if (covered && (!is_deformable(beyond) || !net_->is_exposed(lowest, f))) continue;
-      for (std::size_t c = 0; c < 4; ++c)
-        out[n][c] = corners[static_cast<std::size_t>(face.corners[c].dot(Vec3i(1, 2, 4)))];
+      for (std::size_t c = 0; c < 4; ++c) out[n][c] = corners[corner_number(face.corners[c])];
       ++n;
     }
     return n;

@@ -28,8 +28,7 @@ class SiteFacets {
   /// @return how many
   virtual std::size_t facets_of(std::uint32_t site, std::span<Corners, most_facets> out) const noexcept = 0;
   /// Of a facet that a cut has opened: what lies at its corners on the other side. Of others -1.
-  virtual Corners across(std::uint32_t site, const Corners& masses) const noexcept {
-    static_cast<void>(site), static_cast<void>(masses);
+  virtual Corners across(std::uint32_t /*site*/, const Corners& /*masses*/) const noexcept {
     return {-1, -1, -1, -1};
   }
   /// Are the other facets of this site rigid scenery, which stays?

@@ -34,9 +34,8 @@ struct Surface {
   /// Position now: of a moving vertex from the body, of the scenery from rest.
   Vec3 position(std::size_t vertex, const NodeMotion& moving) const {
     if (vertex >= cell.size()) return rest[vertex];
-    return rest[vertex] + (bearers.empty()
-                               ? moving.displacement(cell[vertex])
-                               : bearers[vertex].mean([&](Index n) { return moving.displacement(n); }));
+    return rest[vertex] +
+           (bearers.empty() ? moving.displacement(cell[vertex]) : bearers[vertex].displacement(moving));
   }
 };
 

@@ -16,6 +16,11 @@ struct VoxelFace {
   std::array<Vec3i, 4> corners;  // of the unit cell, anticlockwise from outside
 };
 
+/// Number of a corner of the unit cell: bit 0 is +x, bit 1 +y, bit 2 +z.
+inline std::size_t corner_number(const Vec3i& corner) noexcept {
+  return static_cast<std::size_t>(corner.dot(Vec3i(1, 2, 4)));
+}
+
 inline const std::array<VoxelFace, 6> voxel_faces{{
     {{-1, 0, 0}, {{{0, 0, 0}, {0, 0, 1}, {0, 1, 1}, {0, 1, 0}}}},
     {{1, 0, 0}, {{{1, 0, 0}, {1, 1, 0}, {1, 1, 1}, {1, 0, 1}}}},

@@ -37,16 +37,16 @@ class Numbering {
         mass >= 0 ? body_.lattice.rest_position(body_.lattice.mass_at(corner - shift_))
                   : Vec3(body_.cells->corner + body_.cells->spacing.cwiseProduct(corner.cast<double>()));
     Vec3 rest = fan < 0 ? on_lattice : skin_->place(corner, fan);
-    CellsRound round;
-    if (skin_ && mass >= 0 && !live_.parted().empty()) round = cells_round(corner, mass);
-    if (const CutLip lip = lip_of(round, body_.cells->spacing); lip.n > 0)
-      rest += fan < 0 ? lip.place : lip.from_skin(rest - on_lattice);
+    std::optional<CellsRound> round;
+    if (skin_ && mass >= 0) round = cells_round(corner, mass);
+    const CutLip lip = round ? lip_of(*round, body_.cells->spacing) : CutLip{};
+    if (lip.n > 0) rest += fan < 0 ? lip.place : lip.from_skin(rest - on_lattice);
     std::int64_t value = 0;
     if (mass >= 0) {
       value = static_cast<std::int64_t>(surface.cell.size());
       surface.cell.push_back(mass);
       surface.rest.push_back(rest);
-      if (skin_) add_bearers(corner, fan, mass, rest, round.any_parted ? &round : nullptr, surface);
+      if (skin_) add_bearers(corner, fan, mass, rest, round, surface);
     } else {
       scenery_.push_back(rest);
       value = -static_cast<std::int64_t>(scenery_.size());
@@ -57,6 +57,10 @@ class Numbering {
 
   const std::vector<Vec3>& scenery() const { return scenery_; }
   bool is_smooth() const { return skin_.has_value(); }
+  /// null: the cell is as loaded
+  const LiveElements::PartedCell* parted(const Vec3i& cell) const {
+    return live_.parted().empty() ? nullptr : live_.parted(storage_of(cell));
+  }
 
  private:
   /// Where a cell broke, all facets at a corner share a vertex: the fans of before may have grown together.
@@ -71,31 +75,30 @@ class Numbering {
   /// As the cell has it.
   Index node_at(const Vec3i& corner, const Vec3i& cell) const {
     const Index loaded = body_.lattice.mass_at(corner - shift_);
-    if (loaded < 0 || live_.parted().empty()) return loaded;
-    const auto* parted = live_.parted(storage_of(cell));
-    return parted == nullptr ? loaded
-                             : parted->corners[static_cast<std::size_t>((corner - cell).dot(Vec3i(1, 2, 4)))];
+    const auto* of = loaded >= 0 ? parted(cell) : nullptr;
+    return of == nullptr ? loaded : of->corners[corner_number(corner - cell)];
   }
   Index storage_of(const Vec3i& cell) const { return body_.lattice.mass_at(cell - shift_); }
-  CellsRound cells_round(const Vec3i& corner, Index node) const {
+  /// Round a node at a cut; none: all cells there are as loaded.
+  std::optional<CellsRound> cells_round(const Vec3i& corner, Index node) const {
     CellsRound round;
-    for (unsigned o = 0; o < 8; ++o) {
+    bool any = false;
+    for (unsigned o = 0; o < 8 && !live_.parted().empty(); ++o) {
       const Vec3i cell = SmoothSkin::cell_at(corner, o);
       if (body_.cells->share_of(cell.x(), cell.y(), cell.z()) <= 0) continue;
-      const Index lowest = storage_of(cell);
-      const auto* parted = live_.parted(lowest);
-      round.any_parted = round.any_parted || parted != nullptr;
-      round.corners[o] = parted != nullptr ? parted->corners : body_.cell_net()->loaded_corners(lowest);
+      const auto* of = parted(cell);
+      any = any || of != nullptr;
+      round.corners[o] = of != nullptr ? of->corners : body_.cell_net()->loaded_corners(storage_of(cell));
       round.has[o] = round.corners[o][7 - o] == node;
-      if (parted != nullptr) round.cut_at[o] = parted->cut_at;
+      if (of != nullptr) round.cut_at[o] = of->cut_at;
     }
-    return round;
+    return any ? std::optional(round) : std::nullopt;
   }
-  void add_bearers(const Vec3i& corner, int fan, Index mass, const Vec3& rest, const CellsRound* at_cut,
-                   Surface& surface) const {
+  void add_bearers(const Vec3i& corner, int fan, Index mass, const Vec3& rest,
+                   const std::optional<CellsRound>& at_cut, Surface& surface) const {
     const auto alive = [this](const Vec3i& cell) { return !cut_.is_cut(cell); };
-    const auto corners_at = [at_cut](unsigned o) { return at_cut->corners_at(o); };
-    surface.bearers.push_back(at_cut != nullptr
+    const auto corners_at = [&at_cut](unsigned o) { return at_cut->corners_at(o); };
+    surface.bearers.push_back(at_cut
                                   ? skin_->bearers_of_part(corner, std::max(fan, 0), rest, mass, corners_at)
                               : fan < 0 ? Bearers::alone(mass)
                                         : skin_->bearers(corner, fan, rest, alive));
@@ -116,9 +119,6 @@ class Builder {
  public:
   Builder(const Body& body, const LiveElements& live, std::optional<double> threshold, std::uint32_t rgba)
       : cells_(*body.cells),
-        body_(body),
-        live_(live),
-        shift_(lattice_corner(cells_, body.lattice)),
         cut_(body, live),
         numbering_(body, live, cut_, threshold),
         threshold_(cells_.intensity.empty() ? std::nullopt : threshold),
@@ -155,10 +155,9 @@ class Builder {
   }
   /// A face that a cut has opened between two cells that are shown.
   void add_opened(const Vec3i& cell, const VoxelFace& face) {
-    if (live_.parted().empty() || !cells_.is_deformable(cell.x(), cell.y(), cell.z())) return;
-    if (!shown(cell + face.outward)) return;
-    const auto* parted = live_.parted(body_.lattice.mass_at(cell - shift_));
-    if (parted == nullptr || (parted->open >> (&face - voxel_faces.data()) & 1) == 0) return;
+    const auto* parted = numbering_.parted(cell);
+    if (parted == nullptr || !cells_.is_deformable(cell.x(), cell.y(), cell.z())) return;
+    if (!shown(cell + face.outward) || (parted->open >> (&face - voxel_faces.data()) & 1) == 0) return;
     std::array<Vec3i, 4> corners;
     for (std::size_t c = 0; c < 4; ++c) corners[c] = cell + face.corners[c];
     add_facet(cell, corners, cell, cells_.transfer.empty() ? inside_colour(rgba_) : 0);
@@ -207,9 +206,6 @@ class Builder {
   }
 
   const Cells& cells_;
-  const Body& body_;
-  const LiveElements& live_;
-  Vec3i shift_;
   CutCells cut_;
   Numbering numbering_;
   std::optional<double> threshold_;

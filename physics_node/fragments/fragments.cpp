@@ -14,10 +14,11 @@ Fragments::Fragments(const Topology& moving) {
   front_of_ = ZeroedArray<Index>(n, 2);
   const auto n_masses = static_cast<std::size_t>(body.n_nodes()) + body.most_copies();
   masses_.reserve(n_masses);
-  const auto most_breaks =
+  const std::size_t elements_gone =
       any_breaks(body) && !body.mesh
-          ? std::min(TopologyEvents::most, static_cast<std::size_t>(body.n_elements())) + body.most_copies()
-          : body.most_copies();
+          ? std::min(TopologyEvents::most, static_cast<std::size_t>(body.n_elements()))
+          : 0;
+  const std::size_t most_breaks = elements_gone + body.most_copies();
   fronts_.reserve(std::min(2 * most_breaks, n_masses));
   turns_.reserve(fronts_.capacity());
   links_.reserve(2 * most_breaks);

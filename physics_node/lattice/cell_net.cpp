@@ -23,9 +23,7 @@ const std::array<std::size_t, 4>& CellNet::corners_of_face(std::size_t face) noe
 
 CellNet::CellNet(const Lattice& lattice, std::span<const float> stiffness, std::size_t most_copies)
     : n_loaded_(lattice.n_cells()),
-      half_(lattice.pitch / 2),
-      pitch_(lattice.pitch),
-      layer_(lattice.pitch * lattice.size.y()),
+      steps_(lattice),
       most_copies_(most_copies),
       is_cell_(stiffness.size(), 0),
       open_(stiffness.size(), 0),
@@ -43,39 +41,11 @@ CellNet::CellNet(const Lattice& lattice, std::span<const float> stiffness, std::
   splits_.reserve(most_copies);
 }
 
-/// Masses of even x lie before those of odd x in a row of storage.
-Index CellNet::step(Index cell, std::size_t face) const noexcept {
-  const bool second = cell % pitch_ >= half_;
-  switch (face) {
-    case 0:
-      return second ? cell - half_ : cell + half_ - 1;
-    case 1:
-      return second ? cell + 1 - half_ : cell + half_;
-    case 2:
-      return cell - pitch_;
-    case 3:
-      return cell + pitch_;
-    case 4:
-      return cell - layer_;
-    default:
-      return cell + layer_;
-  }
-}
-
 /// There is a halo of empty storage around all masses, so that one step aside is always within it.
 Index CellNet::with_corner(Index node, std::size_t corner) const noexcept {
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if ((corner >> axis & 1) != 0) node = step(node, 2 * axis);
+    if ((corner >> axis & 1) != 0) node = steps_.beside(node, 2 * axis);
   return node;
-}
-
-CellNet::Corners CellNet::loaded_corners(Index cell) const noexcept {
-  const Index right = cell % pitch_ >= half_ ? 1 - half_ : half_;
-  Corners corners;
-  for (std::size_t a = 0; a < 8; ++a)
-    corners[a] =
-        cell + ((a & 1) != 0 ? right : 0) + ((a & 2) != 0 ? pitch_ : 0) + ((a & 4) != 0 ? layer_ : 0);
-  return corners;
 }
 
 CellNet::Face CellNet::face(Index cell, std::size_t face) const noexcept {

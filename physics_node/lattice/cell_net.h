@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-#include "physics_node/lattice/lattice.h"
+#include "physics_node/lattice/cell_steps.h"
 #include "physics_node/lattice/node_split.h"
 
 namespace palpate::physics {
@@ -43,12 +43,12 @@ class CellNet {
   }
   /// Of the n-th of parted().
   const Corners& parted_corners(std::size_t n) const noexcept { return corners_[n]; }
-  Corners loaded_corners(Index cell) const noexcept;
+  Corners loaded_corners(Index cell) const noexcept { return steps_.corners(cell); }
   Face face(Index cell, std::size_t face) const noexcept;
 
   /// The cell on the other side of a face; none: there is none.
   Index beyond(Index cell, std::size_t face) const noexcept {
-    const Index other = step(cell, face);
+    const Index other = steps_.beside(cell, face);
     return has_cell(other) ? other : none;
   }
   bool is_open(Index cell, std::size_t face) const noexcept { return (open_[at(cell)] >> face & 1) != 0; }
@@ -114,8 +114,6 @@ class CellNet {
  private:
   static constexpr FaceCut nowhere{-1, {}};
   static std::size_t at(Index n) noexcept { return static_cast<std::size_t>(n); }
-  /// The storage cell beside another.
-  Index step(Index cell, std::size_t face) const noexcept;
   /// The cell that has a node as loaded at one of its corners, if there is one.
   Index with_corner(Index node, std::size_t corner) const noexcept;
   void forget_cuts() noexcept;
@@ -124,7 +122,7 @@ class CellNet {
   void give(Index cell, std::size_t corner, Index copy) noexcept;
 
   Index n_loaded_;
-  Index half_, pitch_, layer_;  // of storage: half a row, to the next row, to the next plane
+  CellSteps steps_;
   std::size_t most_copies_ = 0;
   std::vector<std::uint8_t> is_cell_, open_;  // by storage cell; open_: bit f: its face f is
   std::vector<std::int32_t> cut_;             // 3 cell + axis: its number in cuts_

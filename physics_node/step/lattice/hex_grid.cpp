@@ -38,22 +38,7 @@ void add_rows(const Lattice& lattice, const HexRun& run, const HexGrid& grid, st
   rows.erase(std::unique(rows.begin() + begin, rows.end()), rows.end());
 }
 
-/// From the storage cell of a corner to that of the next along x.
-Index to_the_right(const Lattice& lattice, Index cell) noexcept {
-  const Index half = lattice.pitch / 2;
-  return cell % lattice.pitch >= half ? 1 - half : half;
-}
-
 }  // namespace
-
-std::array<Index, 8> corners_of_cell(const Lattice& lattice, Index cell) noexcept {
-  const Index right = to_the_right(lattice, cell), up_y = lattice.pitch,
-              up_z = lattice.pitch * lattice.size.y();
-  std::array<Index, 8> corners;
-  for (Index a = 0; a < 8; ++a)
-    corners[static_cast<std::size_t>(a)] = cell + (a & 1) * right + (a >> 1 & 1) * up_y + (a >> 2) * up_z;
-  return corners;
-}
 
 void share_out(const HexGrid& grid, std::span<const HexLayer> layers, std::vector<HexSlab>& slabs) {
   const auto cells_of = [&grid](const HexLayer& layer) {
@@ -79,16 +64,16 @@ void share_out(const HexGrid& grid, std::span<const HexLayer> layers, std::vecto
 HexGrid make_hex_grid(const Body& body) {
   const Lattice& lattice = body.lattice;
   HexGrid grid;
-  grid.up_y = lattice.pitch;
-  grid.up_z = lattice.pitch * lattice.size.y();
-  const Index half = lattice.pitch / 2;
+  const CellSteps steps(lattice);
+  grid.up_y = steps.up_y;
+  grid.up_z = steps.up_z;
   for (const Index cell : lattice.masses) {
     if (body.solid->stiffness[static_cast<std::size_t>(cell)] <= 0) continue;
     const bool split = body.solid->awake_radius > 0;
-    const bool extends = !grid.runs.empty() && grid.runs.back().first / half == cell / half &&
+    const bool extends = !grid.runs.empty() && grid.runs.back().first / steps.half == cell / steps.half &&
                          cell < grid.runs.back().first + (split ? 0 : grid.runs.back().count) + lanes;
     const Index first = split ? cell / lanes * lanes : cell;
-    if (!extends) grid.runs.push_back({first, 0, to_the_right(lattice, cell)});
+    if (!extends) grid.runs.push_back({first, 0, steps.right(cell)});
     grid.runs.back().count = cell - grid.runs.back().first + 1;
   }
   std::size_t run = 0;

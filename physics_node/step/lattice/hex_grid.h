@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "physics_node/body/body.h"
+#include "physics_node/lattice/cell_steps.h"
 
 namespace palpate::physics {
 
@@ -57,7 +58,9 @@ struct HexGrid {
 HexGrid make_hex_grid(const Body& body);
 
 /// Storage cells of the corners of a cell, by its lowest: bit 0 of the number is +x, bit 1 +y, bit 2 +z.
-std::array<Index, 8> corners_of_cell(const Lattice& lattice, Index cell) noexcept;
+inline std::array<Index, 8> corners_of_cell(const Lattice& lattice, Index cell) noexcept {
+  return CellSteps(lattice).corners(cell);
+}
 
 /// Slabs of about as many cells each, of layers as they are. Contract: allocates nothing where there is room for most_slabs + 1.
 void share_out(const HexGrid& grid, std::span<const HexLayer> layers, std::vector<HexSlab>& slabs);

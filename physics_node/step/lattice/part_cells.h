@@ -7,6 +7,10 @@
 
 namespace palpate::physics {
 
+/// Gives a copy place and velocity of its node, and both their masses.
+template <class Real>
+void share_node(Body& body, LatticeState<Real>& state, const NodeSplit& split) noexcept;
+
 /// Opens the faces between cells that are joined. Contract: allocates and throws nothing.
 /// @param on_split  void(NodeSplit), for what else is known of nodes
 /// @return how many were opened
@@ -23,10 +27,6 @@ std::int64_t part_cells(Body& body, LatticeState<Real>& state, std::span<const E
   }
   return opened;
 }
-
-/// Gives a copy place and velocity of its node, and both their masses.
-template <class Real>
-void share_node(Body& body, LatticeState<Real>& state, const NodeSplit& split) noexcept;
 
 /// Joins all cells again, with masses as loaded. Places and velocities of nodes as loaded stay.
 template <class Real>
