@@ -16,10 +16,14 @@
 #include "physics_node/collision/contact_body.h"
 #include "physics_node/fragments/fragments.h"
 #include "physics_node/fragments/measure_fragments.h"
+#include "tests/support/physics/blade_checks.h"
+#include "tests/support/physics/parted_checks.h"
 #include "tests/support/physics/small_worlds.h"
 
 namespace palpate::physics::test {
 namespace {
+
+constexpr double volume = 0.030 * 0.020 * 0.015;  // [m^3]
 
 std::unique_ptr<BodyModel> model_to_part() {
   Recipe recipe;
@@ -80,17 +84,10 @@ Faces faces_of(const Boundary& boundary) {
 /// Cut by cut, at random, until it is in crumbs.
 class PartedCellsOfABody : public testing::Test {
  protected:
-  /// Calls look() after each of `cuts` steps.
   template <class Look>
   void part(int cuts, const Look& look) {
-    const std::vector<EdgeGone> faces = inner_faces(net_of(*moving), 3);
-    const auto of = static_cast<std::size_t>(cuts);
-    for (std::size_t c = 0; c < of; ++c) {
-      moving->advance({.dt = 1e-5, .gravity = Vec3(0, 0, -9.81), .watch = true}, {});
-      const std::size_t first = c * faces.size() / of, last = (c + 1) * faces.size() / of;
-      moving->cut(std::span(faces).subspan(first, last - first));
-      look();
-    }
+    test::part(*moving, inner_faces(net_of(*moving), 3), cuts,
+               {.dt = 1e-5, .gravity = Vec3(0, 0, -9.81), .watch = true}, look);
   }
   std::unique_ptr<BodyModel> moving = model_to_part();
 };
@@ -100,9 +97,7 @@ TEST_F(PartedCellsOfABody, AreTouchedAndSeenAtTheFacesThatTheyHave) {
   ContactBody contact(*moving, true, true);
   EXPECT_EQ(faces_of(boundary), exposed_faces(net_of(*moving)));
   part(20, [&] {
-    boundary.follow();
-    for (std::uint64_t before = 0; before != boundary.revision();)
-      before = boundary.revision(), boundary.update();
+    bring_up_to_date(boundary);
     contact.follow_breaks();
     const Faces truth = exposed_faces(net_of(*moving));
     ASSERT_EQ(faces_of(boundary), truth);
@@ -126,38 +121,16 @@ TEST_F(PartedCellsOfABody, AreTouchedAndSeenAtTheFacesThatTheyHave) {
 
 TEST_F(PartedCellsOfABody, FillWhatTheyFilled) {
   const FilledVolumes volumes(*moving);
-  part(4, [&] {
-    double sum = 0;
-    for (const Index node : moving->body().nodes())
-      volumes.each(node, [&](const std::array<Vec3, 4>& x) {
-        sum += std::abs((x[1] - x[0]).dot((x[2] - x[0]).cross(x[3] - x[0]))) / 6;
-      });
-    EXPECT_NEAR(sum, 0.030 * 0.020 * 0.015, 1e-6 * sum);
-  });
+  part(4, [&] { expect_filled(*moving, volumes, volume); });
 }
 
 /// Found from what splits alone, as from nothing; and each weighs what its cells do.
 TEST_F(PartedCellsOfABody, HangTogetherAsAFloodOverAllSays) {
   Fragments followed(*moving);
   int most = 1;
-  const double weight = 0.030 * 0.020 * 0.015 * 1000;
   part(60, [&] {
-    followed.update(*moving);
-    const Fragments anew(*moving);
-    ASSERT_EQ(followed.count(), anew.count());
-    std::map<Index, Index> names;
-    moving->body().each_node([&](Index node) {
-      ASSERT_EQ(names.try_emplace(followed.label(node), anew.label(node)).first->second, anew.label(node));
-    });
-    most = std::max(most, static_cast<int>(anew.count()));
-    double mass = 0, of_pieces = 0;
-    moving->body().each_node([&](Index node) { mass += node_mass(moving->body(), node); });
-    EXPECT_NEAR(mass, weight, 1e-12 * weight);
-    for (const FragmentMeasure& piece : measure_fragments(*moving, followed)) {
-      EXPECT_GT(piece.mass, 0);
-      of_pieces += piece.mass;
-    }
-    EXPECT_NEAR(of_pieces, mass, 1e-12 * mass);
+    most = std::max(most, expect_to_hang_together(*moving, followed));
+    EXPECT_NEAR(mass_of(moving->body()), 1000 * volume, 1e-12 * 1000 * volume);
   });
   EXPECT_EQ(static_cast<std::size_t>(most), net_of(*moving).cells().size()) << "crumbs in the end";
 }
@@ -171,26 +144,14 @@ TEST_F(PartedCellsOfABody, FallAsOne) {
     EXPECT_NEAR(moving->velocity(node).head<2>().norm(), 0, 1e-9);
   });
   const Watch seen = moving->watch();
-  const double mass = 0.030 * 0.020 * 0.015 * 1000;
+  const double mass = 1000 * volume;
   EXPECT_NEAR(seen.kinetic, 0.5 * mass * fallen * fallen, 1e-9 * seen.kinetic);
 }
 
 /// Places of the guard's good state are known of copies that are younger than it.
 TEST_F(PartedCellsOfABody, GoBackToWhereTheyWereParted) {
   const std::vector<EdgeGone> faces = inner_faces(net_of(*moving), 5);
-  const Index some = moving->body().nodes()[7];
-  moving->place(some, Vec3(0.001, 0, 0), Vec3(0.1, 0, 0));
-  moving->save(true), moving->save(true);
-  std::map<Index, Vec3> before;
-  for (const Index node : moving->body().nodes()) before[node] = moving->displacement(node);
-  for (int n = 0; n < 5; ++n) moving->advance({.dt = 1e-5}, {});
-  moving->cut(std::span(faces).first(100));
-  ASSERT_GT(net_of(*moving).n_copies(), 10);
-  for (int n = 0; n < 5; ++n) moving->advance({.dt = 1e-5}, {});
-  moving->restore();
-  EXPECT_TRUE(moving->events().none());
-  moving->body().each_node(
-      [&](Index node) { EXPECT_EQ(moving->displacement(node), before[net_of(*moving).origin(node)]); });
+  expect_to_go_back(*moving, std::span(faces).first(100));
 }
 
 }  // namespace

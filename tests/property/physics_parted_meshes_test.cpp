@@ -20,6 +20,7 @@
 #include "physics_node/fragments/measure_fragments.h"
 #include "tests/support/physics/led_blade.h"
 #include "tests/support/physics/mesh_worlds.h"
+#include "tests/support/physics/parted_checks.h"
 
 namespace palpate::physics::test {
 namespace {
@@ -88,17 +89,9 @@ Faces faces_of(const ContactBody& contact) {
 /// Cut by cut, at random, until it is in crumbs.
 class PartedMesh : public testing::Test {
  protected:
-  /// Calls look() after each of `cuts` steps.
   template <class Look>
   void part(int cuts, const Look& look) {
-    const std::vector<EdgeGone> faces = inner_faces(net_of(*moving), 3);
-    const auto of = static_cast<std::size_t>(cuts);
-    for (std::size_t c = 0; c < of; ++c) {
-      moving->advance({.dt = 1e-5}, {});
-      const std::size_t first = c * faces.size() / of, last = (c + 1) * faces.size() / of;
-      moving->cut(std::span(faces).subspan(first, last - first));
-      look();
-    }
+    test::part(*moving, inner_faces(net_of(*moving), 3), cuts, {.dt = 1e-5}, look);
   }
   std::unique_ptr<BodyModel> moving = model_to_part(tough_box());
 };
@@ -108,12 +101,7 @@ TEST_F(PartedMesh, IsTouchedSeenAndMetAtTheFacesThatItHas) {
   ContactBody contact(*moving, true, true);
   EXPECT_EQ(faces_of(boundary), exposed_faces(net_of(*moving)));
   part(20, [&] {
-    boundary.follow();
-    while (true) {
-      const std::uint64_t before = boundary.revision();
-      boundary.update();
-      if (boundary.revision() == before) break;
-    }
+    bring_up_to_date(boundary);
     contact.follow_breaks();
     const Faces truth = exposed_faces(net_of(*moving));
     ASSERT_EQ(faces_of(boundary), truth);
@@ -133,56 +121,21 @@ TEST_F(PartedMesh, IsTouchedSeenAndMetAtTheFacesThatItHas) {
 
 TEST_F(PartedMesh, FillsWhatItFilled) {
   const FilledVolumes volumes(*moving);
-  part(4, [&] {
-    double sum = 0;
-    for (const Index node : moving->body().nodes())
-      volumes.each(node, [&](const std::array<Vec3, 4>& x) {
-        sum += std::abs((x[1] - x[0]).dot((x[2] - x[0]).cross(x[3] - x[0]))) / 6;
-      });
-    EXPECT_NEAR(sum, 0.025 * 0.020 * 0.015, 1e-6 * sum);
-  });
+  part(4, [&] { expect_filled(*moving, volumes, 0.025 * 0.020 * 0.015); });
 }
 
 /// Found from what splits alone, as from nothing; and each weighs what its tetrahedra do.
 TEST_F(PartedMesh, HangsTogetherAsAFloodOverAllSays) {
   Fragments followed(*moving);
   int most = 1;
-  part(60, [&] {
-    followed.update(*moving);
-    const Fragments anew(*moving);
-    ASSERT_EQ(followed.count(), anew.count());
-    std::map<Index, Index> names;
-    moving->body().each_node([&](Index node) {
-      ASSERT_EQ(names.try_emplace(followed.label(node), anew.label(node)).first->second, anew.label(node));
-    });
-    most = std::max(most, static_cast<int>(anew.count()));
-    double mass = 0, of_pieces = 0;
-    moving->body().each_node([&](Index node) { mass += node_mass(moving->body(), node); });
-    for (const FragmentMeasure& piece : measure_fragments(*moving, followed)) {
-      EXPECT_GT(piece.mass, 0);
-      of_pieces += piece.mass;
-    }
-    EXPECT_NEAR(of_pieces, mass, 1e-12 * mass);
-  });
+  part(60, [&] { most = std::max(most, expect_to_hang_together(*moving, followed)); });
   EXPECT_EQ(most, net_of(*moving).n_tets()) << "crumbs in the end";
 }
 
 /// Places and velocities of the guard's good state are known of copies that are younger than it.
 TEST_F(PartedMesh, GoesBackToWhereItWasParted) {
   const std::vector<EdgeGone> faces = inner_faces(net_of(*moving), 5);
-  moving->place(7, Vec3(0.001, 0, 0), Vec3(0.1, 0, 0));
-  moving->save(true), moving->save(true);
-  std::vector<Vec3> before;
-  for (const Index node : moving->body().nodes()) before.push_back(moving->displacement(node));
-  for (int n = 0; n < 5; ++n) moving->advance({.dt = 1e-5}, {});
-  moving->cut(std::span(faces).first(400));
-  ASSERT_GT(net_of(*moving).n_copies(), 10);
-  for (int n = 0; n < 5; ++n) moving->advance({.dt = 1e-5}, {});
-  moving->restore();
-  EXPECT_TRUE(moving->events().none());
-  moving->body().each_node([&](Index node) {
-    EXPECT_EQ(moving->displacement(node), before[static_cast<std::size_t>(net_of(*moving).origin(node))]);
-  });
+  expect_to_go_back(*moving, std::span(faces).first(400));
 }
 
 Recipe with_scalpel(Recipe recipe, double length_mm = 40) {

@@ -11,7 +11,7 @@
 
 #include "common/scene/scene.h"
 #include "physics_node/world.h"
-#include "tests/support/physics/led_blade.h"
+#include "tests/support/physics/blade_checks.h"
 #include "tests/support/physics/mesh_worlds.h"
 
 namespace palpate::physics::test {
@@ -20,6 +20,7 @@ namespace {
 constexpr double toughness = 190;
 const Vec3 size(0.030, 0.016, 0.010);  // of the block; the edge is along z, the cut along x
 constexpr double plane = 0.0003;       // of the blade: y [m]
+const BladeChecks checks{size, Vec3(0, plane, -0.010)};
 
 struct Case {
   double edge_mm, speed;  // [m/s]
@@ -112,51 +113,13 @@ TEST(BladeCells, PassesByNothingWhereTissueLetsGoOfTheBlade) {
 
 /// The mass of every piece is that of its tetrahedra, and in all what it was.
 TEST(BladeCells, LosesNoMassAndMovesNothingByParting) {
-  Cut cut(block({.edge_mm = 2, .speed = 0, .damped = false}, ""));
-  const Body& body = cut.world.body(0).body();
-  const auto mass = [&] {
-    double sum = 0;
-    body.each_node([&](Index node) { sum += node_mass(body, node); });
-    return sum;
-  };
-  const double before = mass();
-  EXPECT_NEAR(before, 1000 * size.prod(), 1e-9 * before);
-  cut.along(Vec3(-0.010, plane, -0.010), 3);
-  EXPECT_GT(net_of(cut.world).n_copies(), 10);
-  EXPECT_NEAR(mass(), before, 1e-14 * before);
-  const MomentumBalance balance = cut.world.body(0).momentum_balance();
-  EXPECT_LT(balance.missing.linear.norm(), 1e-11 * balance.linear);
-  EXPECT_LT(balance.missing.angular.norm(), 1e-11 * balance.angular);
+  checks.expect_nothing_lost(block({.edge_mm = 2, .speed = 0, .damped = false}, ""));
 }
 
-TEST(BladeCells, FeelsNothingInItsOwnSlot) {
-  Cut cut(block({2, 0.05}));
-  cut.along(Vec3(0, plane, -0.010), 0.2);
-  const double opened = cut.book().cut_area();
-  EXPECT_GT(opened, 0.3 * size.x() * size.z());
-  for (const Vec3& force : cut.along(Vec3(0.020, plane, -0.010), 0.2)) EXPECT_GT(force.x(), -0.02);
-  for (const Vec3& force : cut.along(Vec3(0.008, plane, -0.010), 0.2)) EXPECT_LT(force.norm(), 0.1);
-  EXPECT_NEAR(cut.book().cut_area(), opened, 0.02 * size.x() * size.z());
-}
+TEST(BladeCells, FeelsNothingInItsOwnSlot) { checks.expect_nothing_felt_in_its_slot(block({2, 0.05})); }
 
 TEST(BladeCells, CutsTheSameOnAnyNumberOfThreadsAndAgainAfterAReset) {
-  std::vector<std::uint64_t> hashes;
-  for (const int threads : {1, 2, 3}) {
-    Recipe recipe = block({2, 0.2});
-    recipe.physics += fmt::format("\nthreads = {}", threads);
-    Cut cut(recipe);
-    const std::uint64_t whole = cut.world.state_hash();
-    cut.along(Vec3(0.005, plane, -0.010), 0.2);
-    EXPECT_GT(net_of(cut.world).n_copies(), 0);
-    hashes.push_back(cut.world.state_hash());
-    if (threads > 1) continue;
-    cut.world.reset();
-    EXPECT_EQ(net_of(cut.world).n_copies(), 0);
-    EXPECT_EQ(cut.world.state_hash(), whole);
-    EXPECT_EQ(cut.world.fragments(0)->count(), 1);
-  }
-  EXPECT_EQ(hashes[0], hashes[1]);
-  EXPECT_EQ(hashes[0], hashes[2]);
+  checks.expect_the_same_again(block({2, 0.2}));
 }
 
 TEST(BladeCells, LieNoFartherApartThanTheEdgeReaches) {
