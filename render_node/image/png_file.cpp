@@ -9,11 +9,10 @@
 #include "common/error/error.h"
 #include "common/file/new_file.h"
 #include "render_node/image/image.h"
+#include "render_node/image/packed_rows.h"
 
 namespace palpate::render {
 namespace {
-
-constexpr int fast_compression = 2;  // zlib level: a frame of 1280 x 720 in some 20 ms
 
 struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
@@ -28,7 +27,7 @@ void give_up(png_structp png, png_const_charp) { png_longjmp(png, 1); }
 void ignore(png_structp, png_const_charp) {}
 
 // libpng reports through longjmp, so nothing with a destructor lives in here. @return false: failed
-bool encode(std::FILE* file, const Image& image) {
+bool encode(std::FILE* file, const Image& image, const std::vector<std::uint8_t>& packed) {
   static char key[] = "Software", maker[] = "palpate";  // is_own_picture() looks for it
   png_text mark = {};
   mark.compression = PNG_TEXT_COMPRESSION_NONE;
@@ -42,14 +41,13 @@ bool encode(std::FILE* file, const Image& image) {
     return false;
   }
   png_init_io(png, file);
-  png_set_compression_level(png, fast_compression);
-  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
                PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_text(png, info, &mark, 1);
   png_write_info(png, info);
-  for (int y = 0; y < image.height; ++y) png_write_row(png, image.at(0, y));
-  png_write_end(png, info);
+  static const png_byte idat[] = "IDAT", iend[] = "IEND";
+  png_write_chunk(png, idat, packed.data(), packed.size());
+  png_write_chunk(png, iend, nullptr, 0);
   png_destroy_write_struct(&png, &info);
   return true;
 }
@@ -58,6 +56,7 @@ bool encode(std::FILE* file, const Image& image) {
 
 void write_png(const Image& image, const std::string& path) {
   PALPATE_CHECK(image.width > 0 && image.height > 0, "an empty picture cannot be written");
+  const std::vector<std::uint8_t> packed = packed_rows(image);
   const std::string beside = path + ".part";
   bool written = false;
   int why = 0;
@@ -65,7 +64,7 @@ void write_png(const Image& image, const std::string& path) {
     const std::unique_ptr<std::FILE, CloseFile> file(open_new(beside));
     if (!file) complain(path, std::strerror(errno));
     errno = 0;
-    written = encode(file.get(), image) && std::fflush(file.get()) == 0;
+    written = encode(file.get(), image, packed) && std::fflush(file.get()) == 0;
     why = errno;
   }
   std::error_code error;

@@ -81,6 +81,8 @@ INSTANTIATE_TEST_SUITE_P(
         DoorCase{"hdf5.h", "common/record/a.cpp", "physics_node/a.cpp", "HDF5"},
         DoorCase{"png.h", "common/record/png_file.cpp", "common/record/volume.cpp", "PNG"},
         DoorCase{"png.h", "render_node/image/png_file.cpp", "deploy/import/main.cpp", "PNG"},
+        DoorCase{"libdeflate.h", "render_node/image/packed_rows.cpp", "render_node/image/png_file.cpp",
+                 "libdeflate"},
         DoorCase{"toml++/toml.h", "common/scene/a.cpp", "common/record/a.cpp", "toml++"},
         DoorCase{"toml++/toml.h", "common/scene/b.h", "tests/unit/a.cpp", "toml++"},
         DoorCase{"GLFW/glfw3.h", "render_node/ui/a.cpp", "render_node/view/a.cpp", "GL"},

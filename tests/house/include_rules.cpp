@@ -40,6 +40,8 @@ const std::vector<Door>& doors() {
       {"PNG", std::regex("^(png|pngconf|libpng.*/png)\\.h$"),
        std::regex("^(common/record/png_|render_node/image/|tests/)"),
        "common/record/png_* and render_node/image"},
+      {"libdeflate", std::regex("^libdeflate\\.h$"), std::regex("^render_node/image/packed_rows\\.cpp$"),
+       "render_node/image/packed_rows.cpp"},
       {"toml++", std::regex("^toml(\\+\\+|plusplus)/"), std::regex("^common/scene/"), "common/scene"},
       {"GL", std::regex("^(GL/|GLES|GLFW/|EGL/|epoxy/|glad/|imgui|backends/imgui)"),
        std::regex("^render_node/(gl|ui)/"), "render_node/gl and render_node/ui"},

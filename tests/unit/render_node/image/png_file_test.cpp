@@ -33,6 +33,29 @@ TEST(PngFile, GivesBackEveryPixel) {
   EXPECT_FALSE(std::filesystem::exists(path.string() + ".part"));
 }
 
+/// Its compression is that of another library than its reader's: pictures of all kinds come back.
+TEST(PngFile, GivesBackPicturesOfAllKinds) {
+  std::uint32_t noise = 1;
+  const auto next = [&noise] { return noise = 1664525 * noise + 1013904223, noise >> 24; };
+  for (const auto& [width, height] : {std::pair{1, 1}, {1, 400}, {400, 1}, {640, 480}, {1921, 3}})
+    for (const bool is_noise : {false, true}) {
+      Image image{width, height, {}};
+      for (int y = 0; y < height; ++y)
+        for (int x = 0; x < 3 * width; ++x)
+          image.rgb.push_back(static_cast<std::uint8_t>(is_noise ? next() : (x / 3 + y) / 4U));
+      const auto path = fresh_folder() / "a.png";
+      write_png(image, path.string());
+      png_image read{};
+      read.version = PNG_IMAGE_VERSION;
+      ASSERT_NE(png_image_begin_read_from_file(&read, path.c_str()), 0) << read.message;
+      read.format = PNG_FORMAT_RGB;
+      std::vector<std::uint8_t> rgb(PNG_IMAGE_SIZE(read));
+      ASSERT_NE(png_image_finish_read(&read, nullptr, rgb.data(), 0, nullptr), 0) << read.message;
+      EXPECT_EQ(read.warning_or_error, 0U) << read.message;
+      EXPECT_EQ(rgb, image.rgb) << width << " x " << height << (is_noise ? " of noise" : "");
+    }
+}
+
 TEST(PngFile, SaysWhereItCannotWrite) {
   const Image image{1, 1, {1, 2, 3}};
   const auto path = (fresh_folder() / "no_such_folder" / "a.png").string();
