@@ -227,6 +227,7 @@ void Collisions::give_impulses(double dt) noexcept {
 
 void Collisions::restart() noexcept {
   for (auto& body : bodies_) body.restart();
+  near_.restart();
   go_with(Vec3::Zero());
   if (joint_contact_) joint_contact_->restart();
   if (swept_contact_) swept_contact_->restart();

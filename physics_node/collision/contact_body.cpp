@@ -28,7 +28,10 @@ void ContactBody::restart() noexcept {
   candidates_.restart();
   find_main_piece();
   if (facets_) facets_->restart(candidates_);
+  clear_listed();
   changed_ = true;
+  moved_ = speed_ = 0;
+  shift_.setZero();
 }
 
 void ContactBody::find_main_piece() noexcept {

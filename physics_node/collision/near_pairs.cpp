@@ -47,6 +47,14 @@ double NearPairs::skin(const std::vector<ContactBody>& bodies, const Link& link)
       link.least_skin);
 }
 
+void NearPairs::restart() noexcept {
+  for (Link& link : links_) {
+    link.near = link.fresh = false;
+    link.least_skin = link.slack = link.unseen = link.travel = 0;
+    link.masses.clear(), link.facets.clear();
+  }
+}
+
 /// Masses that touch do so where the step begins; with facets what they do to each other within it counts, too.
 double NearPairs::needed_skin(double fastest, double dt) const noexcept {
   return kind_ == PairKind::masses ? 0 : most_motion(dt, fastest);

@@ -31,6 +31,9 @@ class NearPairs {
   /// Which bodies may touch which, this frame; a body beside itself: its fragments.
   void allow(std::uint32_t a, std::uint32_t b, bool near) noexcept;
 
+  /// Nothing is listed, and all is as it was when this was made.
+  void restart() noexcept;
+
   /// Must all candidates be read in this step? Else those in the lists are enough: whatever else there is cannot have come
   /// within reach since all were read last. @param fastest  no mass of any body moves faster [m/s]
   bool needs_all(const std::vector<ContactBody>& bodies, double fastest, double dt) noexcept;
