@@ -250,7 +250,7 @@ void World::find_contacts() noexcept {
   }
   const StageTimer timer(report_, Stage::find_contacts);
   for (auto& body : touchable_) body.surface->update();
-  for (auto& tool : toolbox_.tools) tool->find_contact(t_);
+  for (auto& tool : toolbox_.tools) tool->find_contact(since_reset_);
   for (const LedTool* tool : toolbox_.led) stick_near_ = stick_near_ || tool->is_near();
   pressed_ = is_pressed();
   if (collisions_) near_ = collisions_->begin_frame(frame_dt_);
@@ -264,7 +264,8 @@ int World::substeps_of_frame() noexcept {
   // the floor at 3 m/s keeps its books to 2.5 %, with this to 1 %.
   const double most = std::max(most_substeps, most_times * n_substeps_);
   const double stiff = std::ceil(std::min(n_substeps_ * unrounded_ * stiffening_, most) - 1e-9);
-  if (stiff >= held_substeps_ || t_ >= held_until_) held_substeps_ = stiff, held_until_ = t_ + held_s;
+  if (stiff >= held_substeps_ || since_reset_ >= held_until_)
+    held_substeps_ = stiff, held_until_ = since_reset_ + held_s;
   double wanted = held_substeps_;
   if (near_) wanted = std::max(wanted, frame_dt_ / collisions_->wanted_step());
   return std::max(n_substeps_, static_cast<int>(std::ceil(std::min(wanted, most))));
@@ -299,6 +300,7 @@ void World::frame(std::span<const std::optional<ToolState>> tools) noexcept {
   if (scene_.physics->sleep && !is_implicit())
     for (auto& body : bodies_) body->sleep_and_wake(frame_dt_);
   t_ += frame_dt_;
+  since_reset_ += frame_dt_;
   ++report_.frames;
 }
 
@@ -313,7 +315,7 @@ void World::reset() noexcept {
   if (collisions_) collisions_->restart();
   if (inside_) inside_->restart();
   n_substeps_ = std::max(1, n_substeps_ >> guard_.recoveries());
-  held_substeps_ = held_until_ = 0;
+  held_substeps_ = held_until_ = since_reset_ = 0;
   stiffening_ = 1;
   dt_ = frame_dt_ / n_substeps_;
   guard_.reset();

@@ -128,15 +128,17 @@ class World {
   Losses cut_since_;  // what cuts have made bodies book after that
   bool is_watched_ = false;
   std::vector<std::string> remarks_;
-  double t_ = 0;
+  double t_ = 0;            // [s]
+  double since_reset_ = 0;  // the same, as it was when all began: rounded alike, it decides alike [s]
   double frame_dt_ = 0;
   double dt_ = 0;  // of a step; frame_dt_ / n_substeps_
   double stable_dt_ = 0;
   int n_substeps_ = 1;
-  double unrounded_ = 1;                       // as many steps as would do at rest, over n_substeps_
-  double held_substeps_ = 0, held_until_ = 0;  // what stiffening asked for, and until when [s]
-  double stiffening_ = 1;                      // largest of the bodies in the last step: see StepOutcome
-  std::unique_ptr<Team> team_;                 // null: one thread
+  double unrounded_ = 1;  // as many steps as would do at rest, over n_substeps_
+  double held_substeps_ = 0,
+         held_until_ = 0;       // what stiffening asked for, and until when since_reset_ is [s]
+  double stiffening_ = 1;       // largest of the bodies in the last step: see StepOutcome
+  std::unique_ptr<Team> team_;  // null: one thread
   TeamChoice choice_ = TeamChoice::always(1);
   bool any_breaks_ = false;
   bool near_ = false;                              // bodies or fragments may touch in this frame

@@ -34,7 +34,7 @@ class Tool {
   /// Takes the newest state of the hand, or none where nothing fresh has come.
   /// @param dt  of the frame [s]
   virtual void take(const ToolState* state, double dt) noexcept = 0;
-  /// Before the steps of a frame: looks for what it touches.
+  /// Before the steps of a frame: looks for what it touches. @param t  since the world began or was reset [s]
   virtual void find_contact(double t) noexcept = 0;
   /// With the bodies back at the start: as one that has not met its hand yet.
   virtual void reset() noexcept = 0;
