@@ -42,7 +42,8 @@ struct Surface {
 /// Faces of shown cells that no other shown cell covers. Source: Takada & Abe, visible list; 6 neighbours (C-37).
 /// A cell that has lost an element is shown by its five tetrahedra instead: a triangle is there while its three elements
 /// live, a tetrahedron is filled while its six do (C-8), and what both sides fill is hidden.
-/// With a smooth skin the corners that lay at it as loaded lie where the tissue ends (smooth_skin.h).
+/// With a smooth skin the corners that lay at it as loaded lie where the tissue ends (smooth_skin.h), and what meets a cut has the colour of
+/// its inside.
 /// @param threshold  shows only cells of at least this intensity; absent: all tissue
 /// @param rgba  of a body without an image
 Surface voxel_surface(const Body& body, const LiveElements& live, std::optional<double> threshold,

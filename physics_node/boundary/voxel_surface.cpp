@@ -46,6 +46,7 @@ class Numbering {
       value = static_cast<std::int64_t>(surface.cell.size());
       surface.cell.push_back(mass);
       surface.rest.push_back(rest);
+      at_lip_.push_back(lip.n > 0);
       if (skin_) add_bearers(corner, fan, mass, rest, round, surface);
     } else {
       scenery_.push_back(rest);
@@ -57,6 +58,10 @@ class Numbering {
 
   const std::vector<Vec3>& scenery() const { return scenery_; }
   bool is_smooth() const { return skin_.has_value(); }
+  /// Is it a vertex of a smooth skin at a cut?
+  bool is_at_lip(std::int64_t number) const {
+    return number >= 0 && at_lip_[static_cast<std::size_t>(number)];
+  }
   /// null: the cell is as loaded
   const LiveElements::PartedCell* parted(const Vec3i& cell) const {
     return live_.parted().empty() ? nullptr : live_.parted(storage_of(cell));
@@ -112,6 +117,7 @@ class Numbering {
   std::optional<SmoothSkin> skin_;
   std::unordered_map<std::int64_t, std::int64_t> numbers_;
   std::vector<Vec3> scenery_;
+  std::vector<bool> at_lip_;  // of vertices that move
 };
 
 /// Collects the facets of one body.
@@ -160,7 +166,7 @@ class Builder {
     if (!shown(cell + face.outward) || (parted->open >> (&face - voxel_faces.data()) & 1) == 0) return;
     std::array<Vec3i, 4> corners;
     for (std::size_t c = 0; c < 4; ++c) corners[c] = cell + face.corners[c];
-    add_facet(cell, corners, cell, cells_.transfer.empty() ? inside_colour(rgba_) : 0);
+    add_facet(cell, corners, cell, true);
     surface_.hidden -= 1;  // on_face() counts it
   }
   void count_hidden(int facets) { surface_.hidden += static_cast<std::uint64_t>(facets); }
@@ -171,13 +177,17 @@ class Builder {
     return numbering_.is_smooth() && shown(below) ? below : cell;
   }
 
-  /// @param rgba  0: its own
+  /// A cut shows, shut or open: its lips, and the skin beside them.
   void add_facet(const Vec3i& cell, const std::array<Vec3i, 4>& corners, const Vec3i& coloured,
-                 std::uint32_t rgba = 0) {
+                 bool is_lip = false) {
     auto& facet = facets_.emplace_back();
-    for (std::size_t c = 0; c < 4; ++c) facet[c] = numbering_.number(corners[c], cell, surface_);
-    if (rgba == 0) rgba = cells_.transfer.empty() ? rgba_ : rgba_of(cells_.transfer, intensity(coloured));
-    surface_.rgba.push_back(rgba);
+    for (std::size_t c = 0; c < 4; ++c) {
+      facet[c] = numbering_.number(corners[c], cell, surface_);
+      is_lip = is_lip || numbering_.is_at_lip(facet[c]);
+    }
+    const std::uint32_t rgba =
+        cells_.transfer.empty() ? rgba_ : rgba_of(cells_.transfer, intensity(coloured));
+    surface_.rgba.push_back(is_lip ? inside_colour(rgba) : rgba);
     surface_.site.push_back(static_cast<std::uint32_t>(cells_.index(cell.x(), cell.y(), cell.z())));
   }
 
