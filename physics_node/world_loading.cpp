@@ -86,6 +86,13 @@ std::vector<Body> build_bodies(const Scene& scene) {
   return built;
 }
 
+/// Can what a scene has meet each other, or itself where it breaks? A body that is awake in parts is alone, and its parts do not.
+bool may_collide(const BodyModels& bodies) {
+  return bodies.size() > 1 || std::ranges::any_of(bodies, [](const auto& body) {
+           return may_come_apart(body->body()) && !is_awake_in_parts(body->body());
+         });
+}
+
 /// What rests of a body that is awake in parts cannot be met: it is alone but for tools that are no bodies.
 void refuse_company(const Scene& scene, const std::vector<Body>& built) {
   for (std::size_t b = 0; b < built.size(); ++b)
@@ -125,11 +132,11 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
   }
   join_bodies();
   toolbox_ = make_tools(scene_, bodies_, touchable_, connections_);
-  if (scene.contact->enabled && (bodies_.size() > 1 || any_breaks_))
+  if (scene.contact->enabled && may_collide(bodies_))
     collisions_ = std::make_unique<Collisions>(bodies_, fragments_, *scene.contact);
   if (collisions_)
     for (const std::size_t b : toolbox_.felt) collisions_->feel(b);
-  if (bodies_.size() > 1 || any_breaks_) inside_ = std::make_unique<InsideOthers>(bodies_);
+  if (may_collide(bodies_)) inside_ = std::make_unique<InsideOthers>(bodies_);
   if (!planes_.empty())
     for (auto& body : bodies_) body->prepare_for(Disturbance::impulses);
   choice_ = choose_threads(scene_, spare_cores, n_masses, n_pieces);

@@ -144,11 +144,11 @@ inline bool any_breaks(const Body& body) {
 }
 /// May it come apart, as that or as its cells are parted?
 inline bool may_come_apart(const Body& body) { return any_breaks(body) || any_cut(body); }
-/// Of cells of finite elements: do they do no more than hang together, so that a cut may part them? What yields, breaks or remembers, and
-/// what is awake in parts, is not cut.
+/// Of cells of finite elements: do they do no more than hang together, so that a cut may part them? What yields, breaks or remembers is not
+/// cut.
 inline bool is_parted_where_cut(const Body& body) {
   return body.solid && body.solid->failures.empty() && body.solid->yields.empty() &&
-         body.solid->relaxation.empty() && body.solid->awake_radius == 0;
+         body.solid->relaxation.empty();
 }
 /// Finite elements that yield.
 inline bool any_cells_yield(const Body& body) { return body.solid && !body.solid->yields.empty(); }
@@ -156,6 +156,12 @@ inline bool any_cells_yield(const Body& body) { return body.solid && !body.solid
 inline bool may_change_for_good(const Body& body) { return any_breaks(body) || any_cells_yield(body); }
 inline bool any_damped(const Body& body) {
   return std::any_of(body.laws.begin(), body.laws.end(), [](const ElementLaw& law) { return law.damped; });
+}
+/// Do dampers or drag of springs take energy from it?
+inline bool any_springs_lose(const Body& body) {
+  if (body.solid) return false;
+  return any_damped(body) ||
+         std::any_of(body.laws.begin(), body.laws.end(), [](const ElementLaw& law) { return law.drag > 0; });
 }
 
 /// For a body that a tool of the scene cuts: of tetrahedra of first order and of cells of finite elements all of whose materials

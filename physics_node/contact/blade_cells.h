@@ -6,6 +6,7 @@
 // A cell is where its nodes are in the mean, and what presses on it presses on each of them alike, s = 1 / their number:
 // force on a node F_n = sum of s F, and a cell gives way by sum of s F_n / m_n.
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -24,6 +25,27 @@ class BladeCells {
 
   /// Numbers of all.
   std::span<const Index> all() const noexcept { return have_volumes() ? numbers_ : body_->body().nodes(); }
+  /// Calls visit(cell) for each that may lie in a box now, and maybe for others; one or all of them, always in the same order. Cost: of a
+  /// body that is awake in parts what lies about the box, else all.
+  template <class Visit>
+  void each_within(const Eigen::AlignedBox3d& box, const Visit& visit) const noexcept {
+    if (hexes_ == nullptr || body_->parts() == nullptr) {
+      for (const Index cell : all()) visit(cell);
+      return;
+    }
+    const Lattice& lattice = body_->body().lattice;
+    const Vec3 margin = Vec3::Constant(body_->parts()->most_moved) + lattice.step;
+    const auto [low, high] = grid_box(lattice, box.min() - margin, box.max() + margin);
+    Vec3i at;
+    for (at.z() = low.z(); at.z() <= high.z(); ++at.z())
+      for (at.y() = low.y(); at.y() <= high.y(); ++at.y())
+        for (at.x() = low.x(); at.x() <= high.x(); ++at.x()) {
+          const Index cell = lattice.cell_of(at);
+          if (!hexes_->has_cell(cell)) continue;
+          visit(cell);
+          each_skin(cell, CellNet::n_faces, visit);
+        }
+  }
   std::size_t capacity() const noexcept {  // numbers are below it
     return have_volumes() ? static_cast<std::size_t>(first_skin_) + faces_.size()
                           : static_cast<std::size_t>(body_->body().capacity());
@@ -53,6 +75,11 @@ class BladeCells {
     if (tets_ != nullptr) return each_beyond(*tets_, 4, cell, visit);
     if (hexes_ != nullptr) return each_beyond(*hexes_, CellNet::n_faces, cell, visit);
     body_->adjacency().each_neighbour(cell, visit);
+  }
+  /// Of a volume: has it come apart from one beside it?
+  bool has_parted(Index cell) const noexcept {
+    if (tets_ != nullptr) return any_open(*tets_, 4, cell);
+    return hexes_ != nullptr && any_open(*hexes_, CellNet::n_faces, cell);
   }
   bool have_volumes() const noexcept { return tets_ != nullptr || hexes_ != nullptr; }
   /// Is it of a volume, of which a plane has a section, or a point?
@@ -99,6 +126,12 @@ class BladeCells {
   std::size_t face_of(Index cell) const noexcept { return static_cast<std::size_t>(cell - first_skin_); }
   template <class Net>
   void number_elements(const Net& net, std::span<const Index> elements, std::size_t n_faces);
+  template <class Net>
+  static bool any_open(const Net& net, std::size_t n_faces, Index cell) noexcept {
+    bool any = false;
+    for (std::size_t f = 0; f < n_faces && !any; ++f) any = net.is_open(cell, f);
+    return any;
+  }
   template <class Net, class Visit>
   void each_beyond(const Net& net, std::size_t n_faces, Index cell, const Visit& visit) const noexcept {
     for (std::size_t f = 0; f < n_faces; ++f) {
@@ -108,6 +141,13 @@ class BladeCells {
       const auto skin = static_cast<std::size_t>(skin_[n_faces * static_cast<std::size_t>(cell) + f]);
       if (passed_[skin] == 0) visit(first_skin_ + static_cast<Index>(skin));
     }
+  }
+  /// Calls visit(number) of the outer faces of an element.
+  template <class Visit>
+  void each_skin(Index element, std::size_t n_faces, const Visit& visit) const noexcept {
+    for (std::size_t f = 0; f < n_faces; ++f)
+      if (const std::int32_t skin = skin_[n_faces * static_cast<std::size_t>(element) + f]; skin >= 0)
+        visit(first_skin_ + skin);
   }
   template <class Of>
   Vec3 mean(Index cell, const Of& of) const noexcept {

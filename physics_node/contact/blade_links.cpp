@@ -30,22 +30,30 @@ BladeLinks::BladeLinks(const BodyModel& body, double length)
 
 void BladeLinks::look_around(const BladeFrame& frame, const EdgePlace& edge) noexcept {
   const double reach = around_reach * h_;
-  around_.clear();
-  for (const Index cell : cells_.all()) {
+  const auto is_near = [&](Index cell) {
     const Vec3 at = frame.coordinates(cells_.position(cell));
     const Vec3 edge_there(std::clamp(at.x(), 0.0, length_), std::clamp(at.y(), edge.last, edge.lag),
                           edge.slot);
-    if ((at - edge_there).squaredNorm() <= reach * reach)
-      around_.push_back(cell);
-    else
-      side_[static_cast<std::size_t>(cell)] = 0;
-  }
+    return (at - edge_there).squaredNorm() <= reach * reach;
+  };
+  for (const Index cell : around_)
+    if (!is_near(cell)) side_[static_cast<std::size_t>(cell)] = 0;
+  Eigen::AlignedBox3d box;
+  for (const double q : {edge.last, edge.lag})
+    for (const double p : {0.0, length_})
+      box.extend(frame.tip + p * frame.along + q * frame.ahead + edge.slot * frame.side);
+  box.min().array() -= reach, box.max().array() += reach;
+  around_.clear();
+  cells_.each_within(box, [&](Index cell) {
+    if (is_near(cell)) around_.push_back(cell);
+  });
 }
 
 void BladeLinks::reset() noexcept {
   for (const Node& node : nodes_) number_[static_cast<std::size_t>(node.cell)] = -1;
   std::ranges::fill(side_, std::int8_t{0});
   cells_.reset();
+  around_.clear();
   when_ = -1e9;
   nodes_.clear();
   links_.clear();
@@ -183,6 +191,17 @@ void BladeLinks::measure_sections(const BladeFrame& frame, double s) noexcept {
   }
 }
 
+bool BladeLinks::hangs_across(Index cell) const noexcept {
+  if (!cells_.has_parted(cell)) return true;
+  const std::int8_t side = side_[static_cast<std::size_t>(cell)];
+  bool across = false;
+  cells_.each_joined(cell, [&](Index other) {
+    const std::int8_t there = side_[static_cast<std::size_t>(other)];
+    across |= !cells_.is_skin(other) && there != 0 && there != side;
+  });
+  return across;
+}
+
 /// Over all that joined faces lead to, of what the plane has a section of and that is not far ahead or behind.
 double BladeLinks::skin_along(const Link& link, double end) const noexcept {
   constexpr std::size_t most = 48;  // Why: a strip is half a spacing wide, and few tetrahedra lie beside it
@@ -197,6 +216,7 @@ double BladeLinks::skin_along(const Link& link, double end) const noexcept {
     if (std::abs(at.y() - link.now.q) > h_) return;
     const Section section = section_of(cell);
     if (section.high < section.low) return;
+    if (n_seen >= 2 && !hangs_across(cell)) return;
     seen[n_seen++] = cell;
     farthest = std::max(farthest, down ? -section.low : section.high);
   };

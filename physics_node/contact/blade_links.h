@@ -75,8 +75,8 @@ class BladeLinks {
   /// @param body  of springs, or of tetrahedra that may be cut; outlives this  @param length  of the edge [m]
   BladeLinks(const BodyModel& body, double length);
 
-  /// Before the steps of a frame: what may come to cross the plane in it. Cost: a pass over the nodes around; over all of the body once
-  /// the blade has gone a spacing, and every 20 ms.
+  /// Before the steps of a frame: what may come to cross the plane in it. Cost: a pass over the nodes around; over all of the body, or where it is
+  /// awake in parts over what lies about the edge, once the blade has gone a spacing, and every 20 ms.
   void gather(const BladeFrame& frame, const EdgePlace& edge, double t) noexcept;
   void begin_step() noexcept;
   /// After a step: where its nodes and crossings are now.
@@ -112,6 +112,8 @@ class BladeLinks {
     double low = 1, high = -1;
   };
   Section section_of(Index cell) const noexcept;
+  /// Does a cell hang together with what lies on the other side of the plane, or has nothing parted it?
+  bool hangs_across(Index cell) const noexcept;
   void join_islands(const EdgePlace& edge) noexcept;
   void settle_side(Node& node, const EdgePlace& edge) noexcept;
 

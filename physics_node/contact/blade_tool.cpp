@@ -32,8 +32,6 @@ const char* kind_and_remedy(const Body& body) {
   if (is_surface_of_springs(body))
     return "a surface of springs; fill it with tetrahedra, or join it by a [[connection]]";
   if (body.mesh) return "of second order; write elements = \"nodal_pressure\" there";
-  if (is_awake_in_parts(body))
-    return "awake in parts; write deformable = { center = ..., nearest = ... } there";
   return "of finite elements that yield, break or relax; leave that out of its materials";
 }
 

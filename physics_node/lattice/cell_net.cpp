@@ -158,6 +158,7 @@ void CellNet::forget_cuts() noexcept {
   std::ranges::fill(open_, std::uint8_t{0});
   splits_.clear();
   n_open_ = 0;
+  ++n_resets_;
 }
 
 }  // namespace palpate::physics

@@ -98,6 +98,7 @@ class CellNet {
   std::span<const NodeSplit> splits() const noexcept { return splits_; }  // since begin(), in their order
   std::uint64_t left_out() const noexcept { return left_out_; }           // faces for which there was no room
   std::int64_t n_open() const noexcept { return n_open_; }
+  std::uint64_t n_resets() const noexcept { return n_resets_; }
   /// Joins all again. @param joined  void(node): called afterwards for each that had split, as often as it had
   template <class Joined>
   void reset(const Joined& joined) noexcept {
@@ -134,7 +135,7 @@ class CellNet {
   std::vector<Index> origin_;     // of each copy
   std::vector<std::uint8_t> has_split_;
   std::vector<NodeSplit> splits_;
-  std::uint64_t left_out_ = 0;
+  std::uint64_t left_out_ = 0, n_resets_ = 0;
   std::int64_t n_open_ = 0;
 };
 

@@ -46,6 +46,14 @@ void cut_into_chunks(Lattice& lattice) {
 
 }  // namespace
 
+GridBox grid_box(const Lattice& lattice, const Vec3& low, const Vec3& high) {
+  const Eigen::Array3d most = lattice.size.array().cast<double>() - 3;  // without halo, and the last corners
+  const auto grid = [&](const Vec3& at) -> Eigen::Array3d {
+    return (at - lattice.origin).cwiseQuotient(lattice.step).array();
+  };
+  return {grid(low).floor().max(0).min(most).cast<int>(), grid(high).ceil().max(0).min(most).cast<int>()};
+}
+
 std::vector<Vec3i> half_directions(LatticeKind kind) {
   if (kind == LatticeKind::fcc) {
     return {{1, 1, 0}, {-1, 1, 0}, {1, 0, 1}, {-1, 0, 1}, {0, 1, 1}, {0, -1, 1}};

@@ -82,6 +82,12 @@ struct Lattice {
   bool leads_up(int d) const;
 };
 
+/// Lowest and highest grid coordinates of the cells of a voxel lattice that reach into a box, within the lattice.
+struct GridBox {
+  Vec3i low, high;
+};
+GridBox grid_box(const Lattice& lattice, const Vec3& low, const Vec3& high);
+
 /// Half directions of a lattice in grid coordinates.
 std::vector<Vec3i> half_directions(LatticeKind kind);
 

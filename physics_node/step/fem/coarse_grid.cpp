@@ -7,11 +7,11 @@ namespace palpate::physics {
 namespace {
 
 /// Cells over the box of all places.
-struct GridBox {
+struct SortingBox {
   Vec3 low, cell;
   Eigen::Vector3i most;  // the last cell
 
-  GridBox(const std::vector<Vec3>& places, double edge) : low(places.front()) {
+  SortingBox(const std::vector<Vec3>& places, double edge) : low(places.front()) {
     Vec3 high = low;
     for (const Vec3& x : places) low = low.cwiseMin(x), high = high.cwiseMax(x);
     const Vec3 size = (high - low).cwiseMax(Vec3::Constant(1e-9 * edge));
@@ -23,7 +23,7 @@ struct GridBox {
 }  // namespace
 
 CoarseGrid::CoarseGrid(const std::vector<Vec3>& places, const SparseRows& stiffness, double edge) {
-  const GridBox box(places, edge);
+  const SortingBox box(places, edge);
   std::map<std::array<int, 3>, int> number;  // of corners that some place sees
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t n = 0; n < places.size(); ++n) {

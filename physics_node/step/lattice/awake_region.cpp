@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "physics_node/step/lattice/hex_meter.h"
+#include "physics_node/step/lattice/measure.h"
 
 namespace palpate::physics {
 namespace {
@@ -41,7 +42,7 @@ void AwakeRegion<Real>::each_corner(const Body& body, Index r, const Visit& visi
   const HexRun& run = grid_.runs[static_cast<std::size_t>(r)];
   for (Index i = run.first; i < run.first + run.count; ++i) {
     if (body.solid->stiffness[static_cast<std::size_t>(i)] <= 0) continue;
-    for (Index a = 0; a < 8; ++a) visit(grid_.corner(run, i, a));
+    each_corner_of(body, grid_, run, i, [&](std::size_t, Index node) { visit(node); });
   }
 }
 
@@ -83,10 +84,8 @@ void AwakeRegion<Real>::choose(const Body& body) noexcept {
   next_.clear();
   const double kept = radius_ + kept_cells * body.spacing();
   for (const PressedPlace& place : places_.now()) {
-    const Vec3 about = (place.at - lattice.origin).cwiseQuotient(lattice.step);
-    const Vec3 reach = Vec3::Constant(kept).cwiseQuotient(lattice.step);
-    const Vec3i lo = (about - reach).array().floor().cast<int>().max(0).min(lattice.size.array() - 3);
-    const Vec3i hi = (about + reach).array().ceil().cast<int>().max(0).min(lattice.size.array() - 3);
+    const Vec3 reach = Vec3::Constant(kept);
+    const auto [lo, hi] = grid_box(lattice, place.at - reach, place.at + reach);
     for (int z = lo.z(); z <= hi.z(); ++z)
       for (int y = lo.y(); y <= hi.y(); ++y) {
         const Index begin = ((z + 1) * lattice.size.y() + y + 1) * lattice.pitch;
@@ -236,6 +235,46 @@ void AwakeRegion<Real>::move_border(const Body& body, LatticeState<Real>& state)
   rim_.find(body, grid_, acting_, marks_, state);
 }
 
+/// Of a node or copy. @return whether it lies in the rim, or did
+template <class Real>
+bool AwakeRegion<Real>::settle_split(const Body& body, LatticeState<Real>& state, Index node) noexcept {
+  const auto n = static_cast<std::size_t>(node);
+  bool shall_move = false, borders = false;
+  body.cell_net()->each_corner(node, [&](Index cell, std::size_t) {
+    const bool acts = (marks_[static_cast<std::size_t>(cell)] & cell_acts) != 0;
+    shall_move |= acts, borders |= !acts;
+  });
+  if (moves(node) != shall_move) {
+    marks_[n] ^= node_moves;
+    n_moving_ += shall_move ? 1 : -1;
+  }
+  if (shall_move) return borders || rim_.has(node);
+  if (state.inverse_mass[n] > 0)
+    slept_.numerical +=
+        0.5 / static_cast<double>(state.inverse_mass[n]) * vector_of(state.v, node).squaredNorm();
+  for (std::size_t a = 0; a < 3; ++a) state.u[a][n] = state.v[a][n] = state.f[a][n] = 0;
+  return rim_.has(node);
+}
+
+template <class Real>
+void AwakeRegion<Real>::follow_cut(const Body& body, LatticeState<Real>& state,
+                                   std::span<const NodeSplit> splits) noexcept {
+  const double before = of_rim(state);
+  bool in_rim = false;
+  for (const NodeSplit& split : splits)
+    for (const Index node : {split.node, split.copy}) in_rim |= settle_split(body, state, node);
+  if (!in_rim) return;
+  rim_.find(body, grid_, acting_, marks_, state);
+  rim_.stiffen(body, places_.now());
+  slept_.numerical += before - of_rim(state);
+}
+
+/// As the ledger has it: m v(-) . v(+) / 2, so a force that goes takes dt / 2 of its power along [J].
+template <class Real>
+double AwakeRegion<Real>::of_rim(const LatticeState<Real>& state) const noexcept {
+  return rim_.elastic(state) + 0.5 * state.dt_before * rim_.power(state);
+}
+
 template <class Real>
 void AwakeRegion<Real>::measure(const Body& body, const LatticeState<Real>& state) noexcept {
   double u2 = 0, v2 = 0;
@@ -244,6 +283,10 @@ void AwakeRegion<Real>::measure(const Body& body, const LatticeState<Real>& stat
     for (Index i = segment.first; i < segment.first + segment.count; ++i)
       u2 = std::max(u2, vector_of(state.u, i).squaredNorm());
     v2 = std::max(v2, state.ledger[static_cast<std::size_t>(row)].speed2);
+  }
+  if (!rows_.empty() && body.cell_net() != nullptr) {
+    body.each_copy([&](Index copy) { u2 = std::max(u2, vector_of(state.u, copy).squaredNorm()); });
+    v2 = std::max(v2, state.ledger.back().speed2);
   }
   parts_.most_moved = rows_.empty() ? 0 : std::sqrt(u2) + 2 * period * std::sqrt(v2) + body.spacing();
 }
@@ -264,12 +307,10 @@ void AwakeRegion<Real>::look(const Body& body, LatticeState<Real>& state, double
       std::ranges::equal(places, border_of_, [slack](const PressedPlace& place, const Vec3& at) {
         return (place.at - at).squaredNorm() < slack * slack;
       });
-  // As the ledger has it: m v(-) . v(+) / 2, so a force that goes takes dt / 2 of its power along.
-  const auto of_rim = [&] { return rim_.elastic(state) + 0.5 * state.dt_before * rim_.power(state); };
-  slept_.numerical += of_rim();
+  slept_.numerical += of_rim(state);
   if (!stays) move_border(body, state);
   rim_.stiffen(body, places);
-  slept_.numerical -= of_rim();
+  slept_.numerical -= of_rim(state);
   measure(body, state);
 }
 
@@ -287,6 +328,7 @@ void AwakeRegion<Real>::clear(const Body& body, LatticeState<Real>& state) noexc
       for (auto& axis : *three) std::fill_n(axis.data() + segment.first, row_segment, Real(0));
     state.ledger[static_cast<std::size_t>(row)] = {};
   }
+  if (body.cell_net() != nullptr) clear_copies(body, state);
   slept_ = {};
   acting_.clear();
   rows_.clear();
@@ -301,14 +343,26 @@ void AwakeRegion<Real>::clear(const Body& body, LatticeState<Real>& state) noexc
 }
 
 template <class Real>
+void AwakeRegion<Real>::clear_copies(const Body& body, LatticeState<Real>& state) noexcept {
+  const auto first = static_cast<std::size_t>(body.cell_net()->n_loaded());
+  const std::size_t n = marks_.size() - first;
+  std::fill_n(marks_.begin() + static_cast<std::ptrdiff_t>(first), n, std::uint8_t{0});
+  for (auto* three : {&state.u, &state.v, &state.f})
+    for (auto& axis : *three) std::fill_n(axis.data() + first, n, Real(0));
+  state.ledger.back() = {};
+}
+
+template <class Real>
 void AwakeRegion<Real>::go_back(const Body& body, LatticeState<Real>& state) noexcept {
   clear(body, state);
   slept_ = saved_.good();
 }
 
 template <class Real>
-Losses AwakeRegion<Real>::losses() const noexcept {
+Losses AwakeRegion<Real>::losses(const Body& body, const LatticeState<Real>& state) const noexcept {
   Losses sum = slept_;
+  for (const Index row : rows_) add_losses(state.ledger[static_cast<std::size_t>(row)], sum);
+  if (body.cell_net() != nullptr) add_losses(state.ledger.back(), sum);
   sum.viscous += rim_.lost();
   return sum;
 }

@@ -30,6 +30,8 @@ class AwakeRegion {
   void wake(const Body& body, LatticeState<Real>& state, std::span<const NodalPush> pushes,
             double dt) noexcept;
   bool moves(Index node) const noexcept { return (marks_[static_cast<std::size_t>(node)] & node_moves) != 0; }
+  /// After a cut: what hangs on nothing but cells that rest does not move, and the rim is where cells still hang together.
+  void follow_cut(const Body& body, LatticeState<Real>& state, std::span<const NodeSplit> splits) noexcept;
   /// @param seconds  since the last call; 0: a new place was noted
   void look(const Body& body, LatticeState<Real>& state, double seconds) noexcept;
   /// All falls asleep where it rests, as after a reset; what was lost is forgotten.
@@ -43,8 +45,8 @@ class AwakeRegion {
   const SoftRim<Real>& rim() const noexcept { return rim_; }
   std::span<const Index> rows() const noexcept { return rows_; }  // that are awake, in storage order
   Index moving_nodes() const noexcept { return n_moving_; }
-  /// Of rows that sleep again, and of the rim.
-  Losses losses() const noexcept;
+  /// Of rows that are awake and that sleep again, of the copies that cuts have made, and of the rim.
+  Losses losses(const Body& body, const LatticeState<Real>& state) const noexcept;
   const AwakeParts& parts() const noexcept { return parts_; }
 
  private:
@@ -52,9 +54,12 @@ class AwakeRegion {
   bool is_near(const Body& body, std::size_t run, const Vec3& place, double within) const noexcept;
   double settle_nodes(const Body& body, LatticeState<Real>& state) noexcept;
   void begin_near_rim(const Body& body, LatticeState<Real>& state, Index node) noexcept;
+  void clear_copies(const Body& body, LatticeState<Real>& state) noexcept;
   void settle_rows(LatticeState<Real>& state) noexcept;
   void put_to_sleep(LatticeState<Real>& state, std::size_t row) noexcept;
   void move_border(const Body& body, LatticeState<Real>& state) noexcept;
+  bool settle_split(const Body& body, LatticeState<Real>& state, Index node) noexcept;
+  double of_rim(const LatticeState<Real>& state) const noexcept;
   void measure(const Body& body, const LatticeState<Real>& state) noexcept;
   template <class Visit>
   void each_corner(const Body& body, Index run, const Visit& visit) const noexcept;

@@ -1,6 +1,7 @@
 #pragma once
 // The cells of a voxel body as runs that a kernel sweeps, and what they weigh.
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -49,6 +50,11 @@ struct HexGrid {
   Index corner(const HexRun& run, Index cell, Index a) const noexcept {
     return cell + (a & 1) * run.right + (a >> 1 & 1) * up_y + (a >> 2) * up_z;
   }
+  /// The run that a cell is of, by its lowest corner.
+  std::size_t run_of(Index cell) const noexcept {
+    return static_cast<std::size_t>(std::ranges::upper_bound(runs, cell, {}, &HexRun::first) - runs.begin()) -
+           1;
+  }
   std::span<const Index> rows_of(std::size_t run) const noexcept {
     return std::span(rows).subspan(static_cast<std::size_t>(rows_begin[run]),
                                    static_cast<std::size_t>(rows_begin[run + 1] - rows_begin[run]));
@@ -56,6 +62,18 @@ struct HexGrid {
 };
 
 HexGrid make_hex_grid(const Body& body);
+
+/// Calls visit(number of the corner, node) for those of a cell of a run, which are copies where a cut has parted it.
+template <class Visit>
+void each_corner_of(const Body& body, const HexGrid& grid, const HexRun& run, Index cell,
+                    const Visit& visit) {
+  if (const CellNet* net = body.cell_net(); net != nullptr && net->is_parted(cell)) {
+    const CellNet::Corners corners = net->corners(cell);
+    for (std::size_t a = 0; a < 8; ++a) visit(a, corners[a]);
+    return;
+  }
+  for (Index a = 0; a < 8; ++a) visit(static_cast<std::size_t>(a), grid.corner(run, cell, a));
+}
 
 /// Storage cells of the corners of a cell, by its lowest: bit 0 of the number is +x, bit 1 +y, bit 2 +z.
 inline std::array<Index, 8> corners_of_cell(const Lattice& lattice, Index cell) noexcept {

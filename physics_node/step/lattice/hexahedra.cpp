@@ -32,6 +32,7 @@ void for_each_moving_node(const Body& body, const LatticeState<Real>& state, con
     for (Index i = row.first; state.row_state[r] != RowState::asleep && i < row.first + row.count; ++i)
       look_at(i);
   }
+  body.each_copy(look_at);
 }
 
 }  // namespace
@@ -108,7 +109,7 @@ StepOutcome Hexahedra<Real>::step(const Body& body, LatticeState<Real>& state,
   const std::int64_t broken = failure_ ? failure_->begin_step(state, acting_, step, stiffness_) : 0;
   if (yield_) yield_->begin_step(state, acting_, step, stiffness_, high_);
   if (fast_) fast_->begin(state);
-  if (parted_) parted_->follow(body, stiffness_);
+  if (parted_) parted_->follow(body, grid_, state, stiffness_);
   HexContext<Real> m = {};
   ElementContext<Real>& masses = m.masses;
   masses.rows = body.lattice.rows.data();

@@ -23,13 +23,6 @@
 namespace palpate::physics {
 namespace {
 
-/// Do dampers or drag of springs take energy from it?
-bool has_losses(const Body& body) {
-  if (body.solid) return false;
-  return any_damped(body) ||
-         std::any_of(body.laws.begin(), body.laws.end(), [](const ElementLaw& law) { return law.drag > 0; });
-}
-
 template <class Real>
 std::unique_ptr<LatticeElements<Real>> make_elements(const Body& body, const LatticeState<Real>& state) {
   if (body.solid) return std::make_unique<Hexahedra<Real>>(body, state);
@@ -102,7 +95,7 @@ class LatticeBody final : public BodyModel, private PendingStep {
 
   void prepare_for(Disturbance from_outside) override {
     if (from_outside == Disturbance::impulses) make_room(v_before_);
-    if (!implicit_ && has_losses(body_)) make_room(state_.v_seen);
+    if (!implicit_ && any_springs_lose(body_)) make_room(state_.v_seen);
   }
   void remember_velocities() noexcept override {
     if (v_before_[0].size() == 0) return;
@@ -172,10 +165,10 @@ class LatticeBody final : public BodyModel, private PendingStep {
     if (region_) {
       region_->go_back(body_, state_);
       state_.forget_last_step();
-      return save(false);
+    } else {
+      sleep_.wake_all(body_, state_);
+      saved_.good().bring_back(body_, state_);
     }
-    sleep_.wake_all(body_, state_);
-    saved_.good().bring_back(body_, state_);
     if (body_.cell_net() != nullptr)
       body_.cell_net()->begin();  // what has parted stays so, and all know of it
     save(false);
@@ -234,14 +227,15 @@ class LatticeBody final : public BodyModel, private PendingStep {
   }
   std::int64_t cut(std::span<const EdgeGone> elements) noexcept override {
     if (!any_cut(body_)) return 0;
-    if (body_.cell_net() != nullptr)
-      return part_cells(body_, state_, elements, [this](const NodeSplit& split) {
-        saved_.each([&](SavedState<Real>& saved) { saved.split(split); });
-        for (auto& axis : v_before_)
-          if (axis.size() > 0)
-            axis[static_cast<std::size_t>(split.copy)] = axis[static_cast<std::size_t>(split.node)];
-      });
-    return cut_elements(body_, state_, sleep_, elements);
+    CellNet* net = body_.cell_net();
+    if (net == nullptr) return cut_elements(body_, state_, sleep_, elements);
+    const std::size_t known = net->splits().size();
+    const std::int64_t opened = part_cells(body_, state_, elements, [this](const NodeSplit& split) {
+      if (!region_) saved_.each([&](SavedState<Real>& saved) { saved.split(split); });
+      copy_value(v_before_, split);
+    });
+    if (region_) region_->follow_cut(body_, state_, net->splits().subspan(known));
+    return opened;
   }
   void conditions(std::span<const Index> cells, std::span<Condition> out) const noexcept override {
     for (std::size_t n = 0; n < cells.size(); ++n)
@@ -262,9 +256,8 @@ class LatticeBody final : public BodyModel, private PendingStep {
     return sum;
   }
   Losses losses() const override {
-    Losses sum = region_ ? region_->losses() : measure_losses(state_);
+    Losses sum = region_ ? region_->losses(body_, state_) : measure_losses(state_);
     if (body_.cell_net() != nullptr) sum.breaks = breaks();
-    if (region_) each_row([&](std::size_t r) { add_losses(state_.ledger[r], sum); });
     return sum;
   }
   Momenta momenta() const override { return momenta_with(state_.v).momenta; }
@@ -284,7 +277,7 @@ class LatticeBody final : public BodyModel, private PendingStep {
   StepOutcome integrate(const ExplicitStep& step, std::span<const NodalForce> forces) noexcept {
     if (region_) return integrate_region(step, forces);
     if (step.verlet && step.dt != state_.dt_before) begin_leapfrog();
-    if (body_.cell_net() != nullptr) body_.cell_net()->begin(), unknown_for_ = std::max(0, unknown_for_ - 1);
+    begin_cuts();
     momentum_.step(step.gravity, step.verlet && !state_.v_half_known ? 0.5 * step.dt : step.dt, step.dt);
     const StepOutcome outcome = elements_->step(body_, state_, step);  // sleeping rows are skipped
     // What was balanced by a cell is so no more.
@@ -297,6 +290,7 @@ class LatticeBody final : public BodyModel, private PendingStep {
   /// Without gravity: its weight is balanced.
   StepOutcome integrate_region(ExplicitStep step, std::span<const NodalForce> forces) noexcept {
     step.gravity = Vec3::Zero();
+    begin_cuts();
     momentum_.step(step.gravity, step.dt, step.dt);
     StepOutcome outcome;
     if (region_->moving_nodes() > 0) {
@@ -307,6 +301,11 @@ class LatticeBody final : public BodyModel, private PendingStep {
     }
     kick(forces, step.dt);
     return outcome;
+  }
+
+  /// A new list of what a cut splits.
+  void begin_cuts() noexcept {
+    if (body_.cell_net() != nullptr) body_.cell_net()->begin(), unknown_for_ = std::max(0, unknown_for_ - 1);
   }
 
   /// Held, or asleep where it is awake in parts and too far from where it is pressed.

@@ -24,9 +24,7 @@ void weigh(Body& body, LatticeState<Real>& state, Index node) noexcept {
 
 template <class Real>
 void share_node(Body& body, LatticeState<Real>& state, const NodeSplit& split) noexcept {
-  const auto from = static_cast<std::size_t>(split.node), to = static_cast<std::size_t>(split.copy);
-  for (auto* three : {&state.u, &state.v})
-    for (auto& axis : *three) axis[to] = axis[from];
+  for (auto* three : {&state.u, &state.v}) copy_value(*three, split);
   for (const Index node : {split.node, split.copy}) weigh(body, state, node);
 }
 

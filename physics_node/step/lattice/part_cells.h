@@ -11,6 +11,14 @@ namespace palpate::physics {
 template <class Real>
 void share_node(Body& body, LatticeState<Real>& state, const NodeSplit& split) noexcept;
 
+/// What is known of a node is known of its copy; where there is nothing, nothing.
+template <class Real>
+void copy_value(Three<Real>& of_nodes, const NodeSplit& split) noexcept {
+  for (auto& axis : of_nodes)
+    if (axis.size() > 0)
+      axis[static_cast<std::size_t>(split.copy)] = axis[static_cast<std::size_t>(split.node)];
+}
+
 /// Opens the faces between cells that are joined. Contract: allocates and throws nothing.
 /// @param on_split  void(NodeSplit), for what else is known of nodes
 /// @return how many were opened

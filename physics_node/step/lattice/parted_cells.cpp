@@ -15,25 +15,46 @@ PartedCells<Real>::PartedCells(const Body& body) {
     for (auto* three : {&rate_low_, &rate_high_})
       for (auto& axis : *three) axis = ZeroedArray<Real>(n, colour++);
   stiffness_ = ZeroedArray<Real>(static_cast<std::size_t>(stride_), colour);
+  acting_.reserve(static_cast<std::size_t>(most));
+}
+
+/// After a reset.
+template <class Real>
+void PartedCells<Real>::leave(const Body& body, ZeroedArray<Real>& stiffness) noexcept {
+  for (const Index cell : body.solid->net->cells())
+    stiffness[static_cast<std::size_t>(cell)] =
+        static_cast<Real>(body.solid->stiffness[static_cast<std::size_t>(cell)]);
+  known_ = 0;
+  power_ = 0, least_J_ = 1;
 }
 
 template <class Real>
-void PartedCells<Real>::follow(const Body& body, ZeroedArray<Real>& stiffness) noexcept {
+void PartedCells<Real>::list_acting(const Body& body, const HexGrid& grid,
+                                    const LatticeState<Real>& state) noexcept {
   const CellNet& net = *body.solid->net;
-  const auto now = static_cast<Index>(net.parted().size());
-  if (now < count_) {
-    for (const Index cell : net.cells())
-      stiffness[static_cast<std::size_t>(cell)] =
-          static_cast<Real>(body.solid->stiffness[static_cast<std::size_t>(cell)]);
-    std::fill_n(stiffness_.data(), count_, Real(0));
-    count_ = 0;
-    power_ = stiffest_ = 0, least_J_ = 1;
+  std::fill_n(stiffness_.data(), acting_.size(), Real(0));
+  acting_.clear();
+  for (std::size_t n = 0; n < known_; ++n) {
+    const Index cell = net.parted()[n];
+    if (!state.acts.empty() && state.acts[grid.run_of(cell)] == 0) continue;
+    stiffness_[acting_.size()] = static_cast<Real>(body.solid->stiffness[static_cast<std::size_t>(cell)]);
+    acting_.push_back(n);
   }
-  for (; count_ < now; ++count_) {
-    const auto cell = static_cast<std::size_t>(net.parted()[static_cast<std::size_t>(count_)]);
-    stiffness_[static_cast<std::size_t>(count_)] = static_cast<Real>(body.solid->stiffness[cell]);
-    stiffness[cell] = 0;
-  }
+  if (acting_.empty()) elastic_ = power_ = stiffest_ = 0;
+}
+
+template <class Real>
+void PartedCells<Real>::follow(const Body& body, const HexGrid& grid, const LatticeState<Real>& state,
+                               ZeroedArray<Real>& stiffness) noexcept {
+  const CellNet& net = *body.solid->net;
+  const std::size_t now = net.parted().size();
+  const bool fewer = n_resets_ != net.n_resets();
+  if (now == known_ && !fewer && (state.acts.empty() || row_changes_ == state.row_changes)) return;
+  row_changes_ = state.row_changes;
+  n_resets_ = net.n_resets();
+  if (fewer) leave(body, stiffness);
+  for (; known_ < now; ++known_) stiffness[static_cast<std::size_t>(net.parted()[known_])] = 0;
+  list_acting(body, grid, state);
 }
 
 template <class Real>
@@ -42,8 +63,8 @@ void PartedCells<Real>::forces(const Body& body, LatticeState<Real>& state, cons
   const CellNet& net = *body.solid->net;
   const bool damped = body.solid->beta > 0;
   const auto stride = static_cast<std::size_t>(stride_);
-  for (std::size_t n = 0; n < static_cast<std::size_t>(count_); ++n) {
-    const CellNet::Corners& corners = net.parted_corners(n);
+  for (std::size_t n = 0; n < acting_.size(); ++n) {
+    const CellNet::Corners& corners = net.parted_corners(acting_[n]);
     for (std::size_t c = 0; c < 3; ++c)
       for (std::size_t a = 0; a < 8; ++a) {
         const auto node = static_cast<std::size_t>(corners[a]);
@@ -52,7 +73,7 @@ void PartedCells<Real>::forces(const Body& body, LatticeState<Real>& state, cons
       }
   }
   HexContext<Real> m = sweep;
-  const HexRun run{0, count_, stride_};
+  const HexRun run{0, static_cast<Index>(acting_.size()), stride_};
   m.runs = &run;
   m.acts = nullptr;
   m.torn = nullptr;
@@ -70,8 +91,8 @@ void PartedCells<Real>::forces(const Body& body, LatticeState<Real>& state, cons
   m.up_y = 2 * stride_, m.up_z = 4 * stride_;
   kernel.forces(m, 0, 1);
   const auto add = [&](Three<Real>& low, Three<Real>& high, Real* const* to) {
-    for (std::size_t n = 0; n < static_cast<std::size_t>(count_); ++n) {
-      const CellNet::Corners& corners = net.parted_corners(n);
+    for (std::size_t n = 0; n < acting_.size(); ++n) {
+      const CellNet::Corners& corners = net.parted_corners(acting_[n]);
       for (std::size_t c = 0; c < 3; ++c)
         for (std::size_t a = 0; a < 8; ++a) {
           Real& from = (a < 4 ? low : high)[c][a * stride + n];

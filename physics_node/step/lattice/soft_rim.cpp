@@ -54,6 +54,7 @@ void SoftRim<Real>::find(const Body& body, const HexGrid& grid, std::span<const 
   nodes_.clear();
   faces_.clear();
   const auto& stiffness = body.solid->stiffness;
+  const CellNet* net = body.cell_net();
   const Vec3 h = body.lattice.step;
   const std::array<double, 3> area{h.y() * h.z(), h.x() * h.z(), h.x() * h.y()};
   const auto add = [&](Index node, std::size_t axis, double quarter, double behind) {
@@ -76,11 +77,12 @@ void SoftRim<Real>::find(const Body& body, const HexGrid& grid, std::span<const 
       for (std::size_t face = 0; face < 6; ++face) {
         const auto other = static_cast<std::size_t>(i + beside[face]);
         if (stiffness[other] <= 0 || (marks[other] & cell_acts) != 0) continue;
+        if (net != nullptr && net->is_open(i, face)) continue;
         const double quarter = ((face & 1) != 0 ? 0.25 : -0.25) * area[face / 2];
-        for (unsigned a = 0; a < 8; ++a)
-          if (is_on(a, face))
-            add(grid.corner(run, i, static_cast<Index>(a)), face / 2, quarter,
-                static_cast<double>(stiffness[other]));
+        each_corner_of(body, grid, run, i, [&](std::size_t a, Index node) {
+          if (is_on(static_cast<unsigned>(a), face))
+            add(node, face / 2, quarter, static_cast<double>(stiffness[other]));
+        });
       }
     }
   }

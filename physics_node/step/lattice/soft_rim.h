@@ -15,7 +15,7 @@ namespace palpate::physics {
 inline constexpr std::uint8_t node_moves = 1;
 inline constexpr std::uint8_t cell_acts = 2;  // by its lowest corner
 
-/// Springs and dampers on the nodes of the faces where cells that act meet cells that rest. They answer as an unbounded body of the same
+/// Springs and dampers on the nodes of the faces where cells that act meet cells that rest, unless a cut has opened them. They answer as an unbounded body of the same
 /// tissue does that is pressed at one place (Kelvin): on the sphere of radius r about it, per area,
 ///
 ///   k_n = mu (2 - nu) / ((1 - nu) r),   k_t = 2 mu (1 - 2 nu) / ((3 - 4 nu) r)    along and across n = (x - p) / r
@@ -53,6 +53,7 @@ class SoftRim {
   void add(const LatticeState<Real>& state, Energies& energies) const noexcept;
   double due(const LatticeState<Real>& state) const noexcept;  // [J]
   std::size_t size() const noexcept { return nodes_.size(); }
+  bool has(Index node) const noexcept { return number_[static_cast<std::size_t>(node)] != 0; }
   void clear() noexcept;
 
  private:
