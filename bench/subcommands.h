@@ -8,6 +8,7 @@ namespace palpate::bench {
 
 void add_kernel(CLI::App& app, int& exit_code);
 void add_contact(CLI::App& app, int& exit_code);
+void add_cut(CLI::App& app, int& exit_code);
 void add_error(CLI::App& app, int& exit_code);
 void add_fem(CLI::App& app, int& exit_code);
 void add_haptic(CLI::App& app, int& exit_code);
