@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "common/scene/body_spec.h"
 #include "physics_node/body/solid_shape.h"
@@ -24,9 +25,30 @@ class Tissue {
     return intensity >= image_->keep_min && intensity <= image_->keep_max;
   }
 
+  /// Of all of a cell, where its neighbours tell: what lies between intensities that are all kept, or all too low or too high, is so too.
+  std::optional<bool> in_all_of(const Vec3i& cell) const {
+    if (image_ == nullptr || !body_.cavities.empty()) return std::nullopt;
+    bool kept = true, below = true, above = true;
+    for (int n = 0; n < 27; ++n) {
+      const Vec3i at = (cell + Vec3i(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1))
+                           .cwiseMax(0)
+                           .cwiseMin(cells_.size - Vec3i::Ones());
+      const auto intensity = static_cast<double>(cells_.intensity[cells_.index(at.x(), at.y(), at.z())]);
+      below = below && intensity < image_->keep_min - rounding(image_->keep_min);
+      above = above && intensity > image_->keep_max + rounding(image_->keep_max);
+      kept = kept && intensity >= image_->keep_min + rounding(image_->keep_min) &&
+             intensity <= image_->keep_max - rounding(image_->keep_max);
+    }
+    if (kept) return true;
+    return below || above ? std::optional(false) : std::nullopt;
+  }
+
   int looks() const { return image_ != nullptr ? 4 : 16; }  // along an edge
 
  private:
+  /// Why: a mean of equal numbers may lie a little beside them.
+  static double rounding(double of) { return 1e-9 * (1 + std::abs(of)); }
+
   const BodySpec& body_;
   const VolumeShape* image_;
   const Cells& cells_;
@@ -118,7 +140,9 @@ void fill_border_cells(const BodySpec& body, Cells& cells) {
       for (int i = 0; i < cells.size.x(); ++i) {
         const bool seen = cells.is_deformable(i, j, k);
         if (!seen && !may_hold(body, cells, {i, j, k})) continue;
-        const auto share = static_cast<float>(share_of(cells, tissue, cells.centre_of(i, j, k)));
+        const std::optional<bool> all = tissue.in_all_of({i, j, k});
+        const auto share = all ? (*all ? 1.0F : 0.0F)
+                               : static_cast<float>(share_of(cells, tissue, cells.centre_of(i, j, k)));
         if (seen || share >= least_share)
           cells.share[cells.index(i, j, k)] = std::max(share, least_share);
         else if (share > 0)
