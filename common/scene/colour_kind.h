@@ -9,9 +9,11 @@
 namespace palpate {
 
 /// own: what it looks like. displacement: how far it is from where it lies at rest. strain: how much it is out of
-/// shape. stress: von Mises'. Physics computes the last two (tissue_field.h), the eye the first.
-enum class ColourKind : std::uint8_t { own, displacement, strain, stress };
-inline constexpr std::array<std::string_view, 4> colour_names = {"own", "displacement", "strain", "stress"};
+/// shape. stress: von Mises'. pressure: how hard it is pressed together from all sides. Physics computes the last three (tissue_field.h),
+/// the eye the first.
+enum class ColourKind : std::uint8_t { own, displacement, strain, stress, pressure };
+inline constexpr std::array<std::string_view, 5> colour_names = {"own", "displacement", "strain", "stress",
+                                                                 "pressure"};
 
 constexpr std::string_view name_of(ColourKind kind) noexcept {
   return colour_names[static_cast<std::size_t>(kind)];
@@ -25,8 +27,6 @@ constexpr ColourKind next(ColourKind kind) noexcept {
   return static_cast<ColourKind>((static_cast<std::size_t>(kind) + 1) % colour_names.size());
 }
 /// Does it need numbers from physics?
-constexpr bool is_of_physics(ColourKind kind) noexcept {
-  return kind == ColourKind::strain || kind == ColourKind::stress;
-}
+constexpr bool is_of_physics(ColourKind kind) noexcept { return kind >= ColourKind::strain; }
 
 }  // namespace palpate

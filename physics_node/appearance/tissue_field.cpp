@@ -29,16 +29,21 @@ double equivalent_strain(const Tensor<double>& H) {
   return invariant(StVenantKirchhoff<One>::green_strain(H), 2.0 / 3);
 }
 
+/// Cauchy's; nothing: it is inside out.
 template <class Law>
-double von_mises(const Law& law, const Tensor<double>& H) {
+Tensor<double> true_stress(const Law& law, const Tensor<double>& H) {
   const double J = 1 + StableNeoHookean<One>::volume_change(H, cofactor<One>(H));
-  if (!(J > 0)) return 0;  // inside out
+  if (!(J > 0)) return {};
   const Tensor<double> P = law.stress(H), F = plus_identity<One>(H);
   Tensor<double> s{};
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j)
       for (std::size_t k = 0; k < 3; ++k) s[i][j] += P[i][k] * F[j][k] / J;
-  return invariant(s, 1.5);
+  return s;
+}
+
+double of_stress(ColourKind kind, const Tensor<double>& s) {
+  return kind == ColourKind::stress ? invariant(s, 1.5) : std::max(0.0, -trace(s) / 3);
 }
 
 bool is_plain_mesh(const Body& body) {
@@ -50,7 +55,7 @@ bool is_plain_mesh(const Body& body) {
 std::unique_ptr<TissueField> TissueField::of(const BodyModel& moving, ColourKind kind) {
   const Body& body = moving.body();
   if (!is_of_physics(kind) || !(body.cells || is_plain_mesh(body))) return nullptr;
-  if (kind == ColourKind::stress && (!is_of_finite_elements(body) || any_cells_yield(body))) return nullptr;
+  if (kind != ColourKind::strain && (!is_of_finite_elements(body) || any_cells_yield(body))) return nullptr;
   return std::unique_ptr<TissueField>(new TissueField(moving, kind));
 }
 
@@ -157,8 +162,8 @@ double TissueField::at(Index node) const noexcept {
   const double nu = body.solid ? body.solid->poisson_ratio : body.mesh->model.materials[0].poisson_ratio;
   const Lame lame = lame_of(here.modulus, nu);
   if (body.solid && body.solid->law == TissueLaw::green)
-    return von_mises(StVenantKirchhoff<One>{lame.mu, lame.lambda}, here.H);
-  return von_mises(StableNeoHookean<One>{lame.mu, lame.lambda}, here.H);
+    return of_stress(kind_, true_stress(StVenantKirchhoff<One>{lame.mu, lame.lambda}, here.H));
+  return of_stress(kind_, true_stress(StableNeoHookean<One>{lame.mu, lame.lambda}, here.H));
 }
 
 }  // namespace palpate::physics

@@ -75,6 +75,20 @@ TEST(TissueField, IsThatOfABar) {
   }
 }
 
+/// Pressed together from all sides by e: p = K (3 e), K = E / (3 (1 - 2 nu)); a bar pressed by e: E e / 3. None where it is pulled.
+TEST(TissueField, PressureIsThatOfPressedTissue) {
+  const double e = 1e-5, nu = 0.3, E = 1e4;
+  const Eigen::Matrix3d R = Eigen::AngleAxisd(0.7, Vec3(3, -1, 1).normalized()).toRotationMatrix();
+  Eigen::Matrix3d bar = Eigen::Matrix3d::Identity();
+  bar(0, 0) -= e, bar(1, 1) += nu * e, bar(2, 2) += nu * e;
+  for (const Recipe& recipe : of_both_kinds()) {
+    expect_everywhere(*led(recipe, (1 - e) * R), ColourKind::pressure, E * e / (1 - 2 * nu), 1e-3 * E * e);
+    expect_everywhere(*led(recipe, R * bar), ColourKind::pressure, E * e / 3, 1e-3 * E * e);
+    expect_everywhere(*led(recipe, R * bar.inverse()), ColourKind::pressure, 0, 0);
+    expect_everywhere(*led(recipe, R), ColourKind::pressure, 0, 1e-8);
+  }
+}
+
 /// Simple shear by g: E12 = g / 2, E22 = g^2 / 2; of neo-Hookean s12 = mu g, s11 - s22 = mu g^2.
 TEST(TissueField, IsThatOfShear) {
   const double g = 0.4, mu = 1e4 / 2.6;
@@ -136,6 +150,8 @@ TEST(TissueField, IsOfWhatHasIt) {
   clay.material += "\nyield_ratio = 1.1\nk2_ratio = 0.1";
   EXPECT_TRUE(has(clay, ColourKind::strain));
   EXPECT_FALSE(has(clay, ColourKind::stress));
+  EXPECT_FALSE(has(clay, ColourKind::pressure));
+  EXPECT_TRUE(has(cells(), ColourKind::pressure));
 }
 
 /// What the eye gets of a slab under a finger is the strain of the positions that it could measure itself.

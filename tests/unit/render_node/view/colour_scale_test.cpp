@@ -40,6 +40,9 @@ TEST(ColourScale, BeginsAnewWithAnotherKind) {
   scale.see(4321);
   EXPECT_EQ(scale.words(), "5 kPa");
   EXPECT_STREQ(scale.heading(), "stress (von Mises)");
+  scale.show(ColourKind::pressure);
+  EXPECT_EQ(scale.words(), "0.1 kPa");
+  EXPECT_STREQ(scale.heading(), "pressure");
 }
 
 TEST(ColourScale, HearsNothingOfWhatIsNotANumber) {
