@@ -136,7 +136,7 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
     collisions_ = std::make_unique<Collisions>(bodies_, fragments_, *scene.contact);
   if (collisions_)
     for (const std::size_t b : toolbox_.felt) collisions_->feel(b);
-  if (may_collide(bodies_)) inside_ = std::make_unique<InsideOthers>(bodies_);
+  if (bodies_.size() > 1 || any_breaks_) inside_ = std::make_unique<InsideOthers>(bodies_);
   if (!planes_.empty())
     for (auto& body : bodies_) body->prepare_for(Disturbance::impulses);
   choice_ = choose_threads(scene_, spare_cores, n_masses, n_pieces);

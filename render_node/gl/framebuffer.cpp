@@ -2,14 +2,14 @@
 
 #include <epoxy/gl.h>
 
-#include <algorithm>
+#include <memory>
 #include <stdexcept>
 
 namespace palpate::render {
 
 Framebuffer::Framebuffer(int width, int height, int samples) : width_(width), height_(height) {
   drawn_ = attach(samples);
-  resolved_ = attach(0);
+  if (samples > 0) resolved_ = attach(0);
 }
 
 Framebuffer::Attached Framebuffer::attach(int samples) const {
@@ -42,6 +42,7 @@ void Framebuffer::bind() const { glBindFramebuffer(GL_FRAMEBUFFER, drawn_.frame)
 
 Image Framebuffer::read() const {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, drawn_.frame);
+  if (resolved_.frame == 0) return read_pixels(width_, height_);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.frame);
   glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_.frame);
@@ -49,15 +50,17 @@ Image Framebuffer::read() const {
 }
 
 Image read_pixels(int width, int height) {
-  const auto row = static_cast<std::size_t>(width) * 3;
-  Image image{width, height, std::vector<std::uint8_t>(row * static_cast<std::size_t>(height))};
+  const auto w = static_cast<std::size_t>(width), h = static_cast<std::size_t>(height);
+  Image image{width, height, std::vector<std::uint8_t>(3 * w * h)};
+  // Why all four channels: as it lies there it is copied; Mesa makes three of them pixel by pixel.
+  const auto rgba = std::make_unique_for_overwrite<std::uint8_t[]>(4 * w * h);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, image.rgb.data());
-  for (std::size_t y = 0; y < static_cast<std::size_t>(height) / 2;
-       ++y) {  // OpenGL puts the bottom row first
-    const auto top = image.rgb.begin() + static_cast<std::ptrdiff_t>(y * row);
-    const auto bottom = image.rgb.end() - static_cast<std::ptrdiff_t>((y + 1) * row);
-    std::swap_ranges(top, top + static_cast<std::ptrdiff_t>(row), bottom);
+  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.get());
+  for (std::size_t y = 0; y < h; ++y) {  // OpenGL puts the bottom row first
+    const std::uint8_t* from = rgba.get() + 4 * w * (h - 1 - y);
+    std::uint8_t* to = image.rgb.data() + 3 * w * y;
+    for (std::size_t x = 0; x < w; ++x)
+      for (std::size_t c = 0; c < 3; ++c) to[3 * x + c] = from[4 * x + c];
   }
   return image;
 }

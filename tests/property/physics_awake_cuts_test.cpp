@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 
+#include "physics_node/fragments/fragments.h"
+#include "physics_node/report/physics_summary.h"
 #include "tests/support/image/scratch_folder.h"
 #include "tests/support/physics/blade_checks.h"
 #include "tests/support/physics/made_volume.h"
@@ -20,8 +23,10 @@ constexpr double aside = 0.5 * 0.060 + 0.006;  // x of the tip before it goes in
 
 class AwakeCuts : public testing::Test {
  protected:
-  void SetUp() override {
-    constexpr std::array<int, 3> n{34, 34, 22};
+  void SetUp() override { write({34, 34, 22}); }
+  /// An image of so many cells, of which all but two at the sides and one below and above are tissue.
+  void write(const std::array<int, 3>& n) const {
+    std::filesystem::remove(folder_ / "block.h5");
     write_volume(made_volume(n,
                              [&](int i, int j, int k) {
                                const bool in =
@@ -110,6 +115,18 @@ TEST_F(AwakeCuts, LoseNoMassAndKeepTheirBooksFromSideToSide) {
   EXPECT_NEAR(cut.book().cut_area(), area, 0.07 * area);
   EXPECT_LT(cut.world.ledger().balance_error(), 1e-3);
   EXPECT_EQ(cut.world.report().restored, 0);
+}
+
+/// A bar that is cut through is two pieces, and all that tells of them knows.
+TEST_F(AwakeCuts, MakeTwoPiecesOfABar) {
+  write({10, 34, 7});
+  LedBlade cut(block(awake), Vec3(0.012, plane, -0.008));
+  cut.along(Vec3(-0.016, plane, -0.008), 0.1);
+  EXPECT_EQ(cut.world.fragments(0)->count(), 2);
+  const auto summary = physics_summary(cut.world, nullptr, 1.0);
+  EXPECT_EQ(summary["bodies"]["body"]["fragments"].get<int>(), 2);
+  EXPECT_EQ(summary["guard"]["restored"].get<int>(), 0);
+  EXPECT_LT(cut.world.ledger().balance_error(), 1e-3);
 }
 
 TEST_F(AwakeCuts, AreTheSameOnAnyNumberOfThreadsAndAgainAfterAReset) {
