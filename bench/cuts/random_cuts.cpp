@@ -6,8 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "bench/problems/block_image.h"
 #include "bench/problems/dice.h"
-#include "common/record/volume.h"
 #include "common/scene/load_scene.h"
 #include "physics_node/mesh/tet_box.h"
 #include "physics_node/mesh/write_msh.h"
@@ -60,10 +60,16 @@ void add_stroke(Dice& dice, double length, double edge, RandomCuts& cuts) {
   ++cuts.strokes;
 }
 
+std::array<int, 3> cells_of_block(double edge) {
+  std::array<int, 3> cells;
+  for (std::size_t a = 0; a < 3; ++a)
+    cells[a] = static_cast<int>(std::lround(2 * half[static_cast<Eigen::Index>(a)] / edge));
+  return cells;
+}
+
 std::string written_mesh(double edge, std::uint64_t seed, const std::string& folder) {
   physics::TetBox box;
-  for (Eigen::Index a = 0; a < 3; ++a)
-    box.cells[static_cast<std::size_t>(a)] = static_cast<int>(std::lround(2 * half[a] / edge));
+  box.cells = cells_of_block(edge);
   box.edge = edge;
   box.jitter = 0.12;
   box.seed = seed;
@@ -73,23 +79,8 @@ std::string written_mesh(double edge, std::uint64_t seed, const std::string& fol
 }
 
 std::string written_image(double edge, const std::string& folder) {
-  constexpr int margin = 2;
-  Volume volume;
-  volume.source = "made";
-  for (std::size_t a = 0; a < 3; ++a)
-    volume.size[a] =
-        static_cast<int>(std::lround(2 * half[static_cast<Eigen::Index>(a)] / edge)) + 2 * margin;
-  volume.source_size = volume.size;
-  volume.spacing = {edge, edge, edge};
-  const auto in = [&](std::size_t a, int n) { return n >= margin && n < volume.size[a] - margin; };
-  for (int k = 0; k < volume.size[2]; ++k)
-    for (int j = 0; j < volume.size[1]; ++j)
-      for (int i = 0; i < volume.size[0]; ++i)
-        volume.intensity.push_back(in(0, i) && in(1, j) && in(2, k) ? 100.0F : -100.0F);
-  volume.transfer = grey_transfer(-100, 100);
   const std::string path = folder + "/block.h5";
-  std::filesystem::remove(path);
-  write_volume(volume, path);
+  write_block_image(cells_of_block(edge), edge, path);
   return path;
 }
 

@@ -4,9 +4,9 @@
 
 #include <filesystem>
 
+#include "bench/problems/block_image.h"
 #include "bench/problems/stopwatch.h"
 #include "common/message/vec3.h"
-#include "common/record/volume.h"
 #include "common/scene/load_scene.h"
 #include "common/scene/scene.h"
 #include "physics_node/contact/point_tool.h"
@@ -15,22 +15,9 @@
 namespace palpate::bench {
 namespace {
 
-/// Tissue is positive, with a margin of two cells of air.
 std::string made_image(const PressedBlock& block) {
-  constexpr int margin = 2;
-  Volume volume;
-  volume.source = "made";
-  for (std::size_t a = 0; a < 3; ++a) volume.size[a] = block.cells[a] + 2 * margin;
-  volume.source_size = volume.size;
-  volume.spacing = {block.edge, block.edge, block.edge};
-  const auto in = [&](std::size_t a, int n) { return n >= margin && n < volume.size[a] - margin; };
-  for (int k = 0; k < volume.size[2]; ++k)
-    for (int j = 0; j < volume.size[1]; ++j)
-      for (int i = 0; i < volume.size[0]; ++i)
-        volume.intensity.push_back(in(0, i) && in(1, j) && in(2, k) ? 100.0F : -100.0F);
-  volume.transfer = grey_transfer(-100, 100);
   const std::string path = block.folder + "/block.h5";
-  write_volume(volume, path);
+  write_block_image(block.cells, block.edge, path);
   return path;
 }
 

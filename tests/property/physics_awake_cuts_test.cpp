@@ -23,18 +23,7 @@ constexpr double aside = 0.5 * 0.060 + 0.006;  // x of the tip before it goes in
 
 class AwakeCuts : public testing::Test {
  protected:
-  void SetUp() override { write({34, 34, 22}); }
-  /// An image of so many cells, of which all but two at the sides and one below and above are tissue.
-  void write(const std::array<int, 3>& n) const {
-    std::filesystem::remove(folder_ / "block.h5");
-    write_volume(made_volume(n,
-                             [&](int i, int j, int k) {
-                               const bool in =
-                                   i >= 2 && i < n[0] - 2 && j >= 2 && j < n[1] - 2 && k >= 1 && k < n[2] - 1;
-                               return in ? 100.0F : -100.0F;
-                             }),
-                 folder_ / "block.h5");
-  }
+  void SetUp() override { write_volume(block_volume({34, 34, 22}), folder_ / "block.h5"); }
   Recipe block(const std::string& deformable, int threads = 1) const {
     Recipe recipe;
     recipe.lattice = "";
@@ -119,7 +108,8 @@ TEST_F(AwakeCuts, LoseNoMassAndKeepTheirBooksFromSideToSide) {
 
 /// A bar that is cut through is two pieces, and all that tells of them knows.
 TEST_F(AwakeCuts, MakeTwoPiecesOfABar) {
-  write({10, 34, 7});
+  std::filesystem::remove(folder_ / "block.h5");
+  write_volume(block_volume({10, 34, 7}), folder_ / "block.h5");
   LedBlade cut(block(awake), Vec3(0.012, plane, -0.008));
   cut.along(Vec3(-0.016, plane, -0.008), 0.1);
   EXPECT_EQ(cut.world.fragments(0)->count(), 2);

@@ -18,16 +18,7 @@ constexpr double top = 0.036;  // [m]
 class AwakeParts : public testing::Test {
  protected:
   /// A block of 100 x 100 x 72 mm in an image, in cells of 2 mm, held below.
-  void SetUp() override {
-    constexpr std::array<int, 3> n{54, 54, 38};
-    write_volume(made_volume(n,
-                             [&](int i, int j, int k) {
-                               const bool in =
-                                   i >= 2 && i < n[0] - 2 && j >= 2 && j < n[1] - 2 && k >= 1 && k < n[2] - 1;
-                               return in ? 100.0F : -100.0F;
-                             }),
-                 folder_ / "block.h5");
-  }
+  void SetUp() override { write_volume(block_volume({54, 54, 38}), folder_ / "block.h5"); }
 
   Recipe block(const std::string& deformable, const std::string& precision = "single") const {
     Recipe recipe;

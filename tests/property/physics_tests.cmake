@@ -11,7 +11,7 @@ palpate_test(NAME physics_elements_test KIND property APART SOURCES physics_elem
   LIBS palpate_physics_worlds palpate_bench_problems)
 # An image of which only a part is stepped.
 palpate_test(NAME physics_awake_parts_test KIND property SOURCES physics_awake_parts_test.cpp LIBS palpate_physics_worlds)
-palpate_test(NAME physics_awake_cuts_test KIND property SANITIZERS address SOURCES physics_awake_cuts_test.cpp LIBS palpate_physics_worlds)
+palpate_test(NAME physics_awake_cuts_test KIND property SOURCES physics_awake_cuts_test.cpp LIBS palpate_physics_worlds)
 # Few stiff cells that take steps of their own.
 palpate_test(NAME physics_fast_cells_test KIND property SOURCES physics_fast_cells_test.cpp LIBS palpate_physics_worlds)
 palpate_test(NAME physics_cracks_test KIND property SOURCES physics_cracks_test.cpp LIBS palpate_physics_worlds)

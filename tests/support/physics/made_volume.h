@@ -23,6 +23,14 @@ inline Volume made_volume(std::array<int, 3> size, const std::function<float(int
   return volume;
 }
 
+/// A block of tissue, of which air are two cells at each side and one below and above.
+inline Volume block_volume(const std::array<int, 3>& n) {
+  return made_volume(n, [&](int i, int j, int k) {
+    const bool in = i >= 2 && i < n[0] - 2 && j >= 2 && j < n[1] - 2 && k >= 1 && k < n[2] - 1;
+    return in ? 100.0F : -100.0F;
+  });
+}
+
 /// A body of that volume's voxels within [lo, hi].
 inline BodySpec volume_body(const std::string& file, double lo, double hi) {
   BodySpec spec;
