@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <optional>
 
 #include "bench/cuts/cut_run.h"
 #include "bench/machine/result_folder.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 
 #include "bench/problems/block_image.h"
 #include "bench/problems/dice.h"
@@ -25,12 +26,12 @@ Eigen::Quaterniond random_turn(Dice& dice) {
   if (dice.chance(0.4)) {
     Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
     for (int n = dice.pick(4); n > 0; --n)
-      turn = Eigen::AngleAxisd(0.5 * M_PI, Vec3::Unit(dice.pick(3))) * turn;
+      turn = Eigen::AngleAxisd(0.5 * std::numbers::pi, Vec3::Unit(dice.pick(3))) * turn;
     return turn.normalized();
   }
   Vec3 axis = dice.within(1);
   if (axis.norm() < 1e-3) axis = Vec3::UnitX();
-  return Eigen::Quaterniond(Eigen::AngleAxisd(dice.between(0, 2 * M_PI), axis.normalized()));
+  return Eigen::Quaterniond(Eigen::AngleAxisd(dice.between(0, 2 * std::numbers::pi), axis.normalized()));
 }
 
 /// Through a point of the block, with part of the edge in it; the edge runs from the tip along +z and goes ahead along -x.

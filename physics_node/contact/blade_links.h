@@ -75,8 +75,8 @@ class BladeLinks {
   /// @param body  of springs, or of tetrahedra that may be cut; outlives this  @param length  of the edge [m]
   BladeLinks(const BodyModel& body, double length);
 
-  /// Before the steps of a frame: what may come to cross the plane in it. Cost: a pass over the nodes around; over all of the body, or where it is
-  /// awake in parts over what lies about the edge, once the blade has gone a spacing, and every 20 ms.
+  /// Before the steps of a frame: what may come to cross the plane in it. Cost: a pass over the nodes around; over all of the body,
+  /// or where it is awake in parts over what lies about the edge, once the blade has gone a spacing, and every 20 ms.
   void gather(const BladeFrame& frame, const EdgePlace& edge, double t) noexcept;
   void begin_step() noexcept;
   /// After a step: where its nodes and crossings are now.

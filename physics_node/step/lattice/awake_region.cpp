@@ -42,7 +42,7 @@ void AwakeRegion<Real>::each_corner(const Body& body, Index r, const Visit& visi
   const HexRun& run = grid_.runs[static_cast<std::size_t>(r)];
   for (Index i = run.first; i < run.first + run.count; ++i) {
     if (body.solid->stiffness[static_cast<std::size_t>(i)] <= 0) continue;
-    each_corner_of(body, grid_, run, i, [&](std::size_t, Index node) { visit(node); });
+    for (const Index node : corners_now(body, grid_, run, i)) visit(node);
   }
 }
 
@@ -259,6 +259,7 @@ bool AwakeRegion<Real>::settle_split(const Body& body, LatticeState<Real>& state
 template <class Real>
 void AwakeRegion<Real>::follow_cut(const Body& body, LatticeState<Real>& state,
                                    std::span<const NodeSplit> splits) noexcept {
+  if (splits.empty()) return;
   const double before = of_rim(state);
   bool in_rim = false;
   for (const NodeSplit& split : splits)

@@ -63,16 +63,13 @@ struct HexGrid {
 
 HexGrid make_hex_grid(const Body& body);
 
-/// Calls visit(number of the corner, node) for those of a cell of a run, which are copies where a cut has parted it.
-template <class Visit>
-void each_corner_of(const Body& body, const HexGrid& grid, const HexRun& run, Index cell,
-                    const Visit& visit) {
-  if (const CellNet* net = body.cell_net(); net != nullptr && net->is_parted(cell)) {
-    const CellNet::Corners corners = net->corners(cell);
-    for (std::size_t a = 0; a < 8; ++a) visit(a, corners[a]);
-    return;
-  }
-  for (Index a = 0; a < 8; ++a) visit(static_cast<std::size_t>(a), grid.corner(run, cell, a));
+/// Nodes at the corners of a cell of a run: copies where a cut has parted it.
+inline std::array<Index, 8> corners_now(const Body& body, const HexGrid& grid, const HexRun& run,
+                                        Index cell) noexcept {
+  if (const CellNet* net = body.cell_net(); net != nullptr && net->is_parted(cell)) return net->corners(cell);
+  std::array<Index, 8> corners;
+  for (Index a = 0; a < 8; ++a) corners[static_cast<std::size_t>(a)] = grid.corner(run, cell, a);
+  return corners;
 }
 
 /// Storage cells of the corners of a cell, by its lowest: bit 0 of the number is +x, bit 1 +y, bit 2 +z.

@@ -51,13 +51,9 @@ void for_each_cell_of(const Body& body, const HexGrid& grid, const LatticeState<
     if (state.failed.damage.size() > 0)
       stiffness *= 1 - static_cast<double>(state.failed.damage[static_cast<std::size_t>(i)]);
     if (stiffness <= 0) continue;
-    if (const CellNet* net = body.cell_net(); net != nullptr && net->is_parted(i)) {
-      visit(stiffness, net->corners(i), grid.runs.size(), i);
-      continue;
-    }
-    std::array<Index, 8> corner;
-    for (Index a = 0; a < 8; ++a) corner[static_cast<std::size_t>(a)] = grid.corner(run, i, a);
-    visit(stiffness, corner, r, i);
+    const CellNet* net = body.cell_net();
+    const bool is_parted = net != nullptr && net->is_parted(i);
+    visit(stiffness, corners_now(body, grid, run, i), is_parted ? grid.runs.size() : r, i);
   }
 }
 

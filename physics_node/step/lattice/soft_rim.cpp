@@ -79,10 +79,9 @@ void SoftRim<Real>::find(const Body& body, const HexGrid& grid, std::span<const 
         if (stiffness[other] <= 0 || (marks[other] & cell_acts) != 0) continue;
         if (net != nullptr && net->is_open(i, face)) continue;
         const double quarter = ((face & 1) != 0 ? 0.25 : -0.25) * area[face / 2];
-        each_corner_of(body, grid, run, i, [&](std::size_t a, Index node) {
-          if (is_on(static_cast<unsigned>(a), face))
-            add(node, face / 2, quarter, static_cast<double>(stiffness[other]));
-        });
+        const std::array<Index, 8> corners = corners_now(body, grid, run, i);
+        for (unsigned a = 0; a < 8; ++a)
+          if (is_on(a, face)) add(corners[a], face / 2, quarter, static_cast<double>(stiffness[other]));
       }
     }
   }

@@ -15,8 +15,8 @@ namespace palpate::physics {
 inline constexpr std::uint8_t node_moves = 1;
 inline constexpr std::uint8_t cell_acts = 2;  // by its lowest corner
 
-/// Springs and dampers on the nodes of the faces where cells that act meet cells that rest, unless a cut has opened them. They answer as an unbounded body of the same
-/// tissue does that is pressed at one place (Kelvin): on the sphere of radius r about it, per area,
+/// Springs and dampers on the nodes of the faces where cells that act meet cells that rest, unless a cut has opened them. They answer as an
+/// unbounded body of the same tissue does that is pressed at one place (Kelvin): on the sphere of radius r about it, per area,
 ///
 ///   k_n = mu (2 - nu) / ((1 - nu) r),   k_t = 2 mu (1 - 2 nu) / ((3 - 4 nu) r)    along and across n = (x - p) / r
 ///   c_n = 2 rho c_s,   c_t = rho c_s
