@@ -40,11 +40,14 @@ class AwakeParts : public testing::Test {
 class Hand {
  public:
   void frame(World& world, double force, const Vec3& beside = Vec3::Zero()) {
+    frame(world, Vec3(0, 0, force), beside);
+  }
+  void frame(World& world, const Vec3& force, const Vec3& beside) {
     ToolState state;
     state.tick = ++tick_;
     const Vec3 at = Vec3(0.0004, 0.0007, top) + beside;
     state.p_WT = state.proxy = {at.x(), at.y(), at.z()};
-    state.force_on_hand = state.force_now = {0, 0, force};
+    state.force_on_hand = state.force_now = {force.x(), force.y(), force.z()};
     state.engaged = 1;
     const std::optional<ToolState> hand = state;
     world.frame(std::span(&hand, 1));
@@ -72,6 +75,30 @@ TEST_F(AwakeParts, AnswerAsTheWholeBodyDoes) {
   EXPECT_GT(all, 0.001);
   EXPECT_NEAR(depth(awake(12)), all, 0.03 * all);
   EXPECT_NEAR(depth(awake(20)), all, 0.03 * all);
+}
+
+/// What stands out of a body bends at its foot, which lies further out than the radius asked for.
+TEST_F(AwakeParts, AnswerAsTheWholeBodyDoesWhereTheyStandOut) {
+  // A wall of 8 mm along x, 20 mm high: its side is pressed near its upper end.
+  write_volume(made_volume({34, 34, 28},
+                           [](int i, int j, int k) {
+                             const bool base = i >= 2 && i < 32 && j >= 2 && j < 32 && k >= 1 && k < 17;
+                             const bool wall = i >= 9 && i < 25 && j >= 15 && j < 19 && k >= 17 && k < 27;
+                             return base || wall ? 100.0F : -100.0F;
+                           }),
+               folder_ / "block.h5");
+  const auto moved = [](Recipe recipe) {
+    // It would swing on.
+    recipe.material = "density_kg_per_m3 = 1000\nmodulus_kPa = 10\npoisson_ratio = 0.45\nviscosity_Pa_s = 30";
+    World world(scene_of(recipe));
+    Hand hand;
+    for (int n = 0; n < 250; ++n) hand.frame(world, Vec3(0, -0.02, 0), Vec3(0, -0.004, -0.014));
+    EXPECT_EQ(world.report().restored, 0);
+    return depth_of(world);
+  };
+  const double all = moved(block("\"all\""));
+  EXPECT_GT(all, 0.001);
+  EXPECT_NEAR(moved(awake(20)), all, 0.03 * all);
 }
 
 TEST_F(AwakeParts, StandUnderTheirOwnWeightAndDoNothing) {

@@ -5,6 +5,7 @@
 
 #include "physics_node/step/lattice/hex_meter.h"
 #include "physics_node/step/lattice/measure.h"
+#include "physics_node/step/lattice/near_runs.h"
 
 namespace palpate::physics {
 namespace {
@@ -67,40 +68,19 @@ void AwakeRegion<Real>::wake(const Body& body, LatticeState<Real>& state, std::s
   if (fresh) look(body, state, 0);
 }
 
-/// To the nearest point of its cells.
-template <class Real>
-bool AwakeRegion<Real>::is_near(const Body& body, std::size_t r, const Vec3& place,
-                                double within) const noexcept {
-  const HexRun& run = grid_.runs[r];
-  const Vec3 low = body.rest_position(run.first);
-  const Vec3 high = body.rest_position(run.first + run.count - 1) + body.lattice.step;
-  return (place.cwiseMax(low).cwiseMin(high) - place).squaredNorm() < within * within;
-}
-
 /// Fills next_. Looks only at rows about the places.
 template <class Real>
 void AwakeRegion<Real>::choose(const Body& body) noexcept {
-  const Lattice& lattice = body.lattice;
   next_.clear();
-  const double kept = radius_ + kept_cells * body.spacing();
   for (const PressedPlace& place : places_.now()) {
-    const Vec3 reach = Vec3::Constant(kept);
-    const auto [lo, hi] = grid_box(lattice, place.at - reach, place.at + reach);
-    for (int z = lo.z(); z <= hi.z(); ++z)
-      for (int y = lo.y(); y <= hi.y(); ++y) {
-        const Index begin = ((z + 1) * lattice.size.y() + y + 1) * lattice.pitch;
-        auto row = std::ranges::lower_bound(lattice.rows, begin, {}, &RowSegment::first);
-        for (; row != lattice.rows.end() && row->first < begin + lattice.pitch; ++row) {
-          const auto at = static_cast<std::size_t>(row - lattice.rows.begin());
-          for (Index r = grid_.runs_of_row[at]; r < grid_.runs_of_row[at + 1]; ++r) {
-            const auto n = static_cast<std::size_t>(r);
-            if ((run_is_[n] & shall_act) != 0) continue;
-            if (!is_near(body, n, place.at, (run_is_[n] & acted) != 0 ? kept : radius_)) continue;
-            run_is_[n] |= shall_act;
-            next_.push_back(r);
-          }
-        }
-      }
+    const double reach = reach_of(body, grid_, place.at, radius_);
+    const double kept = reach + kept_cells * body.spacing();
+    each_run_about(body.lattice, grid_, place.at, kept, [&](std::size_t r) {
+      if ((run_is_[r] & shall_act) != 0) return;
+      if (!comes_within(body, grid_.runs[r], place.at, (run_is_[r] & acted) != 0 ? kept : reach)) return;
+      run_is_[r] |= shall_act;
+      next_.push_back(static_cast<Index>(r));
+    });
   }
   std::ranges::sort(next_);
 }

@@ -15,8 +15,8 @@
 
 namespace palpate::physics {
 
-/// Segments of rows (lattice.h) act that come within SolidElements::awake_radius of a place that is pressed; once they do, until they are
-/// three cells further away. Behind them a soft rim follows the places. What falls asleep is put back to where it rests, and what wakes begins
+/// Segments of rows (lattice.h) act that come within SolidElements::awake_radius of a place that is pressed, or further out where there is
+/// little tissue (near_runs.h); once they do, until they are three cells further away. Behind them a soft rim follows the places. What falls asleep is put back to where it rests, and what wakes begins
 /// where the rim beside it is, the less the further out: u = u_rim r_rim / r. Both are booked as `numerical`. Gravity does not act: the shape
 /// is that under gravity, and its weight is balanced everywhere.
 /// Cost: of what is awake. At load and after a reset all sleeps.
@@ -51,7 +51,6 @@ class AwakeRegion {
 
  private:
   void choose(const Body& body) noexcept;
-  bool is_near(const Body& body, std::size_t run, const Vec3& place, double within) const noexcept;
   double settle_nodes(const Body& body, LatticeState<Real>& state) noexcept;
   void begin_near_rim(const Body& body, LatticeState<Real>& state, Index node) noexcept;
   void clear_copies(const Body& body, LatticeState<Real>& state) noexcept;
