@@ -41,7 +41,7 @@ void BladeCells::number_elements(const Net& net, std::span<const Index> elements
   rest_.assign(capacity(), Vec3::Zero());
   for (const Index cell : numbers_)
     rest_[static_cast<std::size_t>(cell)] =
-        mean(cell, [this](Index node) { return body_->body().rest_position(node); });
+        mean(nodes(cell), [this](Index node) { return body_->body().rest_position(node); });
 }
 
 BladeCells::BladeCells(const BodyModel& body)
@@ -105,12 +105,6 @@ BladeCells::Nodes BladeCells::nodes(Index cell) const noexcept {
 
 Vec3 BladeCells::rest(Index cell) const noexcept {
   return have_volumes() ? rest_[static_cast<std::size_t>(cell)] : body_->body().rest_position(cell);
-}
-Vec3 BladeCells::position(Index cell) const noexcept {
-  return rest(cell) + mean(cell, [this](Index node) { return body_->displacement(node); });
-}
-Vec3 BladeCells::velocity(Index cell) const noexcept {
-  return mean(cell, [this](Index node) { return body_->velocity(node); });
 }
 
 }  // namespace palpate::physics

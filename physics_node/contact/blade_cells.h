@@ -60,10 +60,21 @@ class BladeCells {
     std::size_t n = 1;
     std::span<const Index> list() const noexcept { return {of.data(), n}; }
   };
+  /// As long as splits() is the same.
   Nodes nodes(Index cell) const noexcept;
-  Vec3 rest(Index cell) const noexcept;      // [m]
-  Vec3 position(Index cell) const noexcept;  // [m]
-  Vec3 velocity(Index cell) const noexcept;  // [m/s]
+  /// How many nodes have split in two.
+  Index splits() const noexcept {
+    return tets_ != nullptr ? tets_->n_copies() : hexes_ != nullptr ? hexes_->n_copies() : 0;
+  }
+  Vec3 rest(Index cell) const noexcept;                                                   // [m]
+  Vec3 position(Index cell) const noexcept { return place_of(rest(cell), nodes(cell)); }  // [m]
+  /// Of a cell that lies there at rest and has these nodes. [m], [m/s]
+  Vec3 place_of(const Vec3& rest, const Nodes& of) const noexcept {
+    return rest + mean(of, [this](Index node) { return body_->displacement(node); });
+  }
+  Vec3 velocity_of(const Nodes& of) const noexcept {
+    return mean(of, [this](Index node) { return body_->velocity(node); });
+  }
   Vec3 corner(Index node) const noexcept { return body_->position(node); }
   /// Calls visit(other) for each that it hangs together with.
   template <class Visit>
@@ -150,8 +161,7 @@ class BladeCells {
         visit(first_skin_ + skin);
   }
   template <class Of>
-  Vec3 mean(Index cell, const Of& of) const noexcept {
-    const Nodes at = nodes(cell);
+  static Vec3 mean(const Nodes& at, const Of& of) noexcept {
     Vec3 sum = Vec3::Zero();
     for (const Index node : at.list()) sum += of(node);
     return sum / static_cast<double>(at.n);

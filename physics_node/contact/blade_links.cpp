@@ -74,18 +74,20 @@ void BladeLinks::gather(const BladeFrame& frame, const EdgePlace& edge, double t
     look_around(frame, edge);
     tip_ = tip, end_ = end, when_ = t;
   }
+  splits_ = cells_.splits();
   const double first = edge.last - gather_around * h_, last = edge.lag + gather_around * h_;
   for (const Node& node : nodes_) number_[static_cast<std::size_t>(node.cell)] = -1;
   nodes_.clear();
   links_.clear();
   for (const Index cell : around_) {
-    const Vec3 x = cells_.position(cell), at = frame.coordinates(x);
+    const BladeCells::Nodes of = cells_.nodes(cell);
+    const Vec3 rest = cells_.rest(cell), x = cells_.place_of(rest, of), at = frame.coordinates(x);
     if (at.x() < -across_reach * h_ || at.x() > length_ + across_reach * h_) continue;
     if (at.y() < first || at.y() > last || std::abs(at.z() - s) > across_reach * h_) continue;
     if (nodes_.size() == most_nodes) break;
     number_[static_cast<std::size_t>(cell)] = static_cast<std::int32_t>(nodes_.size());
     nodes_.push_back(
-        {.cell = cell, .toughness = cells_.toughness(cell), .rest = cells_.rest(cell), .x = x, .at = at});
+        {.cell = cell, .of = of, .toughness = cells_.toughness(cell), .rest = rest, .x = x, .at = at});
     settle_side(nodes_.back(), edge);
   }
   const double margin = across_margin * h_;
@@ -127,16 +129,24 @@ void BladeLinks::remember() noexcept {
   for (Link& link : links_) link.before = link.now;
 }
 
+void BladeLinks::follow_splits() noexcept {
+  if (cells_.splits() == splits_) return;
+  splits_ = cells_.splits();
+  for (Node& node : nodes_) node.of = cells_.nodes(node.cell);
+}
+
 void BladeLinks::begin_step() noexcept {
+  follow_splits();
   for (Node& node : nodes_) {
-    node.x = cells_.position(node.cell);
-    node.v_before = cells_.velocity(node.cell);
+    node.x = cells_.place_of(node.rest, node.of);
+    node.v_before = cells_.velocity_of(node.of);
   }
 }
 
 void BladeLinks::update(const BladeFrame& frame, const EdgePlace& edge) noexcept {
+  follow_splits();
   for (Node& node : nodes_) {
-    const Vec3 x = cells_.position(node.cell);
+    const Vec3 x = cells_.place_of(node.rest, node.of);
     node.way = x - node.x;
     node.x = x;
     node.at = frame.coordinates(x);
@@ -227,17 +237,19 @@ double BladeLinks::skin_along(const Link& link, double end) const noexcept {
 }
 
 void BladeLinks::give_way_to_pulls() noexcept {
+  follow_splits();
   for (const Node& node : nodes_)
-    if (node.pull > 0) response_.add(cells_.nodes(node.cell), node.pull * Vec3::UnitX());
-  for (Node& node : nodes_) node.gives = response_.of(cells_.nodes(node.cell), cells_.inverse_mass()).x();
-  for (const Node& node : nodes_) response_.clear(cells_.nodes(node.cell));
+    if (node.pull > 0) response_.add(node.of, node.pull * Vec3::UnitX());
+  for (Node& node : nodes_) node.gives = response_.of(node.of, cells_.inverse_mass()).x();
+  for (const Node& node : nodes_) response_.clear(node.of);
 }
 
 void BladeLinks::give_way_to_forces() noexcept {
+  follow_splits();
   for (const Node& node : nodes_)
-    if (!node.force.isZero(0)) response_.add(cells_.nodes(node.cell), node.force);
-  for (Node& node : nodes_) node.gives_way = response_.of(cells_.nodes(node.cell), cells_.inverse_mass());
-  for (const Node& node : nodes_) response_.clear(cells_.nodes(node.cell));
+    if (!node.force.isZero(0)) response_.add(node.of, node.force);
+  for (Node& node : nodes_) node.gives_way = response_.of(node.of, cells_.inverse_mass());
+  for (const Node& node : nodes_) response_.clear(node.of);
 }
 
 bool BladeLinks::sever(Link& link) noexcept {

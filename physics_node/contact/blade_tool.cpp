@@ -166,8 +166,8 @@ double BladeTool::press(double dt) noexcept {
   done_ = blade_.step(links, strands_, frame_, dt, cuts_);
   for (const BladeLinks::Node& node : links.nodes()) {
     if (node.force.isZero(0)) continue;
-    const BladeCells::Nodes of = links.cells().nodes(node.cell);
-    for (const Index at : of.list()) forces_.push_back({at, node.force / static_cast<double>(of.n)});
+    for (const Index at : node.of.list())
+      forces_.push_back({at, node.force / static_cast<double>(node.of.n)});
   }
   book().cut(done_.area, done_.work + done_.released);
   return done_.power;
