@@ -51,8 +51,9 @@ void read_render(TableReader& root, ReadContext& context) {
   render.threshold = reader.read_number("threshold");
   render.inside = reader.read_number("inside");
   set_if(render.opacity, reader.read_number("opacity", {.lo = 0.05, .hi = 1}));
-  if (const auto shown = reader.read_words("show", {"tool", "force", "panels", "wire", "fragments",
-                                                    "displacement", "strain", "stress", "pressure"})) {
+  if (const auto shown =
+          reader.read_words("show", {"tool", "force", "panels", "wire", "fragments", "displacement", "strain",
+                                     "stress", "pressure", "awake"})) {
     render.show_tool = (*shown)[0];
     render.show_force = (*shown)[1];
     render.show_panels = (*shown)[2];
@@ -62,10 +63,10 @@ void read_render(TableReader& root, ReadContext& context) {
     for (std::size_t n = 1; n < colour_names.size(); ++n)
       if ((*shown)[4 + n]) render.colour = static_cast<ColourKind>(n), ++kinds;
     if (kinds > 1)
-      reader.complain(
-          "show",
-          "\"displacement\", \"strain\", \"stress\" and \"pressure\" in \"show\" are colours of the "
-          "same tissue; name one of them");
+      reader.complain("show",
+                      "\"displacement\", \"strain\", \"stress\", \"pressure\" and \"awake\" in \"show\" are "
+                      "colours of the "
+                      "same tissue; name one of them");
   }
   set_if(render.rate_Hz, reader.read_number("rate_Hz", {.lo = 0, .hi = 1000, .without_lo = true}));
   if (const auto most = reader.read_integer("most_frames", 2, 1'000'000))

@@ -54,12 +54,14 @@ bool is_plain_mesh(const Body& body) {
 
 std::unique_ptr<TissueField> TissueField::of(const BodyModel& moving, ColourKind kind) {
   const Body& body = moving.body();
+  if (kind == ColourKind::awake) return std::unique_ptr<TissueField>(new TissueField(moving, kind));
   if (!is_of_physics(kind) || !(body.cells || is_plain_mesh(body))) return nullptr;
   if (kind != ColourKind::strain && (!is_of_finite_elements(body) || any_cells_yield(body))) return nullptr;
   return std::unique_ptr<TissueField>(new TissueField(moving, kind));
 }
 
 TissueField::TissueField(const BodyModel& moving, ColourKind kind) : moving_(moving), kind_(kind) {
+  if (kind == ColourKind::awake) return;
   const Body& body = moving.body();
   if (body.cells) {
     cells_.emplace(body, moving.adjacency().of_all());
@@ -155,6 +157,7 @@ TissueField::Around TissueField::around_tets(Index node) const noexcept {
 }
 
 double TissueField::at(Index node) const noexcept {
+  if (kind_ == ColourKind::awake) return moving_.sleeps(node) ? 0 : 1;
   const Body& body = moving_.body();
   const Around here = cells_ ? around_cells(node) : around_tets(node);
   if (!here.any) return 0;

@@ -1,5 +1,5 @@
 #pragma once
-// How much tissue strains, or the stress or pressure in it, at its nodes: what colours show.
+// How much tissue strains, the stress or pressure in it, or whether it is stepped, at its nodes: what colours show.
 //
 //   E   = (H + H^T + H^T H) / 2                  Green's strain of the gradient H of the displacement
 //   strain = sqrt(2/3 E':E'),  E' = E - tr E / 3  equivalent strain; of a bar of constant volume its engineering strain, when small
@@ -7,7 +7,8 @@
 //   pressure = max(0, -tr s / 3)                  how hard it is pressed together; where it is pulled apart none
 //
 // H is the mean of the cells, or by volume of the tetrahedra of first order, around a node that live; of a cell in
-// its middle. Strain is of whatever has cells or tetrahedra; stress and pressure of finite elements that do not yield.
+// its middle. Strain is of whatever has cells or tetrahedra; stress and pressure of finite elements that do not yield. Any
+// body is awake, where it does not sleep.
 
 #include <memory>
 #include <optional>
@@ -25,7 +26,7 @@ class TissueField {
   /// Nothing where the body has no such field. @param moving  outlives it
   static std::unique_ptr<TissueField> of(const BodyModel& moving, ColourKind kind);
 
-  /// At a node; 0 where nothing lives around it, or where it is inside out. Strain or [Pa]. Cost: eight cells.
+  /// At a node; 0 where nothing lives around it, or where it is inside out. Strain, [Pa], or 1: it is awake. Cost: eight cells.
   double at(Index node) const noexcept;
 
  private:

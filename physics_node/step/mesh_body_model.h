@@ -67,6 +67,7 @@ class MeshBodyModel final : public BodyModel {
   void sleep_and_wake(double) noexcept override {}
   void wake_all() noexcept override {}
   double sleeping_fraction() const noexcept override { return 0; }
+  bool sleeps(Index) const noexcept override { return false; }
   bool is_finite() const noexcept override { return elements_.is_finite(); }
 
   void save(bool good) noexcept override { elements_.save(saved_.next(good)); }

@@ -34,6 +34,9 @@ class NodeMotion {
   /// Of a body that is awake in parts; else null, and any node may move.
   const AwakeParts* parts() const noexcept { return parts_; }
 
+  /// Is it not stepped, since all about it is at rest or far from where it is pressed?
+  virtual bool sleeps(Index node) const noexcept = 0;
+
   /// Some masses at the beginning of the step just integrated: place x, velocity v, and the velocity v_move at which it moved
   /// them. With the explicit integrators v is the mean of v_move before and after the elements acted, so that an impulse that
   /// keeps the energy of v keeps the energy that the integrator keeps.

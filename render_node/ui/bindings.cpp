@@ -44,7 +44,8 @@ constexpr Binding table[] = {
     {Part::view, "W", "edges as wires, or surfaces", {{{GLFW_KEY_W, A::wires}}}},
     {Part::view,
      "C",
-     "colours: how far tissue is from rest, its strain, its stress, the pressure in it, or its own",
+     "colours: how far tissue is from rest, its strain, its stress, the pressure in it, where it is awake, "
+     "or its own",
      {{{GLFW_KEY_C, A::ways}}}},
     {Part::view, "X", "cut open across x, y, z, or whole again", {{{GLFW_KEY_X, A::section}}}},
     {Part::view,

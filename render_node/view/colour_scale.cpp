@@ -26,6 +26,7 @@ void ColourScale::show(ColourKind kind) noexcept {
 }
 
 std::string ColourScale::words() const {
+  if (kind_ == ColourKind::awake) return "awake";
   if (kind_ == ColourKind::strain) return fmt::format("{:g} %", 100 * most_);
   if (is_of_physics(kind_)) return fmt::format("{:g} kPa", 1e-3 * most_);
   return fmt::format("{:g} mm", mm_from_m(most_));
@@ -35,6 +36,7 @@ const char* ColourScale::heading() const {
   return kind_ == ColourKind::strain     ? "strain"
          : kind_ == ColourKind::stress   ? "stress (von Mises)"
          : kind_ == ColourKind::pressure ? "pressure"
+         : kind_ == ColourKind::awake    ? "what is stepped"
                                          : "from rest";
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// What the colours of tissue say that show how far it is from where it lies at rest, how it strains or what stress or
-// pressure is in it: from its own colour at 0 through yellow, orange and red to violet at `most`, a round number that only grows,
+// What the colours of tissue say that show how far it is from where it lies at rest, how it strains, what stress or
+// pressure is in it or whether it is awake: from its own colour at 0 through yellow, orange and red to violet at `most`, a round number that only grows,
 // so that a colour keeps its meaning while one looks.
 
 #include <array>
@@ -21,14 +21,14 @@ class ColourScale {
   double most() const noexcept {
     return most_;
   }                             // 1, 2 or 5 times a power of ten; at least the least of the kind
-  std::string words() const;    // "20 mm", "10 %", "5 kPa"
+  std::string words() const;    // "20 mm", "10 %", "5 kPa", "awake"
   const char* heading() const;  // "from rest"
 
   /// Of equal steps from 0 to most, as shown; the first stands for the tissue's own.
   static constexpr std::array<std::array<std::uint8_t, 3>, 5> colours = {
       {{{214, 208, 200}}, {{255, 219, 77}}, {{245, 128, 31}}, {{199, 31, 41}}, {{102, 15, 117}}}};
   /// Why: less is not a dent that one sees, nor a strain that one feels. [m], strain, [Pa]
-  static constexpr std::array<double, colour_names.size()> least = {1, 1e-3, 0.01, 100, 100};
+  static constexpr std::array<double, colour_names.size()> least = {1, 1e-3, 0.01, 100, 100, 1};
 
  private:
   ColourKind kind_ = ColourKind::displacement;

@@ -129,6 +129,7 @@ class LatticeBody final : public BodyModel, private PendingStep {
     return static_cast<double>(asleep) / static_cast<double>(n);
   }
 
+  bool sleeps(Index node) const noexcept override { return is_asleep(body_, state_, parts(), node); }
   bool is_finite() const noexcept override {
     // NaN and infinity survive multiplication by zero, so one sum tells of all.
     Real sum = 0;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "physics_node/step/awake_parts.h"
 #include "physics_node/step/lattice/state.h"
 
 namespace palpate::physics {
@@ -47,5 +48,14 @@ class Sleep {
   std::vector<RowState> before_;              // by row, scratch
   Index sleeping_masses_ = 0;
 };
+
+/// Is the row of a node asleep, or the node where a body is not awake? @param parts  null: of a body that is not awake in parts
+template <class Real>
+bool is_asleep(const Body& body, const LatticeState<Real>& state, const AwakeParts* parts,
+               Index node) noexcept {
+  if (parts != nullptr) return parts->rests(node);
+  return state.row_state[static_cast<std::size_t>(body.lattice.row_of(body.origin(node)))] ==
+         RowState::asleep;
+}
 
 }  // namespace palpate::physics

@@ -219,7 +219,7 @@ INSTANTIATE_TEST_SUITE_P(
         {"threshold = 226", "threshold = \"bone\"", "102:13", "write a finite number"},
         {"\"wire\"", "\"wires\"", "103:18",
          "write \"tool\", \"force\", \"panels\", \"wire\", \"fragments\", "
-         "\"displacement\", \"strain\", \"stress\" or \"pressure\""},
+         "\"displacement\", \"strain\", \"stress\", \"pressure\" or \"awake\""},
         {"most_frames = 50", "most_frames = 1", "105:15", "write a whole number from 2 to 1000000"},
         {"most_frames_MB = 20", "most_frames_MB = nan", "106:18", "write a number from 1 to 1000000"},
         {"inside = 300", "inside = inf", "107:10", "write a finite number"},

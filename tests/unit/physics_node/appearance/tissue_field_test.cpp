@@ -146,12 +146,36 @@ TEST(TissueField, IsOfWhatHasIt) {
   EXPECT_TRUE(has(springs, ColourKind::strain));
   EXPECT_FALSE(has(springs, ColourKind::stress));
   EXPECT_FALSE(has(Recipe{}, ColourKind::strain));  // fcc
+  EXPECT_TRUE(has(Recipe{}, ColourKind::awake));
   Recipe clay = cells();
   clay.material += "\nyield_ratio = 1.1\nk2_ratio = 0.1";
   EXPECT_TRUE(has(clay, ColourKind::strain));
   EXPECT_FALSE(has(clay, ColourKind::stress));
   EXPECT_FALSE(has(clay, ColourKind::pressure));
   EXPECT_TRUE(has(cells(), ColourKind::pressure));
+}
+
+/// As many of its masses as do not sleep, and those under the finger.
+TEST(TissueField, TellsWhatIsAwake) {
+  World world(scene_of(pressed_slab_recipe()));
+  const BodyModel& moving = world.body(0);
+  const auto field = TissueField::of(moving, ColourKind::awake);
+  const auto awake = [&] {
+    double sum = 0;
+    for (const Index node : moving.body().nodes()) sum += field->at(node);
+    return sum / static_cast<double>(moving.body().n_nodes());
+  };
+  for (int n = 0; n < 600; ++n) world.frame({});
+  EXPECT_EQ(moving.sleeping_fraction(), 1);
+  EXPECT_EQ(awake(), 0);
+  run(world, steady_hand({0, 0, 0.3}), 20);
+  EXPECT_LT(moving.sleeping_fraction(), 1);
+  EXPECT_NEAR(awake(), 1 - moving.sleeping_fraction(), 1e-12);
+  const Body& body = moving.body();
+  const auto highest = std::ranges::max_element(body.nodes(), {}, [&](Index n) {
+    return body.rest_position(n).z() - body.rest_position(n).head<2>().norm();
+  });
+  EXPECT_EQ(field->at(*highest), 1);
 }
 
 /// What the eye gets of a slab under a finger is the strain of the positions that it could measure itself.

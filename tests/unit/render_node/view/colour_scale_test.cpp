@@ -43,6 +43,10 @@ TEST(ColourScale, BeginsAnewWithAnotherKind) {
   scale.show(ColourKind::pressure);
   EXPECT_EQ(scale.words(), "0.1 kPa");
   EXPECT_STREQ(scale.heading(), "pressure");
+  scale.show(ColourKind::awake);
+  scale.see(1);
+  EXPECT_EQ(scale.words(), "awake");
+  EXPECT_EQ(scale.most(), 1);
 }
 
 TEST(ColourScale, HearsNothingOfWhatIsNotANumber) {
