@@ -71,7 +71,7 @@ void lay_out_legend(const ColourScale& colours, float scale) {
   }
   const std::string most = colours.words();
   const float line = ImGui::GetTextLineHeight();
-  list.AddText({low.x, low.y - line - 2 * scale}, ink, "0");
+  list.AddText({low.x, low.y - line - 2 * scale}, ink, colours.least_words());
   list.AddText({low.x + width - ImGui::CalcTextSize(most.c_str()).x, low.y - line - 2 * scale}, ink,
                most.c_str());
   list.AddText({low.x, low.y - 2 * line - 2 * scale}, ink, colours.heading());

@@ -20,8 +20,9 @@ class ColourScale {
   void see(double value) noexcept;
   double most() const noexcept {
     return most_;
-  }                             // 1, 2 or 5 times a power of ten; at least the least of the kind
-  std::string words() const;    // "20 mm", "10 %", "5 kPa", "awake"
+  }                           // 1, 2 or 5 times a power of ten; at least the least of the kind
+  std::string words() const;  // "20 mm", "10 %", "5 kPa", "awake"
+  const char* least_words() const noexcept { return kind_ == ColourKind::awake ? "asleep" : "0"; }
   const char* heading() const;  // "from rest"
 
   /// Of equal steps from 0 to most, as shown; the first stands for the tissue's own.

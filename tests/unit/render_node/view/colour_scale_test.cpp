@@ -46,6 +46,7 @@ TEST(ColourScale, BeginsAnewWithAnotherKind) {
   scale.show(ColourKind::awake);
   scale.see(1);
   EXPECT_EQ(scale.words(), "awake");
+  EXPECT_STREQ(scale.least_words(), "asleep");
   EXPECT_EQ(scale.most(), 1);
 }
 
