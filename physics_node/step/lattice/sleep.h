@@ -54,8 +54,7 @@ template <class Real>
 bool is_asleep(const Body& body, const LatticeState<Real>& state, const AwakeParts* parts,
                Index node) noexcept {
   if (parts != nullptr) return parts->rests(node);
-  return state.row_state[static_cast<std::size_t>(body.lattice.row_of(body.origin(node)))] ==
-         RowState::asleep;
+  return state.row_state[static_cast<std::size_t>(body.lattice.row_of(body.origin(node)))] != RowState::awake;
 }
 
 }  // namespace palpate::physics
