@@ -85,7 +85,8 @@ void AwakeRegion<Real>::choose(const Body& body) noexcept {
   std::ranges::sort(next_);
 }
 
-/// A node that wakes begins where the nearest node towards its place is that moved already, the less the further out.
+/// A node that wakes begins where the nearest node towards its place is that moved already, the less the further out; at rest where air lies
+/// between them, as beside a wall that is bent.
 template <class Real>
 void AwakeRegion<Real>::begin_near_rim(const Body& body, LatticeState<Real>& state, Index node) noexcept {
   const Vec3 x = body.rest_position(node);
@@ -101,7 +102,8 @@ void AwakeRegion<Real>::begin_near_rim(const Body& body, LatticeState<Real>& sta
     const Vec3i grid =
         (at - body.lattice.origin).cwiseQuotient(body.lattice.step).array().round().cast<int>();
     const Index inner = body.lattice.mass_at(grid);
-    if (inner < 0 || !moves(inner)) continue;
+    if (inner < 0) break;
+    if (!moves(inner)) continue;
     u = vector_of(state.u, inner) * (body.rest_position(inner) - nearest->at).norm() / way.norm();
     break;
   }
