@@ -151,7 +151,7 @@ struct VertexBlock {
   std::array<Array3f, max_block_vertices> position{};  // [m]
   std::array<std::uint8_t, max_block_vertices> flags{};
   float field_most =
-      0;  // of what colours show, where physics computes it (ColourKind): strain, stress or pressure [Pa], 1 where it is awake; 0: nothing
+      0;  // of what colours show, where physics computes it (ColourKind): strain, [Pa], or 1; 0: nothing
   std::array<std::uint8_t, max_block_vertices> field{};  // 255ths of that
 
   template <class Visit>

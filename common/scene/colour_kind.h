@@ -9,8 +9,8 @@
 namespace palpate {
 
 /// own: what it looks like. displacement: how far it is from where it lies at rest. strain: how much it is out of
-/// shape. stress: von Mises'. pressure: how hard it is pressed together from all sides. awake: 1 where it is stepped, 0 where it sleeps.
-/// Physics computes the last four (tissue_field.h), the eye the others.
+/// shape. stress: von Mises'. pressure: how hard it is pressed together from all sides. awake: 1 where it is
+/// stepped, 0 where it sleeps. Physics computes the last four (tissue_field.h), the eye the others.
 enum class ColourKind : std::uint8_t { own, displacement, strain, stress, pressure, awake };
 inline constexpr std::array<std::string_view, 6> colour_names = {"own",    "displacement", "strain",
                                                                  "stress", "pressure",     "awake"};

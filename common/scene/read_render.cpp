@@ -65,8 +65,7 @@ void read_render(TableReader& root, ReadContext& context) {
     if (kinds > 1)
       reader.complain("show",
                       "\"displacement\", \"strain\", \"stress\", \"pressure\" and \"awake\" in \"show\" are "
-                      "colours of the "
-                      "same tissue; name one of them");
+                      "colours of the same tissue; name one of them");
   }
   set_if(render.rate_Hz, reader.read_number("rate_Hz", {.lo = 0, .hi = 1000, .without_lo = true}));
   if (const auto most = reader.read_integer("most_frames", 2, 1'000'000))

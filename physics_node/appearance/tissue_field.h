@@ -7,8 +7,8 @@
 //   pressure = max(0, -tr s / 3)                  how hard it is pressed together; where it is pulled apart none
 //
 // H is the mean of the cells, or by volume of the tetrahedra of first order, around a node that live; of a cell in
-// its middle. Strain is of whatever has cells or tetrahedra; stress and pressure of finite elements that do not yield. Any
-// body is awake, where it does not sleep.
+// its middle. Strain is of whatever has cells or tetrahedra; stress and pressure of finite elements that do not yield;
+// any body is awake or not.
 
 #include <memory>
 #include <optional>
@@ -26,7 +26,8 @@ class TissueField {
   /// Nothing where the body has no such field. @param moving  outlives it
   static std::unique_ptr<TissueField> of(const BodyModel& moving, ColourKind kind);
 
-  /// At a node; 0 where nothing lives around it, or where it is inside out. Strain, [Pa], or 1: it is awake. Cost: eight cells.
+  /// At a node; 0 where nothing lives around it, or where it is inside out. Strain, [Pa], or 1: it is awake.
+  /// Cost: eight cells.
   double at(Index node) const noexcept;
 
  private:

@@ -44,7 +44,7 @@ class BladeLinks {
 
   struct Node {
     Index cell = 0;
-    BladeCells::Nodes of{};         // it
+    BladeCells::Nodes of{};         // of the body, that it has
     double toughness = 0;           // of its material [J/m^2]
     Vec3 rest = Vec3::Zero();       // [m]
     Vec3 x = Vec3::Zero();          // now [m]
@@ -108,7 +108,7 @@ class BladeLinks {
 
  private:
   void look_around(const BladeFrame& frame, const EdgePlace& edge) noexcept;
-  /// What nodes its cells have, if that is not as it was.
+  /// Asks anew what nodes of the body its cells have, where one has split.
   void follow_splits() noexcept;
   /// What a plane at r = s has of a cell along the edge; none: high < low.
   struct Section {
@@ -130,7 +130,7 @@ class BladeLinks {
   std::vector<std::int8_t> side_;     // of what is around, by cell; 0: not settled
   std::vector<Node> nodes_;
   std::vector<Link> links_;
-  Index splits_ = 0;                              // of the body, for which nodes_ know theirs
+  Index splits_ = 0;                              // of the body, when nodes_ asked for theirs
   Vec3 tip_ = Vec3::Zero(), end_ = Vec3::Zero();  // where it looked around last [m]
   double when_ = -1e9;                            // [s]
 };

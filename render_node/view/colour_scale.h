@@ -1,6 +1,7 @@
 #pragma once
 // What the colours of tissue say that show how far it is from where it lies at rest, how it strains, what stress or
-// pressure is in it or whether it is awake: from its own colour at 0 through yellow, orange and red to violet at `most`, a round number that only grows,
+// pressure is in it or whether it is awake: from its own colour at 0 through yellow, orange and red to violet at
+// `most`, a round number that only grows,
 // so that a colour keeps its meaning while one looks.
 
 #include <array>

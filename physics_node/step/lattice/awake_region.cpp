@@ -85,8 +85,8 @@ void AwakeRegion<Real>::choose(const Body& body) noexcept {
   std::ranges::sort(next_);
 }
 
-/// A node that wakes begins where the nearest node towards its place is that moved already, the less the further out; at rest where air lies
-/// between them, as beside a wall that is bent.
+/// A node that wakes begins where the nearest node towards its place is that moved already, the less the further out;
+/// at rest where air lies between them, as beside a wall that is bent.
 template <class Real>
 void AwakeRegion<Real>::begin_near_rim(const Body& body, LatticeState<Real>& state, Index node) noexcept {
   const Vec3 x = body.rest_position(node);

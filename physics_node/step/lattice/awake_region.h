@@ -15,8 +15,9 @@
 
 namespace palpate::physics {
 
-/// Segments of rows (lattice.h) act that come within SolidElements::awake_radius of a place that is pressed, or further out where there is
-/// little tissue (near_runs.h); once they do, until they are three cells further away. Behind them a soft rim follows the places. What falls asleep is put back to where it rests, and what wakes begins
+/// Segments of rows (lattice.h) act that come within SolidElements::awake_radius of a place that is pressed, or within
+/// more where there is little tissue (near_runs.h); once they do, until they are three cells further away. Behind them a
+/// soft rim follows the places. What falls asleep is put back to where it rests, and what wakes begins
 /// where the rim beside it is, the less the further out: u = u_rim r_rim / r. Both are booked as `numerical`. Gravity does not act: the shape
 /// is that under gravity, and its weight is balanced everywhere.
 /// Cost: of what is awake. At load and after a reset all sleeps.

@@ -29,10 +29,11 @@ void each_run_about(const Lattice& lattice, const HexGrid& grid, const Vec3& pla
 /// By the nearest point of its cells.
 bool comes_within(const Body& body, const HexRun& run, const Vec3& place, double within) noexcept;
 
-/// How far about a place a body is to be awake. On a flat skin, where a ball of `least` is half full of tissue, that is `least`. Where it is less
-/// full, at an edge, a corner, or in what stands out, as an ear, further: until there is twice as much tissue as half of that ball, or to
-/// three times `least`.
-/// Why: what stands behind the border is taken for a half space (soft_rim.h), which a wall of 8 mm is not, but the body below it is.
+/// How far about a place a body is to be awake. On a flat skin, where a ball of `least` is half full of tissue, that is
+/// `least`. Where it is less full, at an edge, a corner, or in what stands out, as an ear, further: until there is twice
+/// as much tissue as half of that ball, or to nearly three times `least`.
+/// Why: what stands behind the border is taken for a half space (soft_rim.h), which a wall of 8 mm is not, but the body
+/// below it is.
 /// Cost: of the cells in it, a few nanoseconds each, and of up to eleven radii that are tried.  [m]
 double reach_of(const Body& body, const HexGrid& grid, const Vec3& place, double least) noexcept;
 

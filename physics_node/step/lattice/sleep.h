@@ -49,7 +49,8 @@ class Sleep {
   Index sleeping_masses_ = 0;
 };
 
-/// Is the row of a node asleep, or the node where a body is not awake? @param parts  null: of a body that is not awake in parts
+/// Does a node stand, its row asleep or on the rim of what is awake, or beyond the parts that are?
+/// @param parts  null: the body is not awake in parts
 template <class Real>
 bool is_asleep(const Body& body, const LatticeState<Real>& state, const AwakeParts* parts,
                Index node) noexcept {
