@@ -18,8 +18,9 @@ struct RelaxationSpec {
 };
 inline constexpr std::size_t most_relaxation_terms = 4;  // Why: a fit over five decades of time takes as many
 inline constexpr double shortest_relaxation = 1e-3;      // Why: what fades within a frame is a viscosity [s]
-inline constexpr double longest_relaxation = 1e6;        // [s]
-inline constexpr double most_relaxing_share = 0.95;      // Why: the law alone resists being turned inside out
+inline constexpr double most_puncture_ratio = 100;
+inline constexpr double longest_relaxation = 1e6;    // [s]
+inline constexpr double most_relaxing_share = 0.95;  // Why: the law alone resists being turned inside out
 
 /// Young's modulus where an image is so bright; between two points it is linear, beyond the outermost it stays.
 struct ModulusPoint {
@@ -52,7 +53,8 @@ struct MaterialSpec {
   std::optional<double> break_ratio;  // b_p > y_p; of finite elements each may stand alone
   std::optional<double>
       fracture_energy;                  // of finite elements that break: what a crack takes, by area [J/m^2]
-  std::optional<double> cut_toughness;  // of springs: what a blade takes, by area [J/m^2]
+  std::optional<double> cut_toughness;  // what a blade or a needle takes, by area [J/m^2]
+  double puncture_ratio = 1.5;          // force on a tip that enters, over that of one which goes on
   Place place;
 };
 

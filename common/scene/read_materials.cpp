@@ -142,6 +142,12 @@ void read_plasticity(TableReader& reader, MaterialSpec& spec, bool of_elements) 
   spec.break_ratio = reader.read_number("break_ratio", above_one);
   spec.fracture_energy = reader.read_number("fracture_energy_J_per_m2", positive);
   spec.cut_toughness = reader.read_number("cut_toughness_J_per_m2", positive);
+  set_if(spec.puncture_ratio, reader.read_number("puncture_ratio", {.lo = 1, .hi = most_puncture_ratio}));
+  if (reader.has("puncture_ratio") && !reader.has("cut_toughness_J_per_m2"))
+    reader.complain("puncture_ratio",
+                    fmt::format("\"puncture_ratio\" stands alone in {}; give cut_toughness_J_per_m2 too, "
+                                "which it multiplies",
+                                reader.title()));
   if (reader.has("fracture_energy_J_per_m2") && !reader.has("break_ratio"))
     reader.complain("fracture_energy_J_per_m2",
                     fmt::format("\"fracture_energy_J_per_m2\" stands alone in {}; give break_ratio too, at "

@@ -43,6 +43,7 @@ std::optional<ToolShape> rigid_shape(const toml::node* word) {
   if (name == "box") return ToolShape::box;
   if (name == "scalpel") return ToolShape::scalpel;
   if (name == "forceps") return ToolShape::forceps;
+  if (name == "needle") return ToolShape::needle;
   return std::nullopt;
 }
 
@@ -121,6 +122,14 @@ void read_scalpel(TableReader& reader, ToolSpec& spec) {
   read_attitude(reader, spec);
 }
 
+/// All but its length.
+void read_needle(TableReader& reader, ToolSpec& spec) {
+  reader.require("diameter_mm", "give the outer diameter of the needle, such as diameter_mm = 1.2");
+  if (const auto diameter = reader.read_length_mm("diameter_mm")) spec.radius = 0.5 * *diameter;
+  set_if(spec.shaft_friction, reader.read_number("friction_N_per_m", not_negative));
+  read_attitude(reader, spec);
+}
+
 void read_forceps(TableReader& reader, ToolSpec& spec) {
   set_if(spec.radius, reader.read_length_mm("radius_mm"));
   set_if(spec.grip, reader.read_number("grip_N", positive));
@@ -135,6 +144,7 @@ void read_rigid(TableReader& reader, ToolSpec& spec) {
     reader.require("length_mm", "give it a length, such as length_mm = 100");
     set_if(spec.length, reader.read_length_mm("length_mm"));
     if (spec.shape == ToolShape::scalpel) return read_scalpel(reader, spec);
+    if (spec.shape == ToolShape::needle) return read_needle(reader, spec);
     spec.radius = spec.shape == ToolShape::stick ? 0.002 : 0.003;
     set_if(spec.radius, reader.read_length_mm("radius_mm"));
   }
@@ -165,6 +175,8 @@ void read_force_model(TableReader& reader, ToolSpec& spec) {
       : spec.shape == ToolShape::scalpel
           ? "a scalpel feels what its edge takes; write \"tangent\", or leave it out"
       : spec.shape == ToolShape::forceps ? "forceps feel what they pull; write \"tangent\", or leave it out"
+      : spec.shape == ToolShape::needle
+          ? "a rigid needle feels what it takes to go on; write \"tangent\", or leave it out"
       : is_solid_tip(spec.shape)
           ? "this tool feels a copy of tissue; write \"tissue\", or leave it out"
           : "this tool is more than a point and feels a wrench; write \"tangent\" or \"direct\"");
@@ -175,7 +187,11 @@ ToolSpec read_tool(TableReader& reader, ReadContext& context) {
   spec.place = reader.place();
   const auto* shape = reader.find("shape");
   const auto word = shape == nullptr ? std::string() : shape->value_or(std::string());
-  if (!reader.has("body") && (word == "knife" || word == "needle"))
+  const bool may_be_body = word == "knife" || word == "needle";
+  const bool rigid = may_be_body && reader.read_flag("rigid").value_or(false);
+  if (rigid && word == "knife")
+    reader.complain("rigid", "a knife is a body of elements; write shape = \"scalpel\" for a rigid edge");
+  if (!reader.has("body") && may_be_body && !(rigid && word == "needle"))
     read_own_body(reader, context, spec);
   else
     read_other_shape(reader, spec);

@@ -13,8 +13,8 @@ namespace palpate {
 
 /// A point touches tissue by the plane under it; a body is one of the scene's, driven by masses that the
 /// hand holds; cylinder, cone and box are rigid, and go up from the tip; a scalpel is an edge that goes up from its tip and
-/// toward -x, and cuts; forceps hold what is around their tip.
-enum class ToolShape { point, stick, body, cylinder, cone, box, scalpel, forceps };
+/// toward -x, and cuts; forceps hold what is around their tip; a needle goes up from its tip, and pierces. (A needle that is not rigid is a body.)
+enum class ToolShape { point, stick, body, cylinder, cone, box, scalpel, forceps, needle };
 
 /// How a point presses: by the masses under it, as in the papers, or as a rigid sphere on sampled faces.
 enum class PointContact { nodes, faces };
@@ -40,10 +40,11 @@ struct ToolSpec {
   /// Of the hand between two answers of physics, as the scene has it; who goes by it asks force_model.h.
   std::optional<ForceModel> force_model;
   ForceModel own_model = ForceModel::norton;  // of a point, where the scene has none: settle_force_models()
-  double length = 0.1;       // from tip to end [m]; of a stick, cylinder, cone, of the edge of a scalpel
-  double edge = 0;           // of a scalpel: between its edge and the handle [rad]
-  double grip = 2;           // of forceps: pull at which tissue slips from between the jaws [N]
-  Vec3 size = Vec3::Zero();  // of a box [m]
+  double length = 0.1;  // from tip to end [m]; of a stick, cylinder, cone, needle, of the edge of a scalpel
+  double shaft_friction = 0;  // of a needle, by its length in tissue [N/m]
+  double edge = 0;            // of a scalpel: between its edge and the handle [rad]
+  double grip = 2;            // of forceps: pull at which tissue slips from between the jaws [N]
+  Vec3 size = Vec3::Zero();   // of a box [m]
   /// Where the handle is not turned; of all but points and bodies.
   Eigen::Matrix3d attitude = Eigen::Matrix3d::Identity();
   Place place;
@@ -54,7 +55,7 @@ inline bool is_solid_tip(ToolShape shape) noexcept {
 }
 /// Has it no proxy on a surface, so that the hand feels nothing but a wrench and its slope?
 inline bool feels_slope(ToolShape shape) noexcept {
-  return shape == ToolShape::scalpel || shape == ToolShape::forceps;
+  return shape == ToolShape::scalpel || shape == ToolShape::forceps || shape == ToolShape::needle;
 }
 /// Does it part what it goes through?
 inline bool cuts(const ToolSpec& tool) noexcept { return tool.shape == ToolShape::scalpel; }

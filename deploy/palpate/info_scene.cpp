@@ -96,7 +96,8 @@ std::string material_text(const MaterialSpec& material) {
   if (material.break_ratio) text += fmt::format(", breaks at {:.6g}", *material.break_ratio);
   if (material.fracture_energy)
     text += fmt::format(", a crack takes {:.6g} J/m^2", *material.fracture_energy);
-  if (material.cut_toughness) text += fmt::format(", a blade takes {:.6g} J/m^2", *material.cut_toughness);
+  if (material.cut_toughness)
+    text += fmt::format(", a blade or needle takes {:.6g} J/m^2", *material.cut_toughness);
   return text + "\n";
 }
 
@@ -108,6 +109,10 @@ std::string tool_text(const ToolSpec& tool, const Scene& scene) {
     return fmt::format("tool         {}: scalpel, edge {:.6g} mm, {:.6g} N/m, device {} (driver {})\n",
                        tool.name, mm_from_m(tool.length), tool.stiffness, tool.device,
                        scene.device(tool.device).driver);
+  if (tool.shape == ToolShape::needle)
+    return fmt::format("tool         {}: needle {:.6g} x {:.6g} mm, {:.6g} N/m, device {} (driver {})\n",
+                       tool.name, 2 * mm_from_m(tool.radius), mm_from_m(tool.length), tool.stiffness,
+                       tool.device, scene.device(tool.device).driver);
   if (tool.shape == ToolShape::forceps)
     return fmt::format(
         "tool         {}: forceps, jaws of {:.6g} mm, grip {:.6g} N, {:.6g} N/m, device {} (driver {})\n",

@@ -71,6 +71,7 @@ ElementLaw element_law(const Lattice& lattice, const MaterialSpec& material) {
   law.drag = material.drag;
   law.k2_ratio = material.k2_ratio;
   law.cut_toughness = material.cut_toughness.value_or(0.0);
+  law.puncture_ratio = material.puncture_ratio;
   law.yields = material.yield_ratio.has_value();
   law.y_p = material.yield_ratio.value_or(0.0);
   law.b_p = material.break_ratio.value_or(0.0);

@@ -34,8 +34,9 @@ struct ElementLaw {
   double b_p = 0;                     // break ratio
   bool damped = false;                // any c > 0; says nothing of the drag
   bool yields = false;
-  double cut_toughness = 0;  // what a blade pays by area; 0: not stated [J/m^2]
-  double modulus = 0;        // mean Young's modulus along the axes [Pa]
+  double cut_toughness = 0;     // what a blade pays by area; 0: not stated [J/m^2]
+  double puncture_ratio = 1.5;  // by how much a tip has to press harder until it enters
+  double modulus = 0;           // mean Young's modulus along the axes [Pa]
 };
 
 /// Stiffness of the homogenised lattice, in its own axes, in Voigt order xx yy zz yz xz xy (engineering shear) [Pa]:

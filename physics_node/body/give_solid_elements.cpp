@@ -106,8 +106,8 @@ void give_solid_elements(Body& body, const BodySpec& spec, const std::vector<Mat
   const auto n = static_cast<std::size_t>(body.capacity());
   solid.stiffness.assign(n, 0.0F);
   solid.mass.assign(n, 0.0);
-  const bool by_material = body.lattice.has_cells || yields;
-  if (by_material) solid.failure_of.assign(n, 0);
+  const bool by_material = body.lattice.has_cells || yields || !spec.regions.empty();
+  if (by_material) solid.material_of.assign(n, 0);
   solid.largest_stiffness = 0;
   const Cells& cells = *body.cells;
   const Vec3i corner = lattice_corner(cells, body.lattice);
@@ -122,7 +122,7 @@ void give_solid_elements(Body& body, const BodySpec& spec, const std::vector<Mat
         const MaterialSpec& material = *of_region[region];
         if (body.lattice.has_cells) mark_cell(body.lattice, at);
         if (by_material)
-          solid.failure_of[static_cast<std::size_t>(body.lattice.cell_of(at))] =
+          solid.material_of[static_cast<std::size_t>(body.lattice.cell_of(at))] =
               static_cast<std::uint8_t>(region);
         const double intensity =
             cells.intensity.empty() ? 0.0 : static_cast<double>(cells.intensity[cells.index(i, j, k)]);

@@ -52,7 +52,8 @@ struct SolidElements {
   std::vector<Failure> failures;  // of the body's own material and each region's; EMPTY: nothing breaks
   std::vector<Yielding> yields;   // likewise; EMPTY: nothing yields
   std::vector<std::uint8_t>
-      failure_of;  // of a cell, as stiffness: an index of failures and of yields; EMPTY with both (n_cells)
+      material_of;  // of a cell, as stiffness: 0 the body's own, r + 1 that of region r, by which failures, yields and Body::laws go;
+                    // EMPTY: one material, which neither breaks nor yields                       (n_cells)
   FastCells fast;
   /// How its cells hang together where they may be cut; else null. Then `mass` and inverse masses have room for those of copies and are as
   /// now, and all the rest is as loaded. Only who steps it changes these.

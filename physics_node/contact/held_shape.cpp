@@ -22,6 +22,7 @@ HeldShape held_shape(const ToolSpec& tool) {
     case ToolShape::body:
     case ToolShape::scalpel:
     case ToolShape::forceps:
+    case ToolShape::needle:
       break;
   }
   PALPATE_CHECK(false, "a body has elements of its own, a scalpel an edge, forceps jaws");

@@ -12,6 +12,7 @@
 #include "physics_node/contact/blade_tool.h"
 #include "physics_node/contact/body_tool.h"
 #include "physics_node/contact/grip_tool.h"
+#include "physics_node/contact/needle_tool.h"
 #include "physics_node/contact/stick_tool.h"
 #include "physics_node/contact/tissue_tool.h"
 
@@ -74,6 +75,15 @@ void add_forceps(const Scene& scene, std::uint32_t n, const BodyModels& bodies, 
   add_pressing(std::move(grip), bodies, box);
 }
 
+void add_needle(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
+                const std::vector<TouchableBody>& touchable, Toolbox& box) {
+  const ToolSpec& spec = scene.tools[n];
+  refuse_implicit(scene, spec, "a needle pierces step by step");
+  auto needle =
+      std::make_unique<NeedleTool>(spec, n, bodies, touchable, 1 / scene.device(spec.device).rate_Hz);
+  add_pressing(std::move(needle), bodies, box);
+}
+
 void add_stick(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
                const std::vector<TouchableBody>& touchable, Toolbox& box) {
   const ToolSpec& spec = scene.tools[n];
@@ -110,6 +120,8 @@ Toolbox make_tools(const Scene& scene, const BodyModels& bodies, const std::vect
       add_scalpel(scene, n, bodies, touchable, connections, box);
     else if (spec.shape == ToolShape::forceps)
       add_forceps(scene, n, bodies, box);
+    else if (spec.shape == ToolShape::needle)
+      add_needle(scene, n, bodies, touchable, box);
     else if (spec.shape == ToolShape::stick)
       add_stick(scene, n, bodies, touchable, box);
     else

@@ -2,6 +2,7 @@
 // What a hand and the tissue under its tool have done to each other: two works that are equal where the hand
 // feels what the tissue bears, and by how much what it felt was more.
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -24,6 +25,12 @@ class TouchBook {
   }
   /// A step of a blade. @param area  that it has opened [m^2] @param work  that this took [J]
   void cut(double area, double work) noexcept { cut_area_ += area, cut_work_ += work; }
+  /// A step of a needle. @param depth  of it in tissue [m] @param rubbed  work of its shaft [J] @param entered  the force with which it came
+  /// through a surface; 0: it did not [N]
+  void pierced(double depth, double rubbed, double entered) noexcept {
+    deepest_ = std::max(deepest_, depth), rubbed_ += rubbed;
+    if (entered > 0) ++punctures_, puncture_force_ = std::max(puncture_force_, entered);
+  }
   /// Area that its edge has swept inside each body of the scene that it neither cuts nor feels; outlives this [m^2]
   void passed_unfelt(std::span<const double> areas) noexcept { passed_ = areas; }
   /// A frame in which tissue bore this force [N].
@@ -34,6 +41,10 @@ class TouchBook {
   std::span<const double> passed_unfelt() const noexcept { return passed_; }  // by body; EMPTY: none ever
   double cut_area() const noexcept { return cut_area_; }                      // opened by a blade [m^2]
   double cut_work() const noexcept { return cut_work_; }  // that this took, of the hand or of the tissue [J]
+  double deepest() const noexcept { return deepest_; }    // of a needle in tissue [m]
+  double rubbed() const noexcept { return rubbed_; }      // by its shaft [J]
+  int punctures() const noexcept { return punctures_; }   // surfaces that it has come through
+  double puncture_force() const noexcept { return puncture_force_; }  // the most that took [N]
   /// Root mean square of the force on the hand over that of the force that tissue bore, of all frames; none:
   /// tissue bore nothing.
   std::optional<double> felt_over_true_rms() const noexcept {
@@ -53,7 +64,9 @@ class TouchBook {
   Vec6 load_ = Vec6::Zero();                // that it pressed with [N], [N m]
   double hand_work_ = 0, tissue_work_ = 0;  // [J]
   std::span<const double> passed_;
-  double cut_area_ = 0, cut_work_ = 0;        // [m^2], [J]
+  double cut_area_ = 0, cut_work_ = 0;                    // [m^2], [J]
+  double deepest_ = 0, rubbed_ = 0, puncture_force_ = 0;  // [m], [J], [N]
+  int punctures_ = 0;
   double felt2_ = 0, borne2_ = 0, off2_ = 0;  // sums over frames [N^2]
 };
 

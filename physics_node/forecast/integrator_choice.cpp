@@ -37,6 +37,8 @@ std::string what_needs_steps(const Scene& scene) {
       return fmt::format("tool \"{}\" is a scalpel, which cuts step by step", tool.name);
     if (tool.shape == ToolShape::forceps)
       return fmt::format("tool \"{}\" is a pair of forceps, which hold step by step", tool.name);
+    if (tool.shape == ToolShape::needle)
+      return fmt::format("tool \"{}\" is a rigid needle, which pierces step by step", tool.name);
     if (tool.shape == ToolShape::stick)
       return fmt::format("tool \"{}\" is a stick, which moves masses step by step", tool.name);
     if (tool.shape == ToolShape::point && asks_for_faces(tool, any_cells(scene)))

@@ -218,7 +218,7 @@ void add_cracks(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
     for (const Index cell : body.nodes()) {
       const auto c = static_cast<std::size_t>(cell);
       if (solid.failures.empty() || solid.stiffness[c] <= 0) continue;
-      double& of = most[solid.failure_of[c]];
+      double& of = most[solid.material_of[c]];
       of = std::max(of, static_cast<double>(solid.stiffness[c]));
     }
     for (std::size_t m = 0; m < most.size(); ++m) {

@@ -12,7 +12,8 @@
 namespace palpate::physics {
 
 std::vector<Vec3> tool_points(const ToolSpec& tool, const Scene& scene, const Bodies& bodies, double apart) {
-  if (tool.shape == ToolShape::point || tool.shape == ToolShape::forceps) return {Vec3::Zero()};
+  if (tool.shape == ToolShape::point || tool.shape == ToolShape::forceps || tool.shape == ToolShape::needle)
+    return {Vec3::Zero()};
   std::vector<Vec3> points;
   if (tool.shape == ToolShape::stick || tool.shape == ToolShape::scalpel) {
     const Vec3 axis =

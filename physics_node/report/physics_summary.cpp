@@ -107,6 +107,12 @@ nlohmann::json team_part(const TeamChoice& choice) {
 nlohmann::json touch_part(const Tool& tool, const Scene& scene) {
   nlohmann::json part = {{"hand_work", tool.book().hand_work()}};
   if (tool.knows_tissue_work()) part["tissue_work"] = tool.book().tissue_work();
+  if (tool.book().punctures() > 0) {
+    part["punctures"] = tool.book().punctures();
+    part["puncture_force"] = tool.book().puncture_force();
+    part["deepest_mm"] = 1e3 * tool.book().deepest();
+    part["shaft_friction_work"] = tool.book().rubbed();
+  }
   if (tool.book().cut_area() > 0) {
     part["cut_area_mm2"] = 1e6 * tool.book().cut_area();
     part["cut_work"] = tool.book().cut_work();

@@ -64,6 +64,10 @@ Painter::Painter(const Scene& scene, const ViewModel& model)
       tools_[i].length = scene.tools[i].length;
       tools_[i].edge = scene.tools[i].edge;
     }
+    if (scene.tools[i].shape == ToolShape::needle) {
+      tools_[i].axis = scene.tools[i].attitude * Eigen::Vector3d::UnitZ();
+      tools_[i].length = scene.tools[i].length;
+    }
     if (scene.tools[i].shape == ToolShape::stick) {
       // B = A - L R e_z, as physics has it.
       tools_[i].axis = -(scene.tools[i].attitude * Eigen::Vector3d::UnitZ());
@@ -87,6 +91,8 @@ void Painter::adapt_sizes(const Eigen::AlignedBox3d& box) {
       tool.stick.shape_box(tool.size.cast<float>());
     else if (tool.shape == ToolShape::scalpel)
       tool.stick.shape_blade(length, static_cast<float>(tool.edge));
+    else if (tool.shape == ToolShape::needle)
+      tool.stick.shape(needle_outline(radius, length));
     else if (tool.shape == ToolShape::cylinder)
       tool.stick.shape(cylinder_outline(radius, length));
     else if (tool.shape == ToolShape::cone)

@@ -87,6 +87,10 @@ std::vector<Ring> cylinder_outline(float radius, float length) {
 
 std::vector<Ring> cone_outline(float radius, float length) { return {{0, 0}, {radius, length}, {0, length}}; }
 
+std::vector<Ring> needle_outline(float radius, float length) {
+  return {{0, 0}, {radius, std::min(4 * radius, length)}, {radius, length}, {0, length}};
+}
+
 std::vector<Ring> arrow_outline(float radius, float length) {
   const float head = std::min(5 * radius, 0.6F * length);
   return {{0, 0}, {radius, 0}, {radius, length - head}, {2.4F * radius, length - head}, {0, length}};

@@ -26,6 +26,8 @@ std::vector<Ring> capsule_outline(float radius, float length);
 std::vector<Ring> cylinder_outline(float radius, float length);
 /// Its apex is the origin.
 std::vector<Ring> cone_outline(float radius, float length);
+/// From its sharp tip, the origin, up. [m]
+std::vector<Ring> needle_outline(float radius, float length);
 /// An arrow from the origin to (0, 0, length). [m]
 std::vector<Ring> arrow_outline(float radius, float length);
 

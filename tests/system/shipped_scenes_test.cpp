@@ -125,6 +125,23 @@ TEST_F(ShippedScenes, AneurysmOfAMadeAngiogramIsPressed) {
   EXPECT_LT(summary["bodies"]["vessels"]["masses"].get<int>(), 10000);
 }
 
+/// In, half way back, in again and beyond, and out.
+TEST_F(ShippedScenes, ANeedleGoesIntoALobe) {
+  const std::string file = (folder / "lobe.msh").string();
+  ASSERT_EQ(palpate("import --phantom lobe --out " + test::quoted(file)), 0) << log;
+  const auto summary = simulate("needle", "--set body.lobe.file=" + test::quoted(file));
+  const auto& needle = summary["tools"]["needle"];
+  const double goes_on = 164 * 1.5e-3;
+  EXPECT_EQ(needle["punctures"].get<int>(), 1);
+  EXPECT_NEAR(needle["puncture_force"].get<double>(), 2 * goes_on, 0.02 * goes_on);
+  EXPECT_GT(needle["deepest_mm"].get<double>(), 15);
+  EXPECT_NEAR(needle["cut_area_mm2"].get<double>(), 1.5 * needle["deepest_mm"].get<double>(), 1);
+  EXPECT_NEAR(summary["energy"]["cut"].get<double>(), needle["cut_work"].get<double>(), 1e-9);
+  EXPECT_GT(needle["shaft_friction_work"].get<double>(), 2e-3);
+  EXPECT_NEAR(needle["felt_over_true_rms"].get<double>(), 1, 0.15);
+  EXPECT_LT(summary["energy"]["balance_error"].get<double>(), 1e-4);
+}
+
 /// Pressed, recorded, drawn, exported; and run again from its record alone it has the same bits.
 TEST_F(ShippedScenes, ALobeOfTetrahedraIsPressed) {
   const std::string file = (folder / "lobe.msh").string(),

@@ -33,7 +33,7 @@ CrackShares<Real>::CrackShares(const Body& body) : body_(body) {
 
 template <class Real>
 double CrackShares<Real>::share_of(Index cell, const Vec3& normal) const noexcept {
-  const Failure& failure = body_.solid->failures[body_.solid->failure_of[static_cast<std::size_t>(cell)]];
+  const Failure& failure = body_.solid->failures[body_.solid->material_of[static_cast<std::size_t>(cell)]];
   return failure.energy * body_.lattice.step.prod() / normal.cwiseAbs().dot(body_.lattice.step);
 }
 
@@ -49,7 +49,7 @@ Index CrackShares<Real>::each_across(const LatticeState<Real>& state, Index cell
                                      const Visit& visit) const noexcept {
   const auto c = static_cast<std::size_t>(cell);
   const Lattice& lattice = body_.lattice;
-  const double reach = reach_[body_.solid->failure_of[c]] / static_cast<double>(body_.solid->stiffness[c]);
+  const double reach = reach_[body_.solid->material_of[c]] / static_cast<double>(body_.solid->stiffness[c]);
   const Vec3 normal = vector_of(state.failed.normal, cell).cwiseQuotient(lattice.step);  // [cells/m]
   const double layer = 1 / normal.cwiseAbs().maxCoeff();  // across the axis that it is nearest to [m]
   const Vec3i here = lattice.grid_of(cell);

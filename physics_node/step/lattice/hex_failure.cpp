@@ -74,7 +74,7 @@ HexFailure<Real>::HexFailure(const Body& body, const HexGrid& grid, std::size_t 
 
 template <class Real>
 TensionLimit<double> HexFailure<Real>::limit_of(Index cell) const noexcept {
-  return limits_[body_.solid->failure_of[static_cast<std::size_t>(cell)]];
+  return limits_[body_.solid->material_of[static_cast<std::size_t>(cell)]];
 }
 
 /// The state was set from outside: what has begun and what is gone may be other cells.

@@ -30,8 +30,8 @@ HexYield<Real>::HexYield(const Body& body, const HexGrid& grid, std::size_t colo
     for (Index cell = run.first; cell < run.first + run.count; ++cell) {
       const auto c = static_cast<std::size_t>(cell);
       if (solid.stiffness[c] <= 0) continue;
-      limit_[c] = static_cast<Real>(limits[solid.failure_of[c]].stress);
-      hardening_[c] = static_cast<Real>(limits[solid.failure_of[c]].hardening);
+      limit_[c] = static_cast<Real>(limits[solid.material_of[c]].stress);
+      hardening_[c] = static_cast<Real>(limits[solid.material_of[c]].hardening);
     }
 }
 

@@ -127,6 +127,8 @@ std::vector<SceneTable> all_tables() {
       tool("cone", "name = \"t\"\nshape = \"cone\"\nlength_mm = 9\n"),
       tool("scalpel", "name = \"t\"\nshape = \"scalpel\"\nlength_mm = 9\n"),
       tool("forceps", "name = \"t\"\nshape = \"forceps\"\n"),
+      tool("rigid needle",
+           "name = \"t\"\nshape = \"needle\"\nrigid = true\nlength_mm = 9\ndiameter_mm = 1\n"),
       tool("box", "name = \"t\"\nshape = \"box\"\nsize_mm = [9, 9, 9]\n"),
       tool("body", "name = \"t\"\nbody = \"b\"\n"),
       tool("knife", own + "shape = \"knife\"\n" + knife),
@@ -149,6 +151,9 @@ std::vector<SceneTable> all_tables() {
                  rest + "lattice = \"voxel\"\nmodel = \"fem\"\n"});
   all.push_back({heading, "", "[material.m]\n",
                  "density_kg_per_m3 = 1\nmodulus_kPa = 10\nbreak_ratio = 2\nfracture_energy_J_per_m2 = 1\n",
+                 rest + "lattice = \"voxel\"\nmodel = \"fem\"\n"});
+  all.push_back({heading, "", "[material.m]\n",
+                 "density_kg_per_m3 = 1\nmodulus_kPa = 10\ncut_toughness_J_per_m2 = 9\npuncture_ratio = 2\n",
                  rest + "lattice = \"voxel\"\nmodel = \"fem\"\n"});
   all.push_back({heading, "", "[material.m]\n",
                  "density_kg_per_m3 = 1\nmodulus_kPa = 10\nyield_ratio = 1.1\nk2_ratio = 0.5\n",
