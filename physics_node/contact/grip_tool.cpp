@@ -16,7 +16,7 @@ GripTool::GripTool(const ToolSpec& tool, std::uint32_t index, const BodyModels& 
   std::size_t most = 0;
   for (const auto& body : bodies) {
     bodies_.push_back(body.get());
-    most = std::max(most, body->body().nodes().size());
+    most = std::max(most, body->body().nodes().size() + body->body().most_copies());
   }
   held_.reserve(std::min(most, most_held));
   forces_.reserve(held_.capacity());
@@ -78,11 +78,8 @@ void GripTool::close() noexcept {
   touched_ = best;
   const BodyModel& body = *bodies_[best];
   hold(body);
-  mobility_ = 0;
-  for (Held& one : held_) {
-    one.share /= most;
-    mobility_ += one.share * one.share * body.body().inverse_mass[static_cast<std::size_t>(one.cell)];
-  }
+  for (Held& one : held_) one.share /= most;
+  find_mobility();
   at_ = held_place();
   offset_ = offset_at_first_ = hand_ - at_;
 }
@@ -90,23 +87,49 @@ void GripTool::close() noexcept {
 /// Lists masses of a body that move, each with its mass by its weight [kg].
 void GripTool::hold(const BodyModel& body) noexcept {
   held_.clear();
-  for (const Index cell : body.body().nodes()) {
-    const double inverse = body.body().inverse_mass[static_cast<std::size_t>(cell)];
-    const double near = 1 - (body.position(cell) - hand_).squaredNorm() / (radius_ * radius_);
-    if (inverse == 0 || !(near > 0) || held_.size() == held_.capacity()) continue;
-    held_.push_back({cell, near * near / inverse});
+  body.body().each_node([&](Index node) {
+    const double inverse = body.body().inverse_mass[static_cast<std::size_t>(node)];
+    const double near = 1 - (body.position(node) - hand_).squaredNorm() / (radius_ * radius_);
+    if (inverse == 0 || !(near > 0) || held_.size() == held_.capacity()) return;
+    held_.push_back({node, near * near / inverse});
+  });
+}
+
+/// A cut has gone through what is held: both sides of a node stay between the jaws, each with its own mass.
+void GripTool::follow_cuts() noexcept {
+  if (held_.empty()) return;
+  const BodyModel& body = *bodies_[touched_];
+  bool any = false;
+  for (const NodeSplit& split : body.events().nodes_split) {
+    const auto held = std::ranges::find(held_, split.node, &Held::node);
+    const double inverse = body.body().inverse_mass[static_cast<std::size_t>(split.copy)],
+                 other = body.body().inverse_mass[static_cast<std::size_t>(split.node)];
+    if (held == held_.end() || inverse == 0 || other == 0 || held_.size() == held_.capacity()) continue;
+    const double of_copy = other / (inverse + other) * held->share;
+    held->share -= of_copy;
+    held_.push_back({split.copy, of_copy});
+    any = true;
   }
+  if (any) find_mobility();
+}
+
+void GripTool::find_mobility() noexcept {
+  mobility_ = 0;
+  for (const Held& one : held_)
+    mobility_ +=
+        one.share * one.share * bodies_[touched_]->body().inverse_mass[static_cast<std::size_t>(one.node)];
 }
 
 Vec3 GripTool::held_place() const noexcept {
   Vec3 x = Vec3::Zero();
-  for (const Held& one : held_) x += one.share * bodies_[touched_]->position(one.cell);
+  for (const Held& one : held_) x += one.share * bodies_[touched_]->position(one.node);
   return x;
 }
 
 void GripTool::begin_step() noexcept {
+  follow_cuts();
   v_before_.setZero();
-  for (const Held& one : held_) v_before_ += one.share * bodies_[touched_]->velocity(one.cell);
+  for (const Held& one : held_) v_before_ += one.share * bodies_[touched_]->velocity(one.node);
 }
 
 double GripTool::press(double dt) noexcept {
@@ -126,7 +149,7 @@ double GripTool::press(double dt) noexcept {
       return 0;
     }
   }
-  for (const Held& one : held_) forces_.push_back({one.cell, one.share * force_});
+  for (const Held& one : held_) forces_.push_back({one.node, one.share * force_});
   return force_.dot(v_before_);
 }
 

@@ -10,7 +10,8 @@
 //
 //   F = K (h - o - x) / (1 + K C),   C = dt^2 sum of w_n^2 / m_n
 //
-// Only one body is held, that of which most lies between the jaws. They do not push, and do not hold against turning.
+// Cut through, both sides of it stay between the jaws. Only one body is held, that of which most lies between the jaws.
+// They do not push, and do not hold against turning.
 
 #include <vector>
 
@@ -53,12 +54,14 @@ class GripTool final : public PressingTool {
 
  private:
   struct Held {
-    Index cell = 0;
+    Index node = 0;
     double share = 0;
   };
   void close() noexcept;
   void hold(const BodyModel& body) noexcept;
   void open() noexcept;
+  void follow_cuts() noexcept;
+  void find_mobility() noexcept;
   Vec3 held_place() const noexcept;
 
   double radius_, grip_, stiffness_;

@@ -80,20 +80,40 @@ void NeedleChannel::find_places(const Vec3& along) noexcept {
   if (const double stretch = (to_rest_ * along).norm(); std::isfinite(stretch)) resistance_ *= stretch;
 }
 
-/// k / (1 + g)
-void NeedleChannel::soften(const Vec3& along, double stiffness, double dt) noexcept {
-  const std::vector<double>& inverse_mass = tissue_.body().body().inverse_mass;
-  const double k = held_by * stiffness;
+NearNeedle NeedleChannel::near(const ElementLaw& law) const noexcept {
+  return {.modulus = law.modulus,
+          .poisson_ratio = tissue_.poisson_ratio(),
+          .radius = 0.5 * needle_.diameter,
+          .reach = tissue_.reach()};
+}
+
+/// k of all that is held. Not stiffer than a multiple of the hand's spring, which is all the same to the hand.
+void NeedleChannel::find_holds(const Vec3& along, double stiffness) noexcept {
+  const double most = held_by * stiffness;
   each_held([&](Held& held) {
-    held.hold = k;
+    held.along = held.across = most;
+    if (end_ == End::rigid && &held == &front_) return;
+    const ElementLaw& law = tissue_.law(held.place);
+    const NearNeedle gives = near(law);
     if (&held != &front_) {
-      held.hold *= std::min(1.0, held.length / apart_);
-    } else if (end_ == End::tissue) {
-      // What it does not stand before any more it lets go of gradually, as the tip is drawn back.
-      held.hold *= std::clamp(1 + (tip_ - front_.x).dot(along) / apart_, 0.0, 1.0);
+      const double stiffest = most * std::min(1.0, held.length / apart_);
+      held.along = 1 / (1 / std::max(stiffest, 1e-9) + gives.along() / std::max(held.length, 1e-12));
+      held.across = 1 / (1 / std::max(stiffest, 1e-9) + gives.across() / std::max(held.length, 1e-12));
+      return;
     }
+    const double enters = law.puncture_ratio * law.cut_toughness * needle_.diameter;
+    held.along = held.across = 1 / (1 / most + gives.tip(enters) / enters);
+    // What it does not stand before any more it lets go of gradually, as the tip is drawn back.
+    if (end_ == End::tissue) held.across *= std::clamp(1 + (tip_ - front_.x).dot(along) / apart_, 0.0, 1.0);
+  });
+}
+
+/// k / (1 + g)
+void NeedleChannel::soften(double Held::*hold, double dt) noexcept {
+  const std::vector<double>& inverse_mass = tissue_.body().body().inverse_mass;
+  each_held([&](Held& held) {
     for (const PiercedTissue::Carrier& one : held.by)
-      pull_[static_cast<std::size_t>(one.node)] += one.weight * held.hold;
+      pull_[static_cast<std::size_t>(one.node)] += one.weight * held.*hold;
   });
   each_held([&](Held& held) {
     double g = 0;
@@ -101,7 +121,7 @@ void NeedleChannel::soften(const Vec3& along, double stiffness, double dt) noexc
       const auto node = static_cast<std::size_t>(one.node);
       g += one.weight * inverse_mass[node] * pull_[node];
     }
-    held.hold /= 1 + dt * dt * g;
+    held.*hold /= 1 + dt * dt * g;
   });
   each_held([&](Held& held) {
     for (const PiercedTissue::Carrier& one : held.by) pull_[static_cast<std::size_t>(one.node)] = 0;
@@ -119,9 +139,9 @@ double NeedleChannel::along_at(double lag, const Vec3& hand, const Vec3& along) 
   for (const Held& held : places()) {
     if (!held.in) continue;
     const double most = needle_.friction * held.length;
-    sum += std::clamp(held.hold * (lag - held.slider - (held.x - hand).dot(along)), -most, most);
+    sum += std::clamp(held.along * (lag - held.slider - (held.x - hand).dot(along)), -most, most);
   }
-  if (has_end()) sum += std::clamp(front_.hold * (lag - (front_.x - hand).dot(along)), 0.0, most_ahead());
+  if (has_end()) sum += std::clamp(front_.along * (lag - (front_.x - hand).dot(along)), 0.0, most_ahead());
   return sum;
 }
 
@@ -131,9 +151,9 @@ void NeedleChannel::find_tip(const Vec3& hand, const Vec3& along, double stiffne
   Vec3 across = Vec3::Zero();
   each_held([&](const Held& held) {
     most += &held != &front_ ? needle_.friction * held.length
-                             : std::min(most_ahead(), held.hold * std::max(0.0, (hand - held.x).dot(along)));
-    across += held.hold * aside(held.x - hand, along);
-    held_across += held.hold;
+                             : std::min(most_ahead(), held.along * std::max(0.0, (hand - held.x).dot(along)));
+    across += held.across * aside(held.x - hand, along);
+    held_across += held.across;
   });
   double low = -most / stiffness, high = most / stiffness;
   for (int n = 0; n < 50 && low < high; ++n) {
@@ -146,10 +166,10 @@ void NeedleChannel::find_tip(const Vec3& hand, const Vec3& along, double stiffne
 
 /// Across, on tissue [N]. What would be more takes its place along.
 Vec3 NeedleChannel::press_aside(Held& held, const Vec3& along, double most, NeedleOutcome& done) noexcept {
-  const Vec3 asked = held.hold * aside(tip_ - held.x, along);
+  const Vec3 asked = held.across * aside(tip_ - held.x, along);
   const double size = asked.norm();
   if (!(size > most)) return asked;
-  const Vec3 way = (1 - most / size) / held.hold * asked;
+  const Vec3 way = (1 - most / size) / held.across * asked;
   if (const auto place = tissue_.find(held.place.rest + tissue_.gradient(held.place.rest).inverse() * way)) {
     put(held, *place);
     done.area += held.length * way.norm();
@@ -163,10 +183,10 @@ void NeedleChannel::press(const Vec3& along, NeedleOutcome& done) noexcept {
     if (!held.in) continue;
     const ElementLaw& law = tissue_.law(held.place);
     const double most = needle_.friction * held.length,
-                 asked = held.hold * ((tip_ - held.x).dot(along) - held.slider);
+                 asked = held.along * ((tip_ - held.x).dot(along) - held.slider);
     const double rubs = std::clamp(asked, -most, most);
-    if (held.hold > 0) {
-      const double slips = (asked - rubs) / held.hold;
+    if (held.along > 0) {
+      const double slips = (asked - rubs) / held.along;
       held.slider += slips;
       done.rubbed += rubs * slips;
     }
@@ -174,7 +194,7 @@ void NeedleChannel::press(const Vec3& along, NeedleOutcome& done) noexcept {
         rubs * along + press_aside(held, along, law.puncture_ratio * law.cut_toughness * held.length, done);
   }
   if (!has_end()) return;
-  const double ahead = std::clamp(front_.hold * (tip_ - front_.x).dot(along), 0.0, most_ahead());
+  const double ahead = std::clamp(front_.along * (tip_ - front_.x).dot(along), 0.0, most_ahead());
   const double across =
       end_ == End::rigid ? infinite : tissue_.law(front_.place).puncture_ratio * resistance_;
   front_.force = ahead * along + press_aside(front_, along, across, done);
@@ -190,7 +210,9 @@ NeedleOutcome NeedleChannel::step(const TipEntry& entry, const Vec3& hand, const
   seen_ = true;
   if (holds()) {
     find_places(along);
-    soften(along, stiffness, dt);
+    find_holds(along, stiffness);
+    soften(&Held::along, dt);
+    soften(&Held::across, dt);
     find_tip(hand, along, stiffness);
     press(along, done);
     each_held([&](const Held& held) {
@@ -199,7 +221,7 @@ NeedleOutcome NeedleChannel::step(const TipEntry& entry, const Vec3& hand, const
       done.force += held.force;
       done.moment += (held.x - tip_).cross(held.force);
       done.power += held.force.dot(held.v);
-      done.held += held.hold;
+      done.held += held.across;
     });
     go_on(along, done);
     draw_back(along);

@@ -9,7 +9,7 @@
 //   K (h - b) = sum of f_n a + p_n + t a
 //
 // h is where the hand has the tip, b where it is; needle and handle are without mass, and the attitude is the hand's. K
-// is the hand's spring, k_n a stiff hold, l_n the length of shaft that a place answers for, c_n where on the shaft that
+// is the hand's spring, k_n how stiffly tissue holds the needle near to it (near_needle.h), l_n the length of shaft that a place answers for, c_n where on the shaft that
 // holds it (dry friction with a bristle), f friction by length. Gc is the tissue's toughness, d the diameter: a tip opens
 // a crack as wide as that, by Gc times its area at rest; p is the puncture ratio. Drawn back, the needle only rubs, and
 // what it has opened it finds open. A shaft that is forced aside cuts with all of its length.
@@ -23,6 +23,7 @@
 #include <span>
 #include <vector>
 
+#include "physics_node/contact/near_needle.h"
 #include "physics_node/contact/pierced_tissue.h"
 #include "physics_node/contact/tip_entry.h"
 
@@ -77,7 +78,7 @@ class NeedleChannel {
     Vec3 force = Vec3::Zero();                // on tissue [N]
     double slider = 0;                        // c: the shaft's place there, from the tip back [m]
     double length = 0;                        // l [m]
-    double hold = 0;                          // k of this step, softened [N/m]
+    double along = 0, across = 0;             // k of this step, softened [N/m]
     bool last = false;                        // where the needle came out of the tissue
     bool in = false;                          // the shaft is there
   };
@@ -88,7 +89,9 @@ class NeedleChannel {
   void begin_at(const PiercedTissue::Place& place) noexcept;
   Held& keep_front() noexcept;
   void find_places(const Vec3& along) noexcept;
-  void soften(const Vec3& along, double stiffness, double dt) noexcept;
+  void find_holds(const Vec3& along, double stiffness) noexcept;
+  void soften(double Held::*hold, double dt) noexcept;
+  NearNeedle near(const ElementLaw& law) const noexcept;
   /// All that tissue presses back with while the tip is so far before the hand [N].
   double along_at(double lag, const Vec3& hand, const Vec3& along) const noexcept;
   void find_tip(const Vec3& hand, const Vec3& along, double stiffness) noexcept;

@@ -41,8 +41,8 @@ NeedleChannel::Held& NeedleChannel::keep_front() noexcept {
 /// The end of the channel goes on where the tip presses more than tissue bears.
 void NeedleChannel::go_on(const Vec3& along, NeedleOutcome& done) noexcept {
   if (end_ != End::surface && end_ != End::tissue) return;
-  const double most = most_ahead(), asked = front_.hold * (tip_ - front_.x).dot(along);
-  if (!(asked > most) || !(front_.hold > 0)) return;
+  const double most = most_ahead(), asked = front_.along * (tip_ - front_.x).dot(along);
+  if (!(asked > most) || !(front_.along > 0)) return;
   if (end_ == End::surface) {
     if (n_places_ == most_places) return;
     end_ = End::tissue;
@@ -52,7 +52,7 @@ void NeedleChannel::go_on(const Vec3& along, NeedleOutcome& done) noexcept {
     done.entered = true;
     return;  // and goes on in the next step, for which it pays T
   }
-  const double on = std::min((asked - most) / front_.hold, most_on * tissue_.spacing());
+  const double on = std::min((asked - most) / front_.along, most_on * tissue_.spacing());
   const Vec3 way = to_rest_ * (on * along), rest = front_.place.rest + way;
   const auto inside = tissue_.find(rest);
   in_a_cell_ = in_a_cell_ || inside;

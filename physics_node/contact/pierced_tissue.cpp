@@ -56,6 +56,7 @@ const char* not_to_be_pierced(const Body& body) noexcept {
 PiercedTissue::PiercedTissue(const BodyModel& body, double diameter) : body_(&body) {
   const Body& of = body.body();
   spacing_ = of.mesh ? of.mesh->spacing : of.lattice.step.maxCoeff();
+  poisson_ratio_ = of.mesh ? of.mesh->model.materials.front().poisson_ratio : of.solid->poisson_ratio;
   reach_ = std::clamp(std::sqrt(diameter * gives_way_by(of) / (std::numbers::pi * most_strain)),
                       fewest_spacings * spacing_, most_spacings * spacing_);
   scratch_.reserve(most_carriers);

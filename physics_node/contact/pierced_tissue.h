@@ -52,6 +52,7 @@ class PiercedTissue {
   /// dx / dX
   Eigen::Matrix3d gradient(const Vec3& rest) noexcept;
 
+  double poisson_ratio() const noexcept { return poisson_ratio_; }
   double reach() const noexcept { return reach_; }      // r [m]
   double spacing() const noexcept { return spacing_; }  // of cells, or the mean edge of tetrahedra [m]
   const BodyModel& body() const noexcept { return *body_; }
@@ -69,7 +70,7 @@ class PiercedTissue {
 
   const BodyModel* body_;
   Vec3i shift_ = Vec3i::Zero();  // from the grid of a lattice to cells
-  double spacing_ = 0, reach_ = 0;
+  double spacing_ = 0, reach_ = 0, poisson_ratio_ = 0;
   Carriers scratch_;
   // Of a mesh, by boxes of a grid: which tetrahedra may hold a place, and nodes.
   Vec3 low_ = Vec3::Zero();

@@ -226,6 +226,7 @@ std::vector<std::string> known_keys(const SceneTable& table) {
     if (!line.starts_with("unknown key \"" + nobody + "\"") || at == line.npos) continue;
     for (at = line.find('"', at); at != line.npos; at = line.find('"', at)) {
       const auto end = line.find('"', at + 1);
+      if (end == line.npos) return {};  // the list has been cut short
       keys.push_back(line.substr(at + 1, end - at - 1));
       at = end + 1;
     }

@@ -158,6 +158,48 @@ TEST(GripTool, HoldsNothingWhereNothingIs) {
   EXPECT_EQ(held.world.tool(0).contacts(), 0U);
 }
 
+/// Cut through between the jaws, tissue stays in them on both sides, and whoever closes them on a cut holds both of its lips.
+TEST(GripTool, HoldsBothSidesOfACut) {
+  Recipe recipe = block("fem");
+  recipe.material += "cut_toughness_J_per_m2 = 100\n";
+  recipe.world +=
+      "[[tool]]\nname = \"blade\"\nshape = \"scalpel\"\nlength_mm = 10\ndevice = \"other\"\n"
+      "[device.other]\ndriver = \"simulated\"\nwaypoints = [[0, 90, 0, 0], [1, 90, 0, 0]]\n";
+  Held held(recipe);
+  BodyModel& moving = held.world.body(0);
+  const Body& body = moving.body();
+  const CellNet& net = *body.cell_net();
+  const Vec3 before = held.pull(Vec3(0, 0, 0.001), 0.05);
+  const std::uint32_t n_held = held.world.tool(0).contacts();
+  std::vector<EdgeGone> faces;
+  for (const Index cell : net.cells())
+    if (const Index other = net.beyond(cell, 3);
+        other != CellNet::none && std::abs(body.rest_position(other).y() - held.start.y()) < 1e-4)
+      faces.push_back({cell, other, {}});
+  ASSERT_EQ(moving.cut(faces), 50);
+  const Vec3 after = held.to(held.path.back());
+  EXPECT_LT((after - before).norm(), 0.3 * before.norm()) << "but for what held across the cut";
+  const std::uint32_t on_the_cut = held.world.tool(0).contacts() - n_held;
+  EXPECT_GT(on_the_cut, 5U);
+  held.pull(Vec3(0, 0, 0.002), 0.1, 0.3);
+  const auto top_of_cut = [&](Index node) {
+    return body.rest_position(node).z() > held.start.z() - 1e-4 &&
+           (body.rest_position(node) - held.start).norm() < 1e-4;
+  };
+  int seen = 0;
+  body.each_copy([&](Index copy) {
+    if (!top_of_cut(copy)) return;
+    ++seen;
+    const double lip = moving.displacement(copy).z(), other = moving.displacement(net.origin(copy)).z();
+    EXPECT_GT(lip, 5e-4);
+    EXPECT_NEAR(lip, other, 0.1 * lip);
+  });
+  EXPECT_EQ(seen, 1);
+  for (int i = 0; i < 300; ++i) held.to(held.start, false);
+  held.to(held.start, true);
+  EXPECT_GT(held.world.tool(0).contacts(), n_held + on_the_cut / 2);
+}
+
 TEST(GripTool, RefusesImplicitSteps) {
   Recipe recipe = block("springs");
   recipe.physics += "\nintegrator = \"backward_euler\"";

@@ -114,10 +114,11 @@ void add_joined(Keys& keys) {
   add_keys(keys, world, nullptr);
 }
 
-/// A tool that has cut.
+/// A tool that has cut and pierced.
 void add_cut(Keys& keys) {
   World world(pressed_slab());
   world.tool(0).book().cut(1e-6, 1e-4);
+  world.tool(0).book().pierced(0.01, 1e-4, 0.1);
   add_keys(keys, world, nullptr);
 }
 
