@@ -71,6 +71,7 @@ void NeedleChannel::find_places(const Vec3& along) noexcept {
     const Vec3& next = n + 1 < n_places_ ? places_[n + 1].place.rest : front_.place.rest;
     held.length = held.last ? 0 : std::clamp(behind, 0.0, (next - held.place.rest).norm());
   }
+  hub_ = n_places_ > 0 && (tip_ - places_[0].x).dot(along) >= needle_.length;
   front_.force.setZero();
   front_.length = needle_.diameter;
   if (end_ != End::surface && end_ != End::tissue) return;
@@ -128,9 +129,9 @@ void NeedleChannel::soften(double Held::*hold, double dt) noexcept {
   });
 }
 
-/// p T, of what is rigid without limit [N].
+/// p T; of what is rigid, and with all of the shaft in tissue, without limit [N].
 double NeedleChannel::most_ahead() const noexcept {
-  if (end_ == End::rigid) return infinite;
+  if (end_ == End::rigid || hub_) return infinite;
   return resistance_ * (end_ == End::surface ? tissue_.law(front_.place).puncture_ratio : 1.0);
 }
 
@@ -170,7 +171,8 @@ Vec3 NeedleChannel::press_aside(Held& held, const Vec3& along, double most, Need
   const double size = asked.norm();
   if (!(size > most)) return asked;
   const Vec3 way = (1 - most / size) / held.across * asked;
-  if (const auto place = tissue_.find(held.place.rest + tissue_.gradient(held.place.rest).inverse() * way)) {
+  const Vec3 rest = held.place.rest + tissue_.gradient(held.place.rest).inverse() * way;
+  if (const auto place = tissue_.find(rest, skin_beyond)) {
     put(held, *place);
     done.area += held.length * way.norm();
     done.work += most * way.norm();
@@ -226,7 +228,7 @@ NeedleOutcome NeedleChannel::step(const TipEntry& entry, const Vec3& hand, const
     go_on(along, done);
     draw_back(along);
   }
-  if (end_ == End::nowhere || end_ == End::beyond) meet_surface(entry, before);
+  if (end_ == End::nowhere || end_ == End::beyond) meet_surface(entry, before, along);
   return done;
 }
 

@@ -69,6 +69,7 @@ class NeedleChannel {
   std::size_t n_held() const noexcept { return n_places_ + (holds() ? 1U : 0U); }
 
  private:
+  static constexpr double skin_beyond = 0.51;  // cells: how far a smooth skin may lie beyond them
   /// Of the channel.
   enum class End { nowhere, surface, tissue, beyond, rigid };
   struct Held {
@@ -99,7 +100,7 @@ class NeedleChannel {
   Vec3 press_aside(Held& held, const Vec3& along, double most, NeedleOutcome& done) noexcept;
   void go_on(const Vec3& along, NeedleOutcome& done) noexcept;
   void draw_back(const Vec3& along) noexcept;
-  void meet_surface(const TipEntry& entry, const Vec3& before) noexcept;
+  void meet_surface(const TipEntry& entry, const Vec3& before, const Vec3& along) noexcept;
   double most_ahead() const noexcept;
   bool has_end() const noexcept { return end_ != End::nowhere && end_ != End::beyond; }
   template <class Visit>
@@ -116,6 +117,7 @@ class NeedleChannel {
   std::size_t n_places_ = 0;
   Held front_;  // the end of the channel
   End end_ = End::nowhere;
+  bool hub_ = false;        // all of the shaft is in tissue: its hub stops it
   bool seen_ = false;       // where the tip was before this step
   bool in_a_cell_ = false;  // the end has come into a cell, from a skin that lies beyond them
   std::size_t entry_ = 0;   // of places_: where the needle went in the last time

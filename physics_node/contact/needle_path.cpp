@@ -7,8 +7,7 @@
 namespace palpate::physics {
 namespace {
 
-constexpr double most_on = 0.5;       // spacings that a tip goes on in a step, whatever lets go of it
-constexpr double skin_beyond = 0.51;  // cells: how far a smooth skin may lie beyond them
+constexpr double most_on = 0.5;  // spacings that a tip goes on in a step, whatever lets go of it
 
 }  // namespace
 
@@ -93,10 +92,11 @@ void NeedleChannel::draw_back(const Vec3& along) noexcept {
   while (entry_ > 0 && !places_[entry_ - 1].last) --entry_;
 }
 
-void NeedleChannel::meet_surface(const TipEntry& entry, const Vec3& before) noexcept {
+/// Out of a wall it enters only what it goes toward: not, drawn back, where it came out.
+void NeedleChannel::meet_surface(const TipEntry& entry, const Vec3& before, const Vec3& along) noexcept {
   const auto through = entry.come_through(before, tip_);
   if (!through) return;
-  if (end_ == End::beyond && (through->rest - front_.place.rest).norm() < tissue_.spacing()) return;
+  if (end_ == End::beyond && through->out.dot(along) >= 0) return;
   if (through->rigid) {
     begin_at({.rest = through->rest});
     end_ = End::rigid;

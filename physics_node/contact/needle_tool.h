@@ -5,7 +5,7 @@
 //
 // The hand is told the force of the frame's last step and how its spring would change that.
 // While physics hears nothing the needle stands, and after Hands::silence its spring lets go, within 200 ms.
-// Limits: it is in one body at a time; it does not bend; its hub meets nothing.
+// Limits: it is in one body at a time; it does not bend; its hub holds the tip back rather than the skin.
 
 #include <memory>
 #include <vector>

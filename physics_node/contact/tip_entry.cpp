@@ -1,6 +1,6 @@
 #include "physics_node/contact/tip_entry.h"
 
-#include <algorithm>
+#include <cmath>
 
 namespace palpate::physics {
 namespace {
@@ -12,6 +12,7 @@ constexpr double between_corners = 1e-6;  // Why: what rounding puts between two
 struct Hit {
   double share = 2;  // of the step; above 1: none
   Vec3 weights = Vec3::Zero();
+  Vec3 out = Vec3::UnitZ();
 };
 
 /// @param a, b  corners at both ends of the step
@@ -32,7 +33,7 @@ Hit pass(const Vec3& p, const Vec3& q, const std::array<Vec3, 3>& a, const std::
     weights[static_cast<Eigen::Index>(i)] =
         normal.dot((c[(i + 1) % 3] - at).cross(c[(i + 2) % 3] - at)) / size;
   if (weights.minCoeff() < -between_corners) return {};
-  return {share, weights};
+  return {share, weights, normal / std::sqrt(size)};
 }
 
 }  // namespace
@@ -74,7 +75,7 @@ std::optional<TipEntry::Through> TipEntry::come_through(const Vec3& before, cons
       const Hit hit = pass(before, now, of(before_[n]), of(at));
       if (hit.share > 1 || hit.share >= first) continue;
       first = hit.share;
-      through = Through{.rigid = !body_.surface->has_mass(facet)};
+      through = Through{.out = hit.out, .rigid = !body_.surface->has_mass(facet)};
       for (std::size_t i = 0; i < 3; ++i)
         through->rest += hit.weights[static_cast<Eigen::Index>(i)] * body_.surface->rest(facet, k[i]);
     }

@@ -26,6 +26,7 @@ class TipEntry {
   void begin_step() noexcept;
   struct Through {
     Vec3 rest = Vec3::Zero();  // of the place through which the tip has come [m]
+    Vec3 out = Vec3::UnitZ();  // of the surface there now, unit
     bool rigid = false;        // it is of scenery
   };
   /// After it. @return the first on its way

@@ -256,6 +256,31 @@ TEST(Needle, ComesOutAndInAgain) {
   EXPECT_EQ(needle.world.report().restored, 0);
 }
 
+/// All of it in tissue it goes no deeper: the hand presses on its hub.
+TEST(Needle, StopsAtItsHub) {
+  Recipe recipe = block();
+  recipe.world.replace(recipe.world.find("length_mm = 60"), 14, "length_mm = 12");
+  Needle needle(recipe);
+  needle.along(at_depth(0.014), 0.05);
+  const double deep = needle.book().deepest();
+  const Vec3 force = needle.along(at_depth(0.020), 0.05).back();
+  EXPECT_LT(needle.book().deepest(), deep + 0.001);
+  EXPECT_GT(force.z(), 2 * (goes_on + friction * deep));
+  EXPECT_EQ(needle.world.report().restored, 0);
+}
+
+/// Barely in, and led aside: it ploughs on at what tissue bears, and the hand pays for it.
+TEST(Needle, PloughsWhereItIsShallow) {
+  Needle needle(block());
+  needle.along(at_depth(0.006), 0.05);
+  needle.along(at_depth(0.003), 0.05);
+  const double opened = needle.book().cut_area();
+  needle.along(at_depth(0.003) + Vec3(0, 0.010, 0), 0.05);
+  EXPECT_GT(needle.book().cut_area(), opened + 3e-6);
+  EXPECT_LT(needle.world.tool(0).borne().norm(), ratio * toughness * (0.003 + diameter) * 1.2);
+  EXPECT_EQ(needle.world.report().restored, 0);
+}
+
 TEST(Needle, LetsGoWithTheHand) {
   Needle needle(block());
   needle.along(at_depth(0.012), 0.05);
