@@ -69,7 +69,7 @@ void NeedleChannel::find_places(const Vec3& along) noexcept {
     if (in && !held.in) held.slider = behind;
     held.in = in;
     const Vec3& next = n + 1 < n_places_ ? places_[n + 1].place.rest : front_.place.rest;
-    held.length = held.last ? 0 : std::clamp(behind, 0.0, (next - held.place.rest).norm());
+    held.length = held.last || held.torn ? 0 : std::clamp(behind, 0.0, (next - held.place.rest).norm());
   }
   hub_ = n_places_ > 0 && (tip_ - places_[0].x).dot(along) >= needle_.length;
   front_.force.setZero();
@@ -176,6 +176,9 @@ Vec3 NeedleChannel::press_aside(Held& held, const Vec3& along, double most, Need
     put(held, *place);
     done.area += held.length * way.norm();
     done.work += most * way.norm();
+  } else if (way.norm() > tissue_.reach() && !tissue_.is_rigid(rest)) {
+    held.torn = true;
+    return Vec3::Zero();
   }
   return most / size * asked;
 }

@@ -82,6 +82,7 @@ class NeedleChannel {
     double along = 0, across = 0;             // k of this step, softened [N/m]
     bool last = false;                        // where the needle came out of the tissue
     bool in = false;                          // the shaft is there
+    bool torn = false;                        // led aside out of the tissue: it holds nothing any more
   };
 
   std::span<Held> places() noexcept { return {places_.data(), n_places_}; }

@@ -1,5 +1,6 @@
 // Where a needle's channel begins, goes on and ends.
 
+#include <algorithm>
 #include <cmath>
 
 #include "physics_node/contact/needle_channel.h"
@@ -25,6 +26,7 @@ void NeedleChannel::begin_at(const PiercedTissue::Place& place) noexcept {
   front_.x = place.rest, front_.v.setZero();
   if (place.cell >= 0) put(front_, place), front_.v = tissue_.velocity(front_.by);
   front_.force.setZero();
+  front_.torn = false;
   entry_ = n_places_;
 }
 
@@ -75,6 +77,9 @@ void NeedleChannel::go_on(const Vec3& along, NeedleOutcome& done) noexcept {
 
 /// Out of what it has pierced last, or off the surface that it has only pressed.
 void NeedleChannel::draw_back(const Vec3& along) noexcept {
+  // Led out of the side of what it was in.
+  if (front_.torn) end_ = n_places_ > 0 ? End::beyond : End::nowhere;
+  if (n_places_ > 0 && std::ranges::all_of(places(), &Held::torn) && !has_end()) return let_go();
   const auto is_out = [&](const Held& held) { return (tip_ - held.x).dot(along) < 0; };
   // What is rigid inside tissue stands at the end of a channel, and is left with it.
   const bool pressed_only = end_ == End::surface || (end_ == End::rigid && entry_ == n_places_);
