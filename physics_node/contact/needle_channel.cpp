@@ -167,6 +167,7 @@ void NeedleChannel::find_tip(const Vec3& hand, const Vec3& along, double stiffne
 
 /// Across, on tissue [N]. What would be more takes its place along.
 Vec3 NeedleChannel::press_aside(Held& held, const Vec3& along, double most, NeedleOutcome& done) noexcept {
+  if (!(most > 0)) return Vec3::Zero();  // no shaft is there yet: nothing to take along
   const Vec3 asked = held.across * aside(tip_ - held.x, along);
   const double size = asked.norm();
   if (!(size > most)) return asked;
