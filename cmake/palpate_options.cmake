@@ -8,6 +8,10 @@ target_compile_options(palpate_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Wimplicit-fallthrough -Wdouble-promotion
   $<$<COMPILE_LANGUAGE:CXX>:-Wold-style-cast>
   -ffp-contract=off)  # the same bits from every optimisation level; see docs/architecture.md
+if(PALPATE_ROOMS AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # gcc looks for what it may forget whenever it holds 128 MB, a tenth of its time; the files of a room hold several times that.
+  target_compile_options(palpate_options INTERFACE --param=ggc-min-heapsize=786432)
+endif()
 if(PALPATE_WERROR)
   target_compile_options(palpate_options INTERFACE -Werror)
 endif()

@@ -1,18 +1,20 @@
 #!/bin/bash
-# Installs what is missing, builds, and runs the whole test suite; then some of its tests once more with sanitizers. The
-# last line is "N passed, N failed, N skipped", counted by test case; those that failed or were skipped are named.
-#   deploy/test.sh                   with sanitizers, the tests labelled `address` (and undefined behaviour) and `thread`
-#   deploy/test.sh --sanitizers      all unit and property tests in place of those labelled `address`: a second build, as
-#                                    long as the first
+# Installs what is missing, builds, and runs the tests; then some of them once more with sanitizers. The last line is
+# "N passed, N failed, N skipped", counted by test case; those that failed or were skipped are named.
+#   deploy/test.sh                   all but the cases that tests/thorough.cmake names; with the address sanitizer (and
+#                                    undefined behaviour) what reads files and the wire
+#   deploy/test.sh --all             every case; with the sanitizers all tests labelled `address` or `thread`
+#   deploy/test.sh --sanitizers      every case; all unit and property tests in place of those labelled `address`
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit
 started=$SECONDS
 . deploy/step.sh
-sanitizers=no
+all=no sanitizers=no
 for word in "$@"; do
   case $word in
-    --sanitizers) sanitizers=yes ;;
-    *) echo "deploy/test.sh: unknown option $word; --sanitizers is the only one" >&2; exit 2 ;;
+    --all) all=yes ;;
+    --sanitizers) all=yes sanitizers=yes ;;
+    *) echo "deploy/test.sh: unknown option $word; there are --all and --sanitizers" >&2; exit 2 ;;
   esac
 done
 trap 'rm -f "$step_log"' EXIT
@@ -52,12 +54,14 @@ must step "head CT" deploy/fetch_head.sh
 must step "labelled abdomen" deploy/fetch_liver.sh
 must step "configure" cmake --preset ready -DPALPATE_ROOMS=ON
 must step "build" cmake --build --preset ready --parallel "$jobs"
-count_tests "tests" ready -j2
-target=address_tests label='^address$'
+cases=(-LE '^thorough$') target=doors_tests label='^doors$'
+[ "$all" = no ] || cases=() target=address_tests label='^address$'
 [ "$sanitizers" = no ] || target=all label='^(unit|property|sanitizers)$'
+count_tests "tests" ready -j2 "${cases[@]}"
 must step "configure with the address sanitizer" cmake --preset asan
 must step "build with the address sanitizer" cmake --build --preset asan --parallel "$jobs" --target "$target"
 count_tests "tests with the address sanitizer" asan -j2 -L "$label"
+[ "$all" = yes ] || finish
 must step "configure with the thread sanitizer" cmake --preset tsan
 must step "build with the thread sanitizer" cmake --build --preset tsan --parallel "$jobs" --target thread_tests
 count_tests "tests with the thread sanitizer" tsan -j2 -L '^thread$'

@@ -74,8 +74,18 @@ class TestScript : public testing::Test {
   test::TemporaryFolder folder_;
 };
 
-TEST_F(TestScript, RunsTheSuiteAndBothSanitizersAndCountsAllThree) {
+TEST_F(TestScript, RunsAllButTheThoroughAndTheDoorsWithASanitizer) {
   const auto [said, code] = run("");
+  EXPECT_THAT(said, EndsWith("\n4 passed, 0 failed, 0 skipped\n"));
+  EXPECT_EQ(code, 0);
+  const std::string calls = text("calls");
+  EXPECT_THAT(calls, HasSubstr("ctest ready ^thorough$\n"));
+  EXPECT_THAT(calls, HasSubstr("--target doors_tests\nctest asan ^doors$\n"));
+  EXPECT_THAT(calls, Not(HasSubstr("tsan")));
+}
+
+TEST_F(TestScript, RunsEveryCaseAndBothSanitizersWhenAsked) {
+  const auto [said, code] = run("", "--all");
   EXPECT_THAT(said, EndsWith("\n6 passed, 0 failed, 0 skipped\n"));
   EXPECT_EQ(code, 0);
   const std::string calls = text("calls");
@@ -86,23 +96,25 @@ TEST_F(TestScript, RunsTheSuiteAndBothSanitizersAndCountsAllThree) {
 
 TEST_F(TestScript, FailsWhereATestFailsWithASanitizer) {
   for (const auto* preset : {"asan", "tsan"}) {
-    const auto [said, code] = run(preset);
+    const auto [said, code] = run(preset, "--all");
     EXPECT_THAT(said, HasSubstr("failed: a: all its cases passed, but not the program")) << preset;
     EXPECT_THAT(said, EndsWith("\n6 passed, 1 failed, 0 skipped\n")) << preset;
     EXPECT_EQ(code, 1) << preset;
   }
+  EXPECT_EQ(run("asan").second, 1);
 }
 
 TEST_F(TestScript, FailsWhereASanitizerRunsNothing) {
   for (const auto* fault : {"nothing:asan", "nothing:tsan"}) {
-    const auto [said, code] = run(fault);
+    const auto [said, code] = run(fault, "--all");
     EXPECT_THAT(said, EndsWith("\n4 passed, 1 failed, 0 skipped\n")) << fault;
     EXPECT_EQ(code, 1) << fault;
   }
+  EXPECT_EQ(run("nothing:asan").second, 1);
 }
 
 TEST_F(TestScript, FailsWhereABuildWithASanitizerFails) {
-  const auto [said, code] = run("--preset tsan");
+  const auto [said, code] = run("--preset tsan", "--all");
   EXPECT_THAT(said, EndsWith("\n4 passed, 1 failed, 0 skipped\n"));
   EXPECT_EQ(code, 1);
 }
@@ -110,6 +122,7 @@ TEST_F(TestScript, FailsWhereABuildWithASanitizerFails) {
 TEST_F(TestScript, ShowsAllUnitAndPropertyTestsToTheAddressSanitizerWhenAsked) {
   const auto [said, code] = run("", "--sanitizers");
   EXPECT_EQ(code, 0);
+  EXPECT_THAT(text("calls"), HasSubstr("ctest ready -j2\n"));
   EXPECT_THAT(text("calls"), HasSubstr("--target all\nctest asan ^(unit|property|sanitizers)$\n"));
   EXPECT_THAT(text("calls"), HasSubstr("ctest tsan ^thread$\n"));
 }

@@ -54,7 +54,7 @@ TEST(ProjectOut, AgreesWithBruteForceOnRandomPlanes) {
     std::vector<HalfSpace> planes(1 + random() % 6);
     for (auto& plane : planes) plane = random_plane(random);
     const Vec3 x = 0.01 * Vec3(g(random), g(random), g(random));
-    Vec3L best;
+    Vec3L best = Vec3L::Zero();
     if (!nearest_by_force(planes, x, best)) continue;
     const Projection projection = project_out(planes, x);
     if (!projection.feasible) {  // nearly dependent sets
