@@ -6,11 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <span>
 
 #include "bench/problems/hex_beam.h"
 #include "common/scene/scene.h"
 #include "physics_node/report/run_warnings.h"
 #include "physics_node/world.h"
+#include "tests/support/physics/recorded_hand.h"
 #include "tests/support/physics/solid_box.h"
 
 namespace palpate::physics::test {
@@ -257,6 +260,30 @@ INSTANTIATE_TEST_SUITE_P(Kinds, SolidBody,
                                          Hourglassed{"isotropic", "double"},
                                          Hourglassed{"physical", "single"},
                                          Hourglassed{"isotropic", "single"}));
+
+/// A thin tip goes through a wall and turns its cells inside out: a frame has as many steps as these and their dampers ask for, however
+/// long it is.
+TEST(ThinTip, KeepsTheBooksInLongFrames) {
+  Recipe recipe = solid_box(12, 8, 28, 2);
+  recipe.physics = "frame_Hz = 20";
+  recipe.body += "\nfixed = [\"-z\"]";
+  recipe.material += "\nviscosity_Pa_s = 2";
+  recipe.world =
+      "[[tool]]\nname = \"tip\"\nshape = \"point\"\nradius_mm = 2\ndevice = \"hand\"\nstiffness_N_per_m = "
+      "4000\n"
+      "[device.hand]\ndriver = \"simulated\"\nwaypoints = [[0, 0, 0, 50], [1, 0, 0, 40]]\n";
+  World world(scene_of(recipe));
+  const auto path = [](double t) {
+    return Vec3(0.0003, std::clamp(0.008 - 0.6 * (t - 0.06), -0.010, 0.008), -0.006);
+  };
+  for (std::uint64_t n = 1; n <= 4; ++n) {
+    std::optional<ToolState> hand = recorded_hand(path, 50 * n);
+    hand->stiffness = 4000;
+    world.frame(std::span(&hand, 1));
+  }
+  EXPECT_GT(world.report().tool_work, 1e-4);
+  EXPECT_LT(world.ledger().balance_error(), 0.002);
+}
 
 TEST(Cantilever, BendsAsQuadraticBricksDoFromTwoCellsOn) {
   const std::map<int, double> within = {{2, 0.05}, {4, 0.02}, {8, 0.005}};
