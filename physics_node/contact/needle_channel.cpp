@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace palpate::physics {
 namespace {
@@ -11,6 +12,8 @@ constexpr double held_by =
     20;  // k over K. Why: as of a blade, so that the hand's own spring is what the hand feels
 constexpr double of_reach =
     0.5;  // Why: so that the balls of two places overlap, and a shaft is held alike all along it
+constexpr double on_bone =
+    0.3;  // Coulomb's, of a tip that slides. Why: between those of wet and dry bone on steel
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 Vec3 aside(const Vec3& v, const Vec3& along) noexcept { return v - along.dot(v) * along; }
@@ -56,29 +59,63 @@ void NeedleChannel::begin_step() noexcept {
   begin(front_);
 }
 
-/// Where all is, and which of it the shaft has come to. A place answers for the shaft from there to the next, or to
-/// the tip.
-void NeedleChannel::find_places(const Vec3& along) noexcept {
+/// r of the shaft's hold, where more of it has come: (b - x) -> r (b - x), along and across.
+void NeedleChannel::take_in(Held& held, double before, double now, const Eigen::Matrix3d& to_rest,
+                            const Vec3& along) noexcept {
+  if (!(now > before)) return;
+  const double part = 1 - before / now;
+  if (&held != &front_) held.slider += part * ((tip_ - held.x).dot(along) - held.slider);
+  const Vec3 rest = held.place.rest + part * (to_rest * aside(tip_ - held.x, along));
+  if (const auto place = tissue_.find(rest, skin_beyond)) put(held, *place);
+}
+
+/// Is the tip farther beside it than a channel is wide?
+bool NeedleChannel::is_beside(const Held& held, const Vec3& along) const noexcept {
+  return aside(tip_ - held.x, along).norm() > needle_.diameter;
+}
+
+/// Where the end is, what it resists with, and how much of it holds the tip across: what the tip does not stand before
+/// any more it lets go of gradually, as it is drawn back.
+void NeedleChannel::find_end(const Vec3& along) noexcept {
   front_.x = front_.place.rest + tissue_.displacement(front_.by);
-  for (std::size_t n = 0; n < n_places_; ++n) {
-    Held& held = places_[n];
-    held.x = held.place.rest + tissue_.displacement(held.by);
-    held.force.setZero();
-    const double behind = (tip_ - held.x).dot(along);
-    const bool in = behind > 0 && behind < needle_.length;
-    if (in && !held.in) held.slider = behind;
-    held.in = in;
-    const Vec3& next = n + 1 < n_places_ ? places_[n + 1].place.rest : front_.place.rest;
-    held.length = held.last || held.torn ? 0 : std::clamp(behind, 0.0, (next - held.place.rest).norm());
-  }
-  hub_ = n_places_ > 0 && (tip_ - places_[0].x).dot(along) >= needle_.length;
   front_.force.setZero();
   front_.length = needle_.diameter;
   if (end_ != End::surface && end_ != End::tissue) return;
   resistance_ = tissue_.law(front_.place).cut_toughness * needle_.diameter;
   if (end_ == End::surface) return;
-  to_rest_ = tissue_.gradient(front_.place.rest).inverse();
-  if (const double stretch = (to_rest_ * along).norm(); std::isfinite(stretch)) resistance_ *= stretch;
+  to_rest_ = tissue_.to_rest(front_.place.rest);
+  resistance_ *= (to_rest_ * along).norm();
+  const double before =
+      std::exchange(before_it_, std::clamp(1 + (tip_ - front_.x).dot(along) / apart_, 0.0, 1.0));
+  if (before == 0 && before_it_ > 0 && is_beside(front_, along))
+    leave_at(n_places_, front_.place.rest + to_rest_ * (tip_ - front_.x));
+  else
+    take_in(front_, before, before_it_, to_rest_, along);
+}
+
+/// Where all is, and which of it the shaft has come to. A place answers for the shaft from there to the next, or to
+/// the tip.
+void NeedleChannel::find_places(const Vec3& along) noexcept {
+  find_end(along);
+  for (std::size_t n = 0; n < n_places_; ++n) {
+    Held& held = places_[n];
+    held.x = held.place.rest + tissue_.displacement(held.by);
+    held.force.setZero();
+    const double behind = (tip_ - held.x).dot(along);
+    const bool came = !std::exchange(held.in, behind > 0 && behind < needle_.length) && held.in;
+    const double before = came ? 0.0 : held.length;
+    held.length = held.last || held.torn ? 0 : std::clamp(behind, 0.0, held.room);
+    if (!held.in || !(held.length > before)) continue;
+    const bool at_the_end = n + 1 == n_places_ && end_ == End::tissue;
+    const Eigen::Matrix3d to_rest = at_the_end ? to_rest_ : tissue_.to_rest(held.place.rest);
+    if (came && n > entry_ && behind < apart_ && is_beside(held, along)) {
+      if (n > 0) places_[n - 1].room = std::min(places_[n - 1].room, (tip_ - places_[n - 1].x).dot(along));
+      leave_at(n, held.place.rest + to_rest * (tip_ - held.x));
+      break;
+    }
+    take_in(held, before, held.length, to_rest, along);
+  }
+  hub_ = n_places_ > 0 && (tip_ - places_[0].x).dot(along) >= needle_.length;
 }
 
 NearNeedle NeedleChannel::near(const ElementLaw& law) const noexcept {
@@ -89,7 +126,7 @@ NearNeedle NeedleChannel::near(const ElementLaw& law) const noexcept {
 }
 
 /// k of all that is held. Not stiffer than a multiple of the hand's spring, which is all the same to the hand.
-void NeedleChannel::find_holds(const Vec3& along, double stiffness) noexcept {
+void NeedleChannel::find_holds(double stiffness) noexcept {
   const double most = held_by * stiffness;
   each_held([&](Held& held) {
     held.along = held.across = most;
@@ -104,8 +141,7 @@ void NeedleChannel::find_holds(const Vec3& along, double stiffness) noexcept {
     }
     const double enters = law.puncture_ratio * law.cut_toughness * needle_.diameter;
     held.along = held.across = 1 / (1 / most + gives.tip(enters) / enters);
-    // What it does not stand before any more it lets go of gradually, as the tip is drawn back.
-    if (end_ == End::tissue) held.across *= std::clamp(1 + (tip_ - front_.x).dot(along) / apart_, 0.0, 1.0);
+    if (end_ == End::tissue) held.across *= before_it_;
   });
 }
 
@@ -165,22 +201,32 @@ void NeedleChannel::find_tip(const Vec3& hand, const Vec3& along, double stiffne
   tip_ = hand + off_;
 }
 
-/// Across, on tissue [N]. What would be more takes its place along.
+/// Across, on tissue [N]. What would be more takes its place along; where no tissue is any more, the shaft comes out.
 Vec3 NeedleChannel::press_aside(Held& held, const Vec3& along, double most, NeedleOutcome& done) noexcept {
-  if (!(most > 0)) return Vec3::Zero();  // no shaft is there yet: nothing to take along
+  held.slips = false;
+  if (!(most > 0)) return Vec3::Zero();  // no shaft is there yet
   const Vec3 asked = held.across * aside(tip_ - held.x, along);
   const double size = asked.norm();
   if (!(size > most)) return asked;
   const Vec3 way = (1 - most / size) / held.across * asked;
-  const Vec3 rest = held.place.rest + tissue_.gradient(held.place.rest).inverse() * way;
-  if (const auto place = tissue_.find(rest, skin_beyond)) {
-    put(held, *place);
+  if (held.place.cell < 0) {
+    held.place.rest += way;
+    held.x = held.place.rest;
+    done.rubbed += most * way.norm();
+  } else {
+    const Vec3 rest = held.place.rest + tissue_.to_rest(held.place.rest) * way;
+    if (const auto place = tissue_.find(rest, skin_beyond))
+      put(held, *place);
+    else if (tissue_.is_rigid(rest))
+      return asked;
+    else if (!slide_on_surface(held, rest, along)) {
+      held.torn = true;
+      return Vec3::Zero();
+    }
     done.area += held.length * way.norm();
     done.work += most * way.norm();
-  } else if (way.norm() > tissue_.reach() && !tissue_.is_rigid(rest)) {
-    held.torn = true;
-    return Vec3::Zero();
   }
+  held.slips = true;
   return most / size * asked;
 }
 
@@ -196,14 +242,19 @@ void NeedleChannel::press(const Vec3& along, NeedleOutcome& done) noexcept {
       held.slider += slips;
       done.rubbed += rubs * slips;
     }
+    if (asked == rubs) done.along += held.along;
     held.force =
         rubs * along + press_aside(held, along, law.puncture_ratio * law.cut_toughness * held.length, done);
+    if (!held.slips) done.across += held.across;
   }
   if (!has_end()) return;
-  const double ahead = std::clamp(front_.along * (tip_ - front_.x).dot(along), 0.0, most_ahead());
+  const double asked = front_.along * (tip_ - front_.x).dot(along);
+  const double ahead = std::clamp(asked, 0.0, most_ahead());
+  if (asked == ahead) done.along += front_.along;
   const double across =
-      end_ == End::rigid ? infinite : tissue_.law(front_.place).puncture_ratio * resistance_;
+      front_.place.cell >= 0 ? tissue_.law(front_.place).puncture_ratio * resistance_ : on_bone * ahead;
   front_.force = ahead * along + press_aside(front_, along, across, done);
+  if (!front_.slips) done.across += front_.across;
 }
 
 NeedleOutcome NeedleChannel::step(const TipEntry& entry, const Vec3& hand, const Vec3& along,
@@ -216,7 +267,7 @@ NeedleOutcome NeedleChannel::step(const TipEntry& entry, const Vec3& hand, const
   seen_ = true;
   if (holds()) {
     find_places(along);
-    find_holds(along, stiffness);
+    find_holds(stiffness);
     soften(&Held::along, dt);
     soften(&Held::across, dt);
     find_tip(hand, along, stiffness);
@@ -227,7 +278,6 @@ NeedleOutcome NeedleChannel::step(const TipEntry& entry, const Vec3& hand, const
       done.force += held.force;
       done.moment += (held.x - tip_).cross(held.force);
       done.power += held.force.dot(held.v);
-      done.held += held.across;
     });
     go_on(along, done);
     draw_back(along);

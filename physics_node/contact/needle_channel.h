@@ -12,7 +12,15 @@
 // is the hand's spring, k_n how stiffly tissue holds the needle near to it (near_needle.h), l_n the length of shaft that a place answers for, c_n where on the shaft that
 // holds it (dry friction with a bristle), f friction by length. Gc is the tissue's toughness, d the diameter: a tip opens
 // a crack as wide as that, by Gc times its area at rest; p is the puncture ratio. Drawn back, the needle only rubs, and
-// what it has opened it finds open. A shaft that is forced aside cuts with all of its length.
+// what it has opened it finds open, unless it comes back beside it by more than its diameter: then it cuts anew from there.
+// A shaft that is forced aside cuts with all of its length, by p Gc; at a free face it comes out.
+//
+// Shaft that comes to a place brings no force along, as it goes where it is. So where l_n grows to l_n', c_n and x_n take
+// over of what holds it the part that is new,
+//
+//   b - x_n -> r (b - x_n),   r = l_n / l_n'
+//
+// or a spring would be stretched that nobody has stretched. Bone ahead holds the tip, and aside what is softer there.
 //
 // Force and tissue are solved for together, as of a blade (blade_edge.h): k_n / (1 + g_n), g_n the sum of a row of the
 // compliance of a step.
@@ -36,18 +44,18 @@ struct NeedleSpec {
 
 /// Of one step.
 struct NeedleOutcome {
-  Vec3 force = Vec3::Zero();   // on tissue, all of it [N]
-  Vec3 moment = Vec3::Zero();  // about the tip [N m]
-  double power = 0;            // with the velocities of begin_step() [W]
-  double area = 0, work = 0;   // of the crack: opened [m^2], and what that took [J]
-  double rubbed = 0;           // between shaft and tissue [J]
-  bool entered = false;        // the surface has let the tip in
-  double held = 0;             // how stiffly tissue holds the needle, as long as nothing slips [N/m]
+  Vec3 force = Vec3::Zero();     // on tissue, all of it [N]
+  Vec3 moment = Vec3::Zero();    // about the tip [N m]
+  double power = 0;              // with the velocities of begin_step() [W]
+  double area = 0, work = 0;     // of the crack: opened [m^2], and what that took [J]
+  double rubbed = 0;             // between shaft and tissue [J]
+  bool entered = false;          // the surface has let the tip in
+  double across = 0, along = 0;  // how stiffly tissue holds the needle by what did not slip [N/m]
 };
 
 class NeedleChannel {
  public:
-  static constexpr std::size_t most_places = 256;
+  static constexpr std::size_t most_places = 256;  // the last sixteen for where it comes in and out of walls
 
   NeedleChannel(const BodyModel& body, const NeedleSpec& needle);
 
@@ -79,9 +87,11 @@ class NeedleChannel {
     Vec3 force = Vec3::Zero();                // on tissue [N]
     double slider = 0;                        // c: the shaft's place there, from the tip back [m]
     double length = 0;                        // l [m]
+    double room = 0;                          // to the next, as the end has gone on from there [m]
     double along = 0, across = 0;             // k of this step, softened [N/m]
     bool last = false;                        // where the needle came out of the tissue
     bool in = false;                          // the shaft is there
+    bool slips = false;                       // across, in this step
     bool torn = false;                        // led aside out of the tissue: it holds nothing any more
   };
 
@@ -90,8 +100,13 @@ class NeedleChannel {
   void put(Held& held, const PiercedTissue::Place& place) const noexcept;
   void begin_at(const PiercedTissue::Place& place) noexcept;
   Held& keep_front() noexcept;
+  void find_end(const Vec3& along) noexcept;
   void find_places(const Vec3& along) noexcept;
-  void find_holds(const Vec3& along, double stiffness) noexcept;
+  void take_in(Held& held, double before, double now, const Eigen::Matrix3d& to_rest,
+               const Vec3& along) noexcept;
+  bool is_beside(const Held& held, const Vec3& along) const noexcept;
+  void leave_at(std::size_t n, const Vec3& rest) noexcept;
+  void find_holds(double stiffness) noexcept;
   void soften(double Held::*hold, double dt) noexcept;
   NearNeedle near(const ElementLaw& law) const noexcept;
   /// All that tissue presses back with while the tip is so far before the hand [N].
@@ -99,6 +114,7 @@ class NeedleChannel {
   void find_tip(const Vec3& hand, const Vec3& along, double stiffness) noexcept;
   void press(const Vec3& along, NeedleOutcome& done) noexcept;
   Vec3 press_aside(Held& held, const Vec3& along, double most, NeedleOutcome& done) noexcept;
+  bool slide_on_surface(Held& held, const Vec3& rest, const Vec3& along) noexcept;
   void go_on(const Vec3& along, NeedleOutcome& done) noexcept;
   void draw_back(const Vec3& along) noexcept;
   void meet_surface(const TipEntry& entry, const Vec3& before, const Vec3& along) noexcept;
@@ -123,6 +139,7 @@ class NeedleChannel {
   bool in_a_cell_ = false;  // the end has come into a cell, from a skin that lies beyond them
   std::size_t entry_ = 0;   // of places_: where the needle went in the last time
   double resistance_ = 0;   // T, at a surface Gc d [N]
+  double before_it_ = 0;    // how much of the end holds the tip across, 0 to 1
   Eigen::Matrix3d to_rest_ = Eigen::Matrix3d::Identity();  // F^-1 at the end
   Vec3 tip_ = Vec3::Zero(), off_ = Vec3::Zero();           // off_: of the tip from the hand [m]
   Index copies_ = 0;

@@ -8,7 +8,8 @@
 namespace palpate::physics {
 namespace {
 
-constexpr double most_on = 0.5;  // spacings that a tip goes on in a step, whatever lets go of it
+constexpr std::size_t for_walls = 16;  // places that are kept for them
+constexpr double most_on = 0.5;        // spacings that a tip goes on in a step, whatever lets go of it
 
 }  // namespace
 
@@ -28,19 +29,54 @@ void NeedleChannel::begin_at(const PiercedTissue::Place& place) noexcept {
   front_.force.setZero();
   front_.torn = false;
   entry_ = n_places_;
+  before_it_ = 1;
 }
 
-/// The shaft is going to hold it, too, where the end is now.
+/// Beside its channel from the place numbered n on, which it forgets: the end is where the tip is.
+void NeedleChannel::leave_at(std::size_t n, const Vec3& rest) noexcept {
+  n_places_ = n;
+  const auto place = tissue_.find(rest, skin_beyond);
+  if (!place) {
+    end_ = End::beyond;
+    if (n > 0) places_[n - 1].last = true;
+    return;
+  }
+  put(front_, *place);
+  front_.v = tissue_.velocity(front_.by);
+  front_.torn = false;
+  end_ = End::tissue;
+  before_it_ = 1;
+  in_a_cell_ = false;
+  to_rest_ = tissue_.to_rest(rest);
+  keep_front();
+}
+
+/// On a surface that falls away beside the tip it follows that, a spacing deep at most.
+bool NeedleChannel::slide_on_surface(Held& held, const Vec3& rest, const Vec3& along) noexcept {
+  if (&held != &front_ || end_ != End::surface) return false;
+  for (double deep = 1.0 / 16; deep <= 1; deep *= 2)
+    if (const auto place = tissue_.find(rest + deep * tissue_.spacing() * along, skin_beyond)) {
+      put(held, *place);
+      return true;
+    }
+  return false;
+}
+
+/// The shaft is going to hold it, too, where the end is now: so far by no length.
 NeedleChannel::Held& NeedleChannel::keep_front() noexcept {
   Held& held = places_[n_places_++];
   held = front_;
   held.force.setZero();
-  held.in = held.last = false;
+  held.in = true, held.last = false;
+  held.length = held.room = 0;
+  held.slider = 0;
   return held;
 }
 
 /// The end of the channel goes on where the tip presses more than tissue bears.
 void NeedleChannel::go_on(const Vec3& along, NeedleOutcome& done) noexcept {
+  if (end_ == End::rigid && front_.slips && front_.place.cell >= 0)
+    end_ = End::tissue;  // until bone is ahead again
   if (end_ != End::surface && end_ != End::tissue) return;
   const double most = most_ahead(), asked = front_.along * (tip_ - front_.x).dot(along);
   if (!(asked > most) || !(front_.along > 0)) return;
@@ -58,8 +94,7 @@ void NeedleChannel::go_on(const Vec3& along, NeedleOutcome& done) noexcept {
   const auto inside = tissue_.find(rest);
   in_a_cell_ = in_a_cell_ || inside;
   const auto place = in_a_cell_ ? inside : tissue_.find(rest, skin_beyond);
-  const bool stops = !place && tissue_.is_rigid(rest);
-  if (stops || n_places_ == most_places) {
+  if (!place && tissue_.is_rigid(rest)) {
     end_ = End::rigid;
     return;
   }
@@ -67,12 +102,15 @@ void NeedleChannel::go_on(const Vec3& along, NeedleOutcome& done) noexcept {
   done.work += resistance_ * on;
   if (!place) {
     end_ = End::beyond;
-    keep_front().last = true;
+    if (n_places_ < most_places) keep_front();
+    places_[n_places_ - 1].last = true;
     return;
   }
   put(front_, *place);
-  if ((front_.place.rest - places_[n_places_ - 1].place.rest).norm() < apart_) return;
-  keep_front();
+  // By the way along: what has been led aside needs no more places.
+  double& room = places_[n_places_ - 1].room;
+  room += way.norm();
+  if (n_places_ + for_walls < most_places && room >= apart_) keep_front();
 }
 
 /// Out of what it has pierced last, or off the surface that it has only pressed.

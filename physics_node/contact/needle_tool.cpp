@@ -118,10 +118,15 @@ void NeedleTool::write_wrench(ToolWrench& out, std::uint64_t frame, std::int64_t
                               double t) const noexcept {
   begin_wrench(out, wrench(), frame, now_ns, t);
   if (!presses_) return;
-  // Also while it slips: of a way that no spring holds the hand feels no force.
-  const double k = keep_ * stiffness_, held = done_.held;
+  // What slips gives no more force as the hand goes on. Yet of a way that no spring holds the hand feels none at all.
+  constexpr double least = 0.01;
+  const double k = keep_ * stiffness_;
+  const auto in_series = [k](double held) { return k * held / (k + held); };
+  const double across = std::max(in_series(done_.across), least * k),
+               along = std::max(in_series(done_.along), least * k);
   Mat6 K = Mat6::Zero();
-  if (held > 0) K.topLeftCorner<3, 3>() = k * held / (k + held) * Eigen::Matrix3d::Identity();
+  K.topLeftCorner<3, 3>() =
+      across * Eigen::Matrix3d::Identity() + (along - across) * along_ * along_.transpose();
   Eigen::Map<Mat6>(out.stiffness.data()) = K;  // symmetric
 }
 

@@ -264,4 +264,12 @@ Eigen::Matrix3d PiercedTissue::gradient(const Vec3& rest) noexcept {
   return F;
 }
 
+Eigen::Matrix3d PiercedTissue::to_rest(const Vec3& rest) noexcept {
+  constexpr double folded = 0.05, most_stretch = 10;
+  const Eigen::Matrix3d F = gradient(rest);
+  if (!(F.determinant() > folded)) return Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d inverse = F.inverse();
+  return inverse.norm() < most_stretch ? inverse : Eigen::Matrix3d::Identity();
+}
+
 }  // namespace palpate::physics

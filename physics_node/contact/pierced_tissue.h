@@ -49,8 +49,10 @@ class PiercedTissue {
   Index copies() const noexcept;
   Vec3 displacement(const Carriers& by) const noexcept;  // [m]
   Vec3 velocity(const Carriers& by) const noexcept;      // [m/s]
-  /// dx / dX
+  /// F = dx / dX
   Eigen::Matrix3d gradient(const Vec3& rest) noexcept;
+  /// F^-1; of tissue that is folded, where it says nothing, the identity.
+  Eigen::Matrix3d to_rest(const Vec3& rest) noexcept;
 
   double poisson_ratio() const noexcept { return poisson_ratio_; }
   double reach() const noexcept { return reach_; }      // r [m]
