@@ -141,21 +141,33 @@ void add_voxels(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
   }
 }
 
-/// Whole cells make a box of another size where its sides are no multiples of them.
+/// Where its sides are no multiples of them, whole cells make a box of another size, and a few that are filled in part
+/// bend as no box does.
 void add_box_of_cells(const Scene& scene, const Bodies& bodies, Remarks& remarks) {
-  constexpr double most_off = 0.15;
+  constexpr double most_off = 0.15, a_multiple = 0.02;
+  constexpr double few = 8;  // Why: from there on filled cells bend as the shape does, within 3 %
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const Body& body = bodies[b]->body();
     const auto* box = std::get_if<BoxShape>(&scene.bodies[b].shape);
-    if (box == nullptr || !body.cells || !body.cells->share.empty() || !scene.bodies[b].cavities.empty())
-      continue;
+    if (box == nullptr || !body.cells || !scene.bodies[b].cavities.empty()) continue;
     const Cells& cells = *body.cells;
+    const Vec3 across = box->size.cwiseQuotient(cells.spacing);
+    if (!cells.share.empty()) {
+      const Vec3 rest = across - Vec3(across.array().round());
+      if (across.minCoeff() < few && rest.cwiseAbs().maxCoeff() > a_multiple)
+        remarks.push_back(fmt::format(
+            "{}: a box {:.2g} cells thick, some of them filled in part, is up to a third stiffer or softer "
+            "than one; choose a spacing_mm that its sides are multiples of",
+            who(scene, b), across.minCoeff()));
+      continue;
+    }
     const double ratio = static_cast<double>(cells.n_filled()) * cells.spacing.prod() / box->size.prod();
     if (std::abs(ratio - 1) > most_off)
       remarks.push_back(
           fmt::format("{}: its cells make {:.2f} times the volume of its box; choose a spacing_mm that its "
                       "sides are multiples of{}",
-                      who(scene, b), ratio, body.solid ? ", or border_cells = \"filled\"" : ""));
+                      who(scene, b), ratio,
+                      body.solid && across.minCoeff() >= few ? ", or border_cells = \"filled\"" : ""));
   }
 }
 

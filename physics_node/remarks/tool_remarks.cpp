@@ -166,6 +166,31 @@ void add_buzzing(const Scene& scene, const Bodies& bodies, const ToolSpec& tool,
           tool.place.text(), tool.name, scene.bodies[b].name));
 }
 
+/// What is only there to be compared with.
+void add_unbounded(const ToolSpec& tool, Remarks& found) {
+  const ForceModel model = force_model_of(tool);
+  if (tool.shape != ToolShape::point || (model != ForceModel::direct && model != ForceModel::raw_planes))
+    return;
+  found.push_back(
+      fmt::format("{}: tool \"{}\" has a force_model of the papers, to be compared with: it presses masses "
+                  "rather than faces, "
+                  "and nothing bounds the energy that it puts into tissue; write force_model = \"tissue\"",
+                  tool.place.text(), tool.name));
+}
+
+/// Under a solver that takes whole frames a tip presses masses.
+void add_masses_under_it(const Scene& scene, const Bodies& bodies, const ToolSpec& tool, Remarks& found) {
+  if (tool.shape != ToolShape::point || tool.contact ||
+      scene.physics->integrator != Integrator::backward_euler)
+    return;
+  for (const auto& body : bodies)
+    if (bears_by_faces(body->body()))
+      found.push_back(fmt::format(
+          "{}: tool \"{}\" presses masses of body \"{}\" under integrator = \"backward_euler\", as contact = "
+          "\"nodes\" does, and bears two or three times as much as by its faces; explicit steps know these",
+          tool.place.text(), tool.name, body->body().name));
+}
+
 /// Jaws between whose masses there is room for them.
 void add_empty_jaws(const Scene& scene, const Bodies& bodies, const ToolSpec& tool, Remarks& found) {
   if (tool.shape != ToolShape::forceps) return;
@@ -186,6 +211,8 @@ Remarks tool_remarks(const Scene& scene, const Bodies& bodies) {
     add_tiny(scene, bodies, tool, all);
     add_empty_jaws(scene, bodies, tool, all);
     add_buzzing(scene, bodies, tool, all);
+    add_unbounded(tool, all);
+    add_masses_under_it(scene, bodies, tool, all);
   }
   for (const ToolSpec& tool : scene.tools)
     for (auto& remark : ToolLook(scene, bodies, tool).remarks()) all.push_back(std::move(remark));

@@ -64,9 +64,23 @@ TEST(Remarks, SayHowMuchLargerCellsMakeABox) {
   EXPECT_EQ(said.find("border_cells"), std::string::npos) << "springs have none: " << said;
   std::vector<std::string> solid = small;
   solid.emplace_back("body.block.model=\"fem\"");
-  EXPECT_NE(all(remarks_of(sound, solid)).find("border_cells = \"filled\""), std::string::npos);
+  EXPECT_EQ(all(remarks_of(sound, solid)).find("border_cells"), std::string::npos)
+      << "too few cells for that";
   solid.emplace_back("body.block.border_cells=\"filled\"");
-  EXPECT_EQ(all(remarks_of(sound, solid)).find("times the volume"), std::string::npos);
+  EXPECT_NE(all(remarks_of(sound, solid)).find("a box 2.5 cells thick"), std::string::npos);
+  solid[1] = "body.block.spacing_mm=2.5";
+  EXPECT_EQ(all(remarks_of(sound, solid)).find("cells thick"), std::string::npos);
+  solid = {"body.block.size_mm=[30,30,30]", "body.block.spacing_mm=3.5", "body.block.model=\"fem\""};
+  EXPECT_NE(all(remarks_of(sound, solid)).find("border_cells = \"filled\""), std::string::npos);
+}
+
+TEST(Remarks, SayWhereATipPressesMasses) {
+  const std::string fem = "body.block.model=\"fem\"";
+  EXPECT_NE(
+      all(remarks_of(sound, {fem, "physics.integrator=\"backward_euler\""})).find("bears two or three times"),
+      std::string::npos);
+  EXPECT_NE(all(remarks_of(sound, {fem, "tool.tip.force_model=\"direct\""})).find("of the papers"),
+            std::string::npos);
 }
 
 struct Mistake {
