@@ -12,6 +12,8 @@ constexpr double held_by =
     20;  // k over K. Why: as of a blade, so that the hand's own spring is what the hand feels
 constexpr double of_reach =
     0.5;  // Why: so that the balls of two places overlap, and a shaft is held alike all along it
+constexpr double about_to_enter =
+    0.1;  // Why: a tip that is pressed straight on does not slip where it will enter
 constexpr double on_bone =
     0.3;  // Coulomb's, of a tip that slides. Why: between those of wet and dry bone on steel
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -74,6 +76,11 @@ bool NeedleChannel::is_beside(const Held& held, const Vec3& along) const noexcep
   return aside(tip_ - held.x, along).norm() > needle_.diameter;
 }
 
+/// Its shaft ends at the tip from now on.
+void NeedleChannel::end_room_at_tip(Held& held, const Vec3& along) const noexcept {
+  held.room = std::clamp((tip_ - held.x).dot(along), 0.0, held.room);
+}
+
 /// Where the end is, what it resists with, and how much of it holds the tip across: what the tip does not stand before
 /// any more it lets go of gradually, as it is drawn back.
 void NeedleChannel::find_end(const Vec3& along) noexcept {
@@ -84,7 +91,8 @@ void NeedleChannel::find_end(const Vec3& along) noexcept {
   resistance_ = tissue_.law(front_.place).cut_toughness * needle_.diameter;
   if (end_ == End::surface) return;
   to_rest_ = tissue_.to_rest(front_.place.rest);
-  resistance_ *= (to_rest_ * along).norm();
+  // Why no more than to enter: the more tissue is pressed together before the tip, the more of it there is to part.
+  resistance_ *= std::min((to_rest_ * along).norm(), tissue_.law(front_.place).puncture_ratio);
   const double before =
       std::exchange(before_it_, std::clamp(1 + (tip_ - front_.x).dot(along) / apart_, 0.0, 1.0));
   if (before == 0 && before_it_ > 0 && is_beside(front_, along))
@@ -109,7 +117,7 @@ void NeedleChannel::find_places(const Vec3& along) noexcept {
     const bool at_the_end = n + 1 == n_places_ && end_ == End::tissue;
     const Eigen::Matrix3d to_rest = at_the_end ? to_rest_ : tissue_.to_rest(held.place.rest);
     if (came && n > entry_ && behind < apart_ && is_beside(held, along)) {
-      if (n > 0) places_[n - 1].room = std::min(places_[n - 1].room, (tip_ - places_[n - 1].x).dot(along));
+      if (n > 0) end_room_at_tip(places_[n - 1], along);
       leave_at(n, held.place.rest + to_rest * (tip_ - held.x));
       break;
     }
@@ -251,8 +259,10 @@ void NeedleChannel::press(const Vec3& along, NeedleOutcome& done) noexcept {
   const double asked = front_.along * (tip_ - front_.x).dot(along);
   const double ahead = std::clamp(asked, 0.0, most_ahead());
   if (asked == ahead) done.along += front_.along;
-  const double across =
+  double across =
       front_.place.cell >= 0 ? tissue_.law(front_.place).puncture_ratio * resistance_ : on_bone * ahead;
+  if (end_ == End::surface)
+    across = std::sqrt(std::max(about_to_enter * across * across, across * across - ahead * ahead));
   front_.force = ahead * along + press_aside(front_, along, across, done);
   if (!front_.slips) done.across += front_.across;
 }

@@ -3,8 +3,8 @@
 // where it has come to. Each holds the shaft across, and rubs on it along; the last one, its end, stands before the tip.
 //
 //   along a, the needle's direction:  f_n = k_n (b . a - c_n - x_n . a),   |f_n| <= f l_n: beyond that c_n follows
-//   at the end of the channel:        t = k (b - x_t) . a,   0 <= t <= T = Gc d |F^-1 a|: beyond that the tip goes on
-//   to enter:                         the same up to p Gc d
+//   at the end of the channel:        t = k (b - x_t) . a,   0 <= t <= T = Gc d min(|F^-1 a|, p): beyond that the tip goes on
+//   to enter:                         the same up to p Gc d, along and across together within 5 %
 //   across:                           p_n = k_n (1 - a a^T) (b - x_n),   |p_n| <= p Gc l_n: beyond that x_n goes along
 //   K (h - b) = sum of f_n a + p_n + t a
 //
@@ -104,6 +104,7 @@ class NeedleChannel {
   void find_places(const Vec3& along) noexcept;
   void take_in(Held& held, double before, double now, const Eigen::Matrix3d& to_rest,
                const Vec3& along) noexcept;
+  void end_room_at_tip(Held& held, const Vec3& along) const noexcept;
   bool is_beside(const Held& held, const Vec3& along) const noexcept;
   void leave_at(std::size_t n, const Vec3& rest) noexcept;
   void find_holds(double stiffness) noexcept;

@@ -98,8 +98,8 @@ void NeedleChannel::go_on(const Vec3& along, NeedleOutcome& done) noexcept {
     end_ = End::rigid;
     return;
   }
-  done.area += needle_.diameter * way.norm();
   done.work += resistance_ * on;
+  done.area += resistance_ * on / tissue_.law(front_.place).cut_toughness;
   if (!place) {
     end_ = End::beyond;
     if (n_places_ < most_places) keep_front();

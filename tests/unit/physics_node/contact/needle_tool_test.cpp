@@ -69,6 +69,18 @@ TEST(Needle, FindsItsChannelOpen) {
   EXPECT_EQ(needle.book().punctures(), 2) << "it is another channel";
 }
 
+/// Where entering takes no more than going on, soft tissue before the tip is not only pressed together.
+TEST(Needle, GoesOnWhereItHasEntered) {
+  Recipe recipe = block({.cell_mm = 3, .modulus_kPa = 10});
+  recipe.world = tool(0);
+  recipe.material += "puncture_ratio = 1\n";
+  Needle needle(recipe);
+  const Needle::Way way = needle.way(at_depth(0.018), 0.05);
+  EXPECT_EQ(needle.book().punctures(), 1);
+  EXPECT_LT(way.most, 1.3 * goes_on);
+  EXPECT_GT(needle.book().deepest(), 0.009);
+}
+
 /// What the hand does goes into the crack, into friction and into tissue, and nowhere else.
 TEST(Needle, SpendsWhatTheHandDoes) {
   Needle needle(block());
