@@ -20,8 +20,8 @@ namespace {
 
 constexpr int most_substeps = 256;  // of a frame in which something fast is near
 constexpr int most_times = 8;       // as many as at rest, where those are many
-// Why as many in frames of any length: 256 of 1 ms are as fine where they are 8 at rest, and a cell that is turned inside out
-// has a damper that asks for that.
+// The same in frames of any length. Why: a frame of 1 ms that takes 8 steps at rest may take 256, and the damper of a cell that
+// is turned inside out asks for that.
 constexpr int most_stiffening = 32;
 
 }  // namespace

@@ -1,6 +1,7 @@
-# Cases that only `deploy/test.sh --all` and a plain `ctest` run: what takes longest and is near what the others see. The name of a
-# test after `thorough_`, a pattern of GoogleTest. palpate_test makes them a test of their own, NAME.thorough, with the label
-# `thorough`; a pattern that selects nothing fails there.
+# Cases that only `deploy/test.sh --all` and a plain `ctest` run. First whole programs, which CI does not replace: run them after a
+# change of what they guard. Then the longest cases of others, of which CI runs the rest. The name of a test after `thorough_`,
+# a pattern of GoogleTest. palpate_test makes them a test of their own, NAME.thorough, with the label `thorough`; a pattern that
+# selects nothing fails there.
 set(thorough_file_mutants_test "*")
 set(thorough_fault_matrix_test "*")
 set(thorough_head_anywhere_test "*")

@@ -76,11 +76,6 @@ bool NeedleChannel::is_beside(const Held& held, const Vec3& along) const noexcep
   return aside(tip_ - held.x, along).norm() > needle_.diameter;
 }
 
-/// Its shaft ends at the tip from now on.
-void NeedleChannel::end_room_at_tip(Held& held, const Vec3& along) const noexcept {
-  held.room = std::clamp((tip_ - held.x).dot(along), 0.0, held.room);
-}
-
 /// Where the end is, what it resists with, and how much of it holds the tip across: what the tip does not stand before
 /// any more it lets go of gradually, as it is drawn back.
 void NeedleChannel::find_end(const Vec3& along) noexcept {
@@ -88,15 +83,16 @@ void NeedleChannel::find_end(const Vec3& along) noexcept {
   front_.force.setZero();
   front_.length = needle_.diameter;
   if (end_ != End::surface && end_ != End::tissue) return;
-  resistance_ = tissue_.law(front_.place).cut_toughness * needle_.diameter;
+  const ElementLaw& law = tissue_.law(front_.place);
+  resistance_ = law.cut_toughness * needle_.diameter;
   if (end_ == End::surface) return;
   to_rest_ = tissue_.to_rest(front_.place.rest);
   // Why no more than to enter: the more tissue is pressed together before the tip, the more of it there is to part.
-  resistance_ *= std::min((to_rest_ * along).norm(), tissue_.law(front_.place).puncture_ratio);
+  resistance_ *= std::min((to_rest_ * along).norm(), law.puncture_ratio);
   const double before =
       std::exchange(before_it_, std::clamp(1 + (tip_ - front_.x).dot(along) / apart_, 0.0, 1.0));
   if (before == 0 && before_it_ > 0 && is_beside(front_, along))
-    leave_at(n_places_, front_.place.rest + to_rest_ * (tip_ - front_.x));
+    leave_at(n_places_, front_.place.rest + to_rest_ * (tip_ - front_.x), along);
   else
     take_in(front_, before, before_it_, to_rest_, along);
 }
@@ -117,8 +113,7 @@ void NeedleChannel::find_places(const Vec3& along) noexcept {
     const bool at_the_end = n + 1 == n_places_ && end_ == End::tissue;
     const Eigen::Matrix3d to_rest = at_the_end ? to_rest_ : tissue_.to_rest(held.place.rest);
     if (came && n > entry_ && behind < apart_ && is_beside(held, along)) {
-      if (n > 0) end_room_at_tip(places_[n - 1], along);
-      leave_at(n, held.place.rest + to_rest * (tip_ - held.x));
+      leave_at(n, held.place.rest + to_rest * (tip_ - held.x), along);
       break;
     }
     take_in(held, before, held.length, to_rest, along);

@@ -104,9 +104,8 @@ class NeedleChannel {
   void find_places(const Vec3& along) noexcept;
   void take_in(Held& held, double before, double now, const Eigen::Matrix3d& to_rest,
                const Vec3& along) noexcept;
-  void end_room_at_tip(Held& held, const Vec3& along) const noexcept;
   bool is_beside(const Held& held, const Vec3& along) const noexcept;
-  void leave_at(std::size_t n, const Vec3& rest) noexcept;
+  void leave_at(std::size_t n, const Vec3& rest, const Vec3& along) noexcept;
   void find_holds(double stiffness) noexcept;
   void soften(double Held::*hold, double dt) noexcept;
   NearNeedle near(const ElementLaw& law) const noexcept;

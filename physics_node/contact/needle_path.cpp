@@ -32,9 +32,11 @@ void NeedleChannel::begin_at(const PiercedTissue::Place& place) noexcept {
   before_it_ = 1;
 }
 
-/// Beside its channel from the place numbered n on, which it forgets: the end is where the tip is.
-void NeedleChannel::leave_at(std::size_t n, const Vec3& rest) noexcept {
+/// Beside its channel from the place numbered n on, which it forgets: the end is where the tip is, and the place before
+/// answers for the shaft up to there.
+void NeedleChannel::leave_at(std::size_t n, const Vec3& rest, const Vec3& along) noexcept {
   n_places_ = n;
+  if (n > 0) places_[n - 1].room = std::clamp((tip_ - places_[n - 1].x).dot(along), 0.0, places_[n - 1].room);
   const auto place = tissue_.find(rest, skin_beyond);
   if (!place) {
     end_ = End::beyond;

@@ -67,7 +67,9 @@ TEST(Remarks, SayHowMuchLargerCellsMakeABox) {
   EXPECT_EQ(all(remarks_of(sound, solid)).find("border_cells"), std::string::npos)
       << "too few cells for that";
   solid.emplace_back("body.block.border_cells=\"filled\"");
-  EXPECT_NE(all(remarks_of(sound, solid)).find("a box 2.5 cells thick"), std::string::npos);
+  const std::string filled = all(remarks_of(sound, solid));
+  EXPECT_NE(filled.find("a box 2.5 cells thick"), std::string::npos) << filled;
+  EXPECT_EQ(filled.find("times the volume"), std::string::npos) << filled;
   solid[1] = "body.block.spacing_mm=2.5";
   EXPECT_EQ(all(remarks_of(sound, solid)).find("cells thick"), std::string::npos);
   solid = {"body.block.size_mm=[30,30,30]", "body.block.spacing_mm=3.5", "body.block.model=\"fem\""};
