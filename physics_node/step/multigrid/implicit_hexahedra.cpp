@@ -146,7 +146,7 @@ void ImplicitHexahedra<Real>::solve(const Body& body, const LatticeState<Real>& 
   }
   push(crew, how.gravity, forces);
   const NewtonReport solved =
-      newton_.solve(crew, {.dt = how.dt, .beta = body.solid->beta, .planes = how.planes});
+      newton_.solve(crew, {.dt = how.dt, .beta = body.solid->beta, .held = before_, .planes = how.planes});
   report_.newton_iterations += solved.iterations;
   report_.cg_iterations += solved.cycles;
   report_.converged = solved.converged;

@@ -282,18 +282,38 @@ NewtonReport Newton<Real>::solve(const Crew& crew, const NewtonTask& task) noexc
   }));
   report.scale = std::max(outside, report.residual);
   double enough = task.tolerance * report.scale;
-  // Which nodes planes hold is found one set after the other.
+  const double at_rest = task.held + sum(crew, [&](std::size_t i) {
+                           double square = 0;
+                           for (std::size_t a = 0; a < 3; ++a)
+                             square += static_cast<double>(coast[a][i]) * static_cast<double>(coast[a][i]);
+                           return 0.5 * static_cast<double>(m.mass[i]) * square;
+                         });
   const int most_iterations = task.planes.empty() ? task.most_iterations : 3 * task.most_iterations;
-  while (report.residual > enough && report.iterations < most_iterations &&
-         report.cycles < task.most_cycles) {
-    find_step(crew, task, report);
-    enough = std::max(enough, rounding(crew));
-    ++report.iterations;
-    if (search(crew, task, phi, report)) continue;
-    if (!hold_what_is_driven_in(crew, task.planes)) break;
-    find_step(crew, task, report);
-    report.residual = std::sqrt(gradients_.dot(hierarchy_, crew, gradients_.b, gradients_.b));
-    if (!search(crew, task, phi, report)) break;
+  const auto seek = [&](int iterations, int cycles) {
+    NewtonTask part = task;
+    part.most_cycles = cycles;
+    while (report.residual > enough && report.iterations < iterations && report.cycles < cycles) {
+      find_step(crew, part, report);
+      enough = std::max(enough, rounding(crew));
+      ++report.iterations;
+      if (search(crew, part, phi, report)) continue;
+      if (!hold_what_is_driven_in(crew, part.planes)) break;
+      find_step(crew, part, report);
+      report.residual = std::sqrt(gradients_.dot(hierarchy_, crew, gradients_.b, gradients_.b));
+      if (!search(crew, part, phi, report)) break;
+    }
+  };
+  seek(most_iterations, task.most_cycles);
+  // Why: where coasting crushes cells, a search that ends early leaves more energy than there was. From rest it cannot.
+  if (task.dt > 0 && !(report.residual <= enough) && !(phi <= at_rest)) {
+    each_node(crew, [&](std::size_t i) {
+      for (auto& axis : D) axis[i] = 0;
+    });
+    keep_out_of(crew, task.planes);
+    phi = look(crew, task, report);
+    report.scale = std::max(outside, report.residual);
+    enough = task.tolerance * report.scale;
+    seek(report.iterations + most_iterations, report.cycles + task.most_cycles);
   }
   report.converged = report.residual <= enough;
   return report;

@@ -9,6 +9,7 @@ namespace palpate::physics {
 struct NewtonTask {
   double dt = 0;    // 0: statics, without inertia [s]
   double beta = 0;  // of dampers: see Lagging; not for statics [s]
+  double held = 0;  // elastic energy at D = 0, for a step [J]
   /// Of the residual, relative to the larger of the forces from outside and of the first residual; no finer than D has digits.
   double tolerance = 1e-3;
   int most_iterations = 12;
