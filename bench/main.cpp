@@ -11,10 +11,10 @@
 int main(int argc, char** argv) {
   using namespace palpate;
   std::vector<void (*)(CLI::App&, int&)> subcommands = {
-      bench::add_kernel,  bench::add_error,    bench::add_skin,   bench::add_skips,
-      bench::add_stress,  bench::add_outcomes, bench::add_shots,  bench::add_contact,
-      bench::add_cut,     bench::add_fem,      bench::add_haptic, bench::add_touch,
-      bench::add_machine, bench::add_parts,    bench::add_team,   bench::add_wire};
+      bench::add_kernel,   bench::add_error, bench::add_skin,    bench::add_skips, bench::add_stress,
+      bench::add_outcomes, bench::add_shots, bench::add_contact, bench::add_cut,   bench::add_fem,
+      bench::add_haptic,   bench::add_touch, bench::add_machine, bench::add_parts, bench::add_render,
+      bench::add_team,     bench::add_wire};
 #ifdef PALPATE_BENCH_PEERS
   subcommands.push_back(bench::add_peers);
 #endif

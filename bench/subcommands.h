@@ -15,6 +15,7 @@ void add_haptic(CLI::App& app, int& exit_code);
 void add_machine(CLI::App& app, int& exit_code);
 void add_outcomes(CLI::App& app, int& exit_code);
 void add_parts(CLI::App& app, int& exit_code);
+void add_render(CLI::App& app, int& exit_code);
 void add_shots(CLI::App& app, int& exit_code);
 void add_skin(CLI::App& app, int& exit_code);
 void add_skips(CLI::App& app, int& exit_code);

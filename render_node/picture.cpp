@@ -5,6 +5,7 @@
 #include "common/scene/scene.h"
 #include "render_node/gl/egl_context.h"
 #include "render_node/gl/framebuffer.h"
+#include "render_node/image/png_file.h"
 #include "render_node/model/view_model.h"
 #include "render_node/ui/stage.h"
 
@@ -20,9 +21,8 @@ struct Picture::Parts {
   Parts(const Scene& given, Edges edges)
       : scene(given),
         model(scene),
-        framebuffer(scene.render->size_px[0], scene.render->size_px[1],
-                    edges == Edges::smooth ? smooth_samples : 0),
-        stage(scene, model, scene.render->size_px[1]) {}
+        framebuffer(scene.render->size_px[0], scene.render->size_px[1], 0),
+        stage(scene, model, scene.render->size_px[1], edges == Edges::smooth ? smooth_samples : 0) {}
   ~Parts() { make_current(); }  // members let go of what they have in this context
 
   void make_current() {
@@ -55,8 +55,10 @@ void Picture::draw(double t) {
   facts.t = t;
   parts_->stage.draw(facts, parts_->scene.render->size_px[0], parts_->scene.render->size_px[1],
                      frame_seconds);
-  parts_->image = parts_->framebuffer.read();
+  parts_->framebuffer.read(parts_->image);
 }
+
+void Picture::draw_whole() noexcept { parts_->stage.painter().draw_whole(); }
 
 const Image& Picture::image() const noexcept { return parts_->image; }
 
@@ -68,6 +70,11 @@ void Picture::save_png(const std::string& path) const {
 std::size_t Picture::facets_visible() const noexcept { return parts_->model.facets_visible(); }
 std::size_t Picture::facets_total() const noexcept { return parts_->model.facets_total(); }
 std::size_t Picture::bytes_uploaded() const noexcept { return parts_->stage.painter().bytes_uploaded(); }
+double Picture::drawn_share() const noexcept {
+  const auto& size = parts_->scene.render->size_px;
+  return static_cast<double>(parts_->stage.painter().drawn().pixels()) /
+         (static_cast<double>(size[0]) * size[1]);
+}
 void Picture::set_threshold(double intensity) noexcept { parts_->stage.threshold().obey(intensity); }
 void Picture::set_section(const std::optional<SectionSpec>& section) noexcept {
   parts_->stage.section().obey(section);

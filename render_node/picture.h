@@ -37,6 +37,9 @@ class Picture {
   /// @param t  simulated time, shown in the panel [s]
   void draw(double t);
 
+  /// The next draw() draws all of the picture, not what changed alone: the same pixels, for who wants to compare.
+  void draw_whole() noexcept;
+
   const Image& image() const noexcept;  // of the last draw()
   /// Writes the last draw(). @throws InputError if the file cannot be written
   void save_png(const std::string& path) const;
@@ -44,6 +47,7 @@ class Picture {
   std::size_t facets_visible() const noexcept;
   std::size_t facets_total() const noexcept;
   std::size_t bytes_uploaded() const noexcept;  // to the graphics card by the last draw()
+  double drawn_share() const noexcept;  // of the pixels, by the last draw(); the others were as before
   /// The threshold that the panel shows, after somebody commanded another.
   void set_threshold(double intensity) noexcept;
   /// The section, likewise.

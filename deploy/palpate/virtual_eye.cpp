@@ -4,32 +4,20 @@
 
 #include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
-#include "common/scene/tool_spec.h"
 
 namespace palpate::deploy {
 
 VirtualEye::VirtualEye(const Scene& scene, const physics::World& world)
-    : appearance_(world, scene.render->threshold),
+    : messages_(scene, world),
       picture_(scene),
-      traces_(scene.tools.size()),
       spec_(*scene.render),
       every_(std::max<std::int64_t>(
-          1, static_cast<std::int64_t>(1 / (scene.render->rate_Hz * world.frame_seconds()) + 0.5))) {
-  for (std::uint32_t n = 0; n < traces_.size(); ++n) traces_[n].tool = n;
-}
+          1, static_cast<std::int64_t>(1 / (scene.render->rate_Hz * world.frame_seconds()) + 0.5))) {}
 
 void VirtualEye::leave_in(const std::filesystem::path& out) { folder_.emplace(out, spec_); }
 
 void VirtualEye::take(std::uint32_t tool, const TraceSample& sample) {
-  HapticTrace& trace = traces_[tool];
-  trace.samples[trace.n_samples++] = sample;
-  if (trace.n_samples == max_trace_samples) pass(trace);
-}
-
-void VirtualEye::pass(HapticTrace& trace) {
-  if (trace.n_samples > 0) picture_.take(trace);
-  ++trace.batch;
-  trace.n_samples = 0;
+  messages_.take(tool, sample, picture_);
 }
 
 void VirtualEye::frame(physics::World& world, std::int64_t now_ns) {
@@ -37,17 +25,7 @@ void VirtualEye::frame(physics::World& world, std::int64_t now_ns) {
 }
 
 void VirtualEye::draw(physics::World& world, std::int64_t now_ns) {
-  const bool anew = appearance_.poll();
-  appearance_.write_blocks([this](const VertexBlock& block) { picture_.take(block); });
-  if (anew)
-    appearance_.write_surfaces({[this](const BodySurface& chunk) { picture_.take(chunk); },
-                                [this](const SurfaceChange& page) { picture_.take(page); }});
-  for (std::size_t n = 0; n < traces_.size(); ++n) {
-    pass(traces_[n]);
-    ToolWrench wrench;
-    world.tool(n).write_wrench(wrench, static_cast<std::uint64_t>(world.report().frames), now_ns, world.t());
-    picture_.take(wrench);
-  }
+  messages_.write(world, now_ns, picture_);
   picture_.draw(world.t());
   ++drawn_;
   if (folder_) folder_->keep(picture_.image());

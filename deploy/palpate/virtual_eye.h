@@ -4,39 +4,36 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <vector>
 
 #include "common/scene/render_spec.h"
 #include "common/scene/scene_fwd.h"
-#include "physics_node/appearance/appearance.h"
+#include "deploy/palpate/eye_messages.h"
+#include "deploy/palpate/onlooker.h"
 #include "physics_node/world.h"
 #include "render_node/image/frame_folder.h"
 #include "render_node/picture.h"
 
 namespace palpate::deploy {
 
-class VirtualEye {
+class VirtualEye final : public Onlooker {
  public:
   VirtualEye(const Scene& scene, const physics::World& world);
 
   /// From now on pictures go to OUT/frames. @throws InputError as FrameFolder does
   void leave_in(const std::filesystem::path& out);
 
-  /// What a hand did in one of its ticks.
-  void take(std::uint32_t tool, const TraceSample& sample);
-  /// After every frame: draws when a picture is due.
-  void frame(physics::World& world, std::int64_t now_ns);
+  void take(std::uint32_t tool, const TraceSample& sample) override;
+  /// Draws when a picture is due.
+  void frame(physics::World& world, std::int64_t now_ns) override;
 
   /// The part `render` of summary.json.
   nlohmann::json summary(double wall_s);
 
  private:
   void draw(physics::World& world, std::int64_t now_ns);
-  void pass(HapticTrace& trace);
 
-  physics::Appearance appearance_;
+  EyeMessages messages_;
   render::Picture picture_;
-  std::vector<HapticTrace> traces_;
   RenderSpec spec_;
   std::optional<render::FrameFolder> folder_;
   std::int64_t every_ = 1;  // frames of the world from picture to picture

@@ -29,6 +29,8 @@ VirtualSession::VirtualSession(const Scene& scene, const VirtualOptions& options
     refusals_.push_back(haptic::ArmRefusal::no_sample);
   }
   if (options_.pictures) eye_ = std::make_unique<VirtualEye>(scene_, world_);
+  if (eye_) onlookers_.push_back(eye_.get());
+  if (options_.onlooker != nullptr) onlookers_.push_back(options_.onlooker);
 }
 
 void VirtualSession::leave_in(const std::filesystem::path& out, const SceneSource& source) {
@@ -47,7 +49,7 @@ void VirtualSession::tick_hands(std::int64_t until_ns) {
                       wrenches_[n].tick > 0 ? &wrenches_[n] : nullptr);
       if (refusals_[n] != haptic::ArmRefusal::none) refusals_[n] = hands_[n]->controller().refusal();
       known_hands_.take(hands_[n]->tool_state(), now_ns_);
-      if (eye_) eye_->take(static_cast<std::uint32_t>(n), hands_[n]->trace());
+      for (Onlooker* one : onlookers_) one->take(static_cast<std::uint32_t>(n), hands_[n]->trace());
     }
   }
   now_ns_ = until_ns;
@@ -72,7 +74,7 @@ void VirtualSession::run(double seconds, const std::function<void(double)>& prog
     world_.frame(fresh);
     tell_hands();
     if (recorder_) recorder_->frame(world_, fresh);
-    if (eye_) eye_->frame(world_, now_ns_);
+    for (Onlooker* one : onlookers_) one->frame(world_, now_ns_);
     if (f % 50 == 0) progress(world_.t());
   }
   progress(world_.t());

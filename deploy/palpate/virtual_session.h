@@ -10,6 +10,7 @@
 
 #include "common/scene/scene.h"
 #include "common/scene/scene_source.h"
+#include "deploy/palpate/onlooker.h"
 #include "deploy/palpate/virtual_eye.h"
 #include "haptic_node/session.h"
 #include "physics_node/loop/hands.h"
@@ -21,6 +22,7 @@ namespace palpate::deploy {
 struct VirtualOptions {
   std::string device;  // driver instead of the scenes'; empty: the scene's
   bool pictures = true;
+  Onlooker* onlooker = nullptr;  // besides; outlives the session
 };
 
 class VirtualSession {
@@ -60,6 +62,7 @@ class VirtualSession {
   physics::Hands known_hands_;  // to the tissue
   std::unique_ptr<physics::Recorder> recorder_;
   std::unique_ptr<VirtualEye> eye_;
+  std::vector<Onlooker*> onlookers_;
   double wall_s_ = 0;
 };
 

@@ -11,7 +11,7 @@ class BackdropDrawing {
  public:
   BackdropDrawing();
 
-  /// Fills the picture; leaves the depth alone.
+  /// Fills the picture where nothing has been drawn: after everything opaque, with a depth test that passes what is equal.
   void draw_gradient() const;
 
   /// A plane, after everything opaque: it fades out from the place nearest to `middle` and lets what is beyond it shine

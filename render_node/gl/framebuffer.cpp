@@ -2,7 +2,6 @@
 
 #include <epoxy/gl.h>
 
-#include <memory>
 #include <stdexcept>
 
 namespace palpate::render {
@@ -40,29 +39,40 @@ Framebuffer::~Framebuffer() {
 
 void Framebuffer::bind() const { glBindFramebuffer(GL_FRAMEBUFFER, drawn_.frame); }
 
-Image Framebuffer::read() const {
+void Framebuffer::resolve(const PixelBox& part) const {
+  if (resolved_.frame == 0 || part.empty()) return;
   glBindFramebuffer(GL_READ_FRAMEBUFFER, drawn_.frame);
-  if (resolved_.frame == 0) return read_pixels(width_, height_);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.frame);
-  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_.frame);
-  return read_pixels(width_, height_);
+  glBlitFramebuffer(part.x0, part.y0, part.x1, part.y1, part.x0, part.y0, part.x1, part.y1,
+                    GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
-Image read_pixels(int width, int height) {
+void Framebuffer::copy_to(unsigned frame) const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_.frame != 0 ? resolved_.frame : drawn_.frame);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, frame);
+  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+void Framebuffer::read(Image& image) {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_.frame != 0 ? resolved_.frame : drawn_.frame);
+  reader_.read(width_, height_, image);
+}
+
+void PixelReader::read(int width, int height, Image& image) {
   const auto w = static_cast<std::size_t>(width), h = static_cast<std::size_t>(height);
-  Image image{width, height, std::vector<std::uint8_t>(3 * w * h)};
+  image.width = width;
+  image.height = height;
+  image.rgb.resize(3 * w * h);
   // Why all four channels: as it lies there it is copied; Mesa makes three of them pixel by pixel.
-  const auto rgba = std::make_unique_for_overwrite<std::uint8_t[]>(4 * w * h);
+  rgba_.resize(4 * w * h);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.get());
+  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba_.data());
   for (std::size_t y = 0; y < h; ++y) {  // OpenGL puts the bottom row first
-    const std::uint8_t* from = rgba.get() + 4 * w * (h - 1 - y);
+    const std::uint8_t* from = rgba_.data() + 4 * w * (h - 1 - y);
     std::uint8_t* to = image.rgb.data() + 3 * w * y;
     for (std::size_t x = 0; x < w; ++x)
       for (std::size_t c = 0; c < 3; ++c) to[3 * x + c] = from[4 * x + c];
   }
-  return image;
 }
 
 }  // namespace palpate::render

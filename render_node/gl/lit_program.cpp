@@ -23,6 +23,7 @@ float shadow(vec3 p) {
   for (int i = 0; i < 4; ++i) {
     if (float(i) >= touches) break;
     float r = distance(p, touch[i].xyz) / touch[i].w;
+    if (r > 2.69) continue;  // touch_reach: there it would be a third of a thousandth
     light *= 1.0 - 0.5 * exp(-r * r);
     light *= 1.0 - 0.4 * ring[i] * (1.0 - smoothstep(0.05, 0.12, abs(r - 1.25)));
   }

@@ -33,7 +33,10 @@ struct Touch {
   Eigen::Vector3f at = Eigen::Vector3f::Zero();  // [m]
   float radius = 0;                              // > 0 [m]
   bool presses = false;
+  friend bool operator==(const Touch&, const Touch&) = default;
 };
+/// So many radii from it nothing is darker, to the bit.
+inline constexpr float touch_reach = 2.7F;
 inline constexpr std::size_t most_touches = 4;  // further ones are left out
 
 class LitProgram {

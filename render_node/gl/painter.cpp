@@ -3,80 +3,41 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "common/scene/body_spec.h"
 #include "common/scene/connection_spec.h"
 #include "common/scene/device_spec.h"
-#include "common/scene/force_model.h"
 #include "common/scene/inside_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/surroundings_spec.h"
 #include "common/scene/tool_spec.h"
 #include "render_node/view/arrow_scale.h"
-#include "render_node/view/line_of_action.h"
 
 namespace palpate::render {
 namespace {
 
-const Eigen::Vector3f steel(0.74F, 0.77F, 0.82F);
 constexpr float bead_radius = 0.16F;  // of the length of an element
-const Eigen::Vector3f arrow_colour(1.0F, 0.45F, 0.10F);
 
-// The stick points back along the first way that a scripted hand goes, which is towards tissue, leaning a little so that it does not
-// hide the arrow.
-Eigen::Vector3d stick_axis(const DeviceSpec& device) {
-  constexpr double least_way = 1e-3;  // Why: shorter ones settle a hand and lead nowhere [m]
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
-  for (const auto& waypoint : device.waypoints) {
-    const Eigen::Vector3d way = device.waypoints.front().p - waypoint.p;
-    if (way.norm() < least_way) continue;
-    axis = way.normalized();
-    break;
-  }
-  const Eigen::Vector3d side = axis.unitOrthogonal();
-  return (axis + 0.45 * (std::abs(axis.z()) > 0.9 ? side : Eigen::Vector3d::UnitZ())).normalized();
+Lens lens_of(const Camera& camera, int width, int height) {
+  return {(camera.projection() * camera.view()).cast<float>(), width, height, camera.eye().cast<float>()};
 }
 
 }  // namespace
 
-Painter::Painter(const Scene& scene, const ViewModel& model)
+Painter::Painter(const Scene& scene, const ViewModel& model, int samples)
     : scene_(scene),
+      samples_(samples),
       first_section_(scene.bodies.size() + scene.connections.size()),
       first_inside_(first_section_ + bodies_with_section(scene).size()),
       with_section_(bodies_with_section(scene)),
       with_inside_(bodies_with_inside(scene)),
-      bodies_(model.bodies().size()),
-      tools_(scene.tools.size()) {
-  for (std::size_t i = 0; i < tools_.size(); ++i) {
-    const auto& device = scene.device(scene.tools[i].device);
-    tools_[i].radius = scene.tools[i].radius;
-    tools_[i].axis = stick_axis(device);
-    tools_[i].shape = scene.tools[i].shape;
-    if (is_solid_tip(scene.tools[i].shape)) {
-      tools_[i].attitude = scene.tools[i].attitude;
-      tools_[i].size = scene.tools[i].size;
-      tools_[i].axis = scene.tools[i].attitude * Eigen::Vector3d::UnitZ();
-      tools_[i].length = scene.tools[i].shape == ToolShape::box ? tools_[i].size.z() : scene.tools[i].length;
-    }
-    if (scene.tools[i].shape == ToolShape::scalpel) {
-      tools_[i].attitude = scene.tools[i].attitude;
-      tools_[i].axis = scene.tools[i].attitude * Eigen::Vector3d::UnitZ();
-      tools_[i].length = scene.tools[i].length;
-      tools_[i].edge = scene.tools[i].edge;
-    }
-    if (scene.tools[i].shape == ToolShape::needle) {
-      tools_[i].axis = scene.tools[i].attitude * Eigen::Vector3d::UnitZ();
-      tools_[i].length = scene.tools[i].length;
-    }
-    if (scene.tools[i].shape == ToolShape::stick) {
-      // B = A - L R e_z, as physics has it.
-      tools_[i].axis = -(scene.tools[i].attitude * Eigen::Vector3d::UnitZ());
-      tools_[i].length = scene.tools[i].length;
-    }
-    tools_[i].force_limit = device.force_limit;
-    for (std::size_t b = 0; scene.tools[i].shape == ToolShape::body && b < scene.bodies.size(); ++b)
-      if (scene.bodies[b].name == scene.tools[i].body) tools_[i].body = b;
-    tools_[i].at_hand = tools_[i].body || force_model_of(scene.tools[i]) == ForceModel::direct;
+      bodies_(model.bodies().size()) {
+  for (const ToolSpec& tool : scene.tools) {
+    std::optional<std::size_t> body;
+    for (std::size_t b = 0; tool.shape == ToolShape::body && b < scene.bodies.size(); ++b)
+      if (scene.bodies[b].name == tool.body) body = b;
+    tools_.push_back(std::make_unique<ToolDrawing>(tool, scene.device(tool.device), body));
   }
 }
 
@@ -85,44 +46,89 @@ void Painter::adapt_sizes(const Eigen::AlignedBox3d& box) {
   size_ = box.diagonal().norm() / 2;
   double limit = 0;
   for (auto& tool : tools_) {
-    const auto radius = static_cast<float>(tool.radius);
-    const auto length = static_cast<float>(tool.length);
-    if (tool.shape == ToolShape::box)
-      tool.stick.shape_box(tool.size.cast<float>());
-    else if (tool.shape == ToolShape::scalpel)
-      tool.stick.shape_blade(length, static_cast<float>(tool.edge));
-    else if (tool.shape == ToolShape::needle)
-      tool.stick.shape(needle_outline(radius, length));
-    else if (tool.shape == ToolShape::cylinder)
-      tool.stick.shape(cylinder_outline(radius, length));
-    else if (tool.shape == ToolShape::cone)
-      tool.stick.shape(cone_outline(radius, length));
-    else
-      tool.stick.shape(tool.length > 0 ? capsule_outline(radius, length)
-                                       : stick_outline(radius, static_cast<float>(1.2 * size_)));
-    limit = std::max(limit, tool.force_limit);
+    tool->shape(size_);
+    limit = std::max(limit, tool->force_limit());
   }
   if (limit > 0 && size_ > 0) metres_per_newton_ = palpate::render::arrow_metres_per_newton(limit, size_);
 }
 
 void Painter::draw(ViewModel& model, const Camera& camera, const PaintOptions& options, int width,
                    int height) {
+  GLint target = 0;
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target);
+  // 1. what there is to see
   model.refresh();
   adapt_sizes(model.box());
+  follow_colours(model, options);
+  upload(model, options);
+  const std::vector<Touch> touched_before = std::move(touches_);
+  place_tools(model, options);
+  // 2. where it differs from what was drawn
+  if (!kept_ || kept_->width() != width || kept_->height() != height) {
+    kept_ = std::make_unique<Framebuffer>(width, height, samples_);
+    seen_.reset();
+  }
+  Seen now{lens_of(camera, width, height), options, size_, colour_scale_.most()};
+  drawn_ = changed_pixels(model, now.lens, options);
+  add_touched_pixels(now.lens, touched_before, drawn_);
+  // Why lines: within a rectangle they are drawn over other pixels than across all of it.
+  if (seen_ != now || (drawn_.pixels() > 0 && has_lines(model, options))) drawn_.add(all_pixels(now.lens));
+  seen_ = std::move(now);
+  // 3. draw those parts of it
+  drawn_.for_each([&](const PixelBox& area) { draw_area(model, camera, options, area); });
+  kept_->copy_to(static_cast<unsigned>(target));
+  glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(target));
   glViewport(0, 0, width, height);
+}
+
+void Painter::draw_area(const ViewModel& model, const Camera& camera, const PaintOptions& options,
+                        const PixelBox& area) {
+  kept_->bind();
+  glViewport(0, 0, kept_->width(), kept_->height());
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(area.x0, area.y0, area.width(), area.height());
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
   glClear(GL_DEPTH_BUFFER_BIT);
-  backdrop_.draw_gradient();
-  find_touches(model, options);
-  follow_colours(model, options);
-  bytes_uploaded_ = 0;
-  draw_bodies(model, camera, options, height, Layer::solid);
+  draw_bodies(model, camera, options, area, Layer::solid);
   at_pixels_.begin(camera);
-  for (std::size_t i = 0; i < tools_.size(); ++i)
-    if (!is_hidden(options.hidden.tools, i)) draw_tool(tools_[i], model.tools()[i], model, options);
+  for (const auto& tool : tools_) tool->draw(at_pixels_);
+  backdrop_.draw_gradient();
   draw_planes(model, camera);
-  if (options.opacity < 1) draw_bodies(model, camera, options, height, Layer::veil);
+  if (options.opacity < 1) draw_bodies(model, camera, options, area, Layer::veil);
+  glDisable(GL_SCISSOR_TEST);  // which would hold for what follows, too
+  kept_->resolve(area);
+}
+
+/// Each body says what of it changed since it was last drawn; one that is shown only now is a change of options.
+PixelBoxes Painter::changed_pixels(const ViewModel& model, const Lens& lens, const PaintOptions& options) {
+  PixelBoxes pixels;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!is_shown(model, i, options)) continue;
+    if (const auto changed = bodies_[i].changed_pixels(lens, is_opened(i, options)))
+      pixels.add(*changed);
+    else
+      pixels.add(all_pixels(lens));
+  }
+  for (const auto& tool : tools_) pixels.add(tool->changed_pixels(lens));
+  return pixels;
+}
+
+/// Where tools darken surfaces otherwise than before. Light is computed at the corners of a facet, if not at every pixel: so it
+/// reaches an edge further.
+void Painter::add_touched_pixels(const Lens& lens, const std::vector<Touch>& before,
+                                 PixelBoxes& pixels) const {
+  float edge = 0;
+  for (const TissueDrawing& body : bodies_) edge = std::max(edge, body.longest_edge());
+  const auto around = [edge, &lens](const Touch& touch) {
+    const Eigen::Vector3f reach = Eigen::Vector3f::Constant(touch_reach * touch.radius + edge);
+    return pixels_of(lens, {touch.at - reach, touch.at + reach});
+  };
+  for (std::size_t i = 0; i < std::max(before.size(), touches_.size()); ++i) {
+    if (i < before.size() && i < touches_.size() && before[i] == touches_[i]) continue;
+    if (i < before.size()) pixels.add(around(before[i]));
+    if (i < touches_.size()) pixels.add(around(touches_[i]));
+  }
 }
 
 void Painter::draw_planes(const ViewModel& model, const Camera& camera) {
@@ -142,7 +148,7 @@ bool Painter::is_tissue(std::size_t picture) const {
                            : picture < first_section_ ? n
                            : picture < first_inside_  ? with_section_[picture - first_section_]
                                                       : with_inside_[picture - first_inside_];
-  return body < n && std::ranges::none_of(tools_, [body](const Tool& tool) { return tool.body == body; });
+  return body < n && std::ranges::none_of(tools_, [body](const auto& tool) { return tool->body() == body; });
 }
 
 /// Not opaque, where the person wants tissue so.
@@ -150,8 +156,14 @@ bool Painter::is_veil(std::size_t picture, const PaintOptions& options) const {
   return options.opacity < 1 && !options.wire && picture < first_section_ && is_tissue(picture);
 }
 
+/// Cut by the section, so that its inside shows.
+bool Painter::is_opened(std::size_t picture, const PaintOptions& options) const {
+  return options.section && is_tissue(picture) && (picture < first_section_ || picture >= first_inside_);
+}
+
 /// The section of a body is shown with it, and its inside where anything may be seen of it.
-bool Painter::is_shown(std::size_t picture, const PaintOptions& options) const {
+bool Painter::is_shown(const ViewModel& model, std::size_t picture, const PaintOptions& options) const {
+  if (model.bodies()[picture].empty()) return false;
   if (picture < first_section_) return !is_hidden(options.hidden.bodies, picture);
   if (picture >= first_inside_)
     return options.inside && is_tissue(picture) &&
@@ -165,19 +177,32 @@ void Painter::follow_colours(const ViewModel& model, const PaintOptions& options
   if (options.colour == ColourKind::own) return;
   colour_scale_.show(options.colour);
   for (std::size_t i = 0; i < bodies_.size(); ++i)
-    if (is_tissue(i) && is_shown(i, options))
+    if (is_tissue(i) && is_shown(model, i, options))
       colour_scale_.see(static_cast<double>(is_of_physics(options.colour) ? model.bodies()[i].most_field()
                                                                           : model.bodies()[i].farthest()));
 }
 
+bool Painter::has_lines(const ViewModel& model, const PaintOptions& options) const {
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    if (is_shown(model, i, options) && bodies_[i].has_lines()) return true;
+  return options.wire;
+}
+
+void Painter::upload(ViewModel& model, const PaintOptions& options) {
+  bytes_uploaded_ = 0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    if (is_shown(model, i, options)) bytes_uploaded_ += bodies_[i].upload(model.bodies()[i]);
+}
+
 /// Solid ones first. Of those that are a veil only the nearest surface is seen: its depth is drawn before it is.
-void Painter::draw_bodies(ViewModel& model, const Camera& camera, const PaintOptions& options, int height,
-                          Layer layer) {
+void Painter::draw_bodies(const ViewModel& model, const Camera& camera, const PaintOptions& options,
+                          const PixelBox& area, Layer layer) {
+  const int height = kept_->height();
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    BodyPicture& body = model.bodies()[i];
-    if (body.empty() || !is_shown(i, options)) continue;
+    if (!is_shown(model, i, options)) continue;
     if (is_veil(i, options) != (layer == Layer::veil)) continue;
-    bytes_uploaded_ += bodies_[i].upload(body);
+    const BodyPicture& body = model.bodies()[i];
+    bodies_[i].look_at(area);
     if (layer == Layer::solid) {
       draw_body(i, body, camera, options, height);
       continue;
@@ -196,8 +221,7 @@ void Painter::draw_body(std::size_t i, const BodyPicture& body, const Camera& ca
                         const PaintOptions& options, int height) {
   const float shade = options.fragments ? 0.5F : 1.0F;
   TissueDrawing& drawing = bodies_[i];
-  const bool is_inside = i >= first_inside_;
-  const bool opened = options.section && is_tissue(i) && (i < first_section_ || is_inside);
+  const bool opened = is_opened(i, options);
   const LitProgram& lit = drawing.closed() && drawing.dense() && !opened ? at_vertices_ : at_pixels_;
   lit.begin(camera);
   if (opened) {
@@ -212,7 +236,7 @@ void Painter::draw_body(std::size_t i, const BodyPicture& body, const Camera& ca
   if (is_of_physics(options.colour) && is_tissue(i)) lit.colour_by_field(most);
   glEnable(GL_POLYGON_OFFSET_FILL);  // lines lie before the surface
   glPolygonOffset(1, 1);
-  drawing.draw(lit, opened, is_veil(i, options) ? options.opacity : 1.0F);
+  drawing.draw(lit, is_veil(i, options) ? options.opacity : 1.0F);
   glDisable(GL_POLYGON_OFFSET_FILL);
   if (options.wire || drawing.has_lines()) {
     as_lines_.begin(camera);
@@ -230,72 +254,15 @@ void Painter::draw_body(std::size_t i, const BodyPicture& body, const Camera& ca
   glDisable(GL_CLIP_DISTANCE0);
 }
 
-/// Tools that are shown, where they are or where tissue pushes them. A tool that is a body shades only where it is
-/// pushed.
-void Painter::find_touches(const ViewModel& model, const PaintOptions& options) {
+void Painter::place_tools(const ViewModel& model, const PaintOptions& options) {
   touches_.clear();
-  for (std::size_t i = 0; options.tool && i < tools_.size() && touches_.size() < most_touches; ++i) {
-    const Tool& tool = tools_[i];
-    const ToolView& view = model.tools()[i];
-    if (!view.tip || size_ <= 0 || is_hidden(options.hidden.tools, i)) continue;
-    const bool presses = view.n_contacts > 0 && view.force.norm() > 0;
-    if (tool.body && !presses) continue;
-    const Eigen::Vector3d at = tool.at_hand ? *view.tip : view.proxy;
-    const Eigen::Vector3d axis = tool.length > 0 ? Eigen::Vector3d(view.attitude * tool.axis) : tool.axis;
-    const Eigen::Vector3d where = presses ? pushed_at(tool, view, model, at, axis) : at;
-    // Why: a thin tool's own radius would be too small to see.
-    const double radius = tool.body ? 0.05 * size_ : std::max(tool.radius, 0.03 * size_);
-    touches_.push_back({where.cast<float>(), static_cast<float>(radius), presses});
+  for (std::size_t i = 0; i < tools_.size(); ++i) {
+    const bool shown = !is_hidden(options.hidden.tools, i);
+    tools_[i]->place(
+        model.tools()[i], model,
+        {options.tool && shown, options.force && shown, options.wire, size_, metres_per_newton_});
+    if (tools_[i]->touch() && touches_.size() < most_touches) touches_.push_back(*tools_[i]->touch());
   }
-}
-
-/// Where tissue pushes a tool that is drawn with its tip at `at`. A point is pushed there; of a body and of a stick the wrench
-/// says the line of action, which is moved as the drawn tool is.
-Eigen::Vector3d Painter::pushed_at(const Tool& tool, const ToolView& view, const ViewModel& model,
-                                   const Eigen::Vector3d& at, const Eigen::Vector3d& axis) const {
-  if (!tool.body && tool.length <= 0) return at;
-  auto line = line_of_action(view.force, view.moment, view.set_point);
-  if (!line) return at;
-  if (tool.body) return pushed_point(*line, model.bodies()[*tool.body].surface()).value_or(at);
-  line->point += at - view.tip_in_tissue;
-  return pushed_point(*line, at, at + tool.length * axis, tool.radius);
-}
-
-// As the papers show it, a tool rests on the surface where its proxy is, however far beneath the hand has gone.
-void Painter::draw_tool(Tool& tool, const ToolView& view, const ViewModel& model,
-                        const PaintOptions& options) {
-  if (!view.tip || size_ <= 0) return;
-  const Eigen::Vector3d at = tool.at_hand ? *view.tip : view.proxy;
-  const Eigen::Vector3d axis = tool.length > 0 ? Eigen::Vector3d(view.attitude * tool.axis) : tool.axis;
-  if (options.tool && !tool.body) {
-    if (options.wire) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
-    at_pixels_.finish(0.30F, 1.0F);
-    Eigen::Matrix4f pose = pose_along(at, axis);
-    if (tool.shape == ToolShape::box || tool.shape == ToolShape::scalpel)
-      pose.topLeftCorner<3, 3>() = (view.attitude * tool.attitude).cast<float>();
-    tool.stick.draw(at_pixels_, pose, steel);
-    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-  }
-  if (options.force) draw_arrow(tool, pushed_at(tool, view, model, at, axis), view.force);
-}
-
-void Painter::draw_arrow(Tool& tool, const Eigen::Vector3d& from, const Eigen::Vector3d& force) {
-  const double length = force.norm() * metres_per_newton_;
-  if (length < 1e-3 * size_) return;  // too short to point anywhere
-  tool.arrow.shape(arrow_outline(static_cast<float>(0.018 * size_), static_cast<float>(length)));
-  const Eigen::Matrix4f pose = pose_along(from, force.normalized());
-  at_pixels_.finish(0.05F, 1.0F);
-  tool.arrow.draw(at_pixels_, pose, arrow_colour);
-  // Once more, paler, where something hides it: it begins at the tool's own surface, often behind it.
-  at_pixels_.finish(0.0F, 0.75F);
-  glDepthFunc(GL_GREATER);
-  glDepthMask(GL_FALSE);
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  tool.arrow.draw(at_pixels_, pose, arrow_colour);
-  glDisable(GL_BLEND);
-  glDepthMask(GL_TRUE);
-  glDepthFunc(GL_LEQUAL);
 }
 
 }  // namespace palpate::render

@@ -1,23 +1,26 @@
 #pragma once
-// Draws the whole picture but for the panels, in this order: gradient, bodies, tools, arrows, floor, walls, and then tissue
-// that is not opaque.
+// Draws the whole picture but for the panels, in this order: bodies, tools, arrows, gradient, floor, walls, and then tissue
+// that is not opaque. It keeps what it drew: of the next picture only the rectangles in which anything changed are drawn, the same
+// pixels as if all were.
 // Needs a current OpenGL 3.3 context from construction to destruction.
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "common/math/vec3.h"
 #include "common/scene/scene_fwd.h"
-#include "common/scene/tool_spec.h"
 #include "render_node/gl/backdrop_drawing.h"
+#include "render_node/gl/framebuffer.h"
 #include "render_node/gl/lit_program.h"
-#include "render_node/gl/solid_drawing.h"
 #include "render_node/gl/tissue_drawing.h"
+#include "render_node/gl/tool_drawing.h"
 #include "render_node/model/view_model.h"
 #include "render_node/view/camera.h"
 #include "render_node/view/colour_scale.h"
 #include "render_node/view/hidden.h"
+#include "render_node/view/pixel_box.h"
 
 namespace palpate::render {
 
@@ -29,53 +32,60 @@ struct PaintOptions {
   bool inside = false;                      // of images is shown
   float opacity = 1;                        // of tissue
   Hidden hidden = {};
+  friend bool operator==(const PaintOptions&, const PaintOptions&) = default;
 };
 
 class Painter {
  public:
-  Painter(const Scene& scene, const ViewModel& model);
+  /// @param samples  a pixel; 0: no smoothing of edges
+  Painter(const Scene& scene, const ViewModel& model, int samples);
 
-  /// Into the framebuffer bound now. Uploads what changed.
+  /// Into the framebuffer bound now, which has one sample a pixel. Uploads what changed.
   /// @param width,height  of the framebuffer [px]
   void draw(ViewModel& model, const Camera& camera, const PaintOptions& options, int width, int height);
+  /// The next draw() draws all of it.
+  void draw_whole() noexcept { seen_.reset(); }
 
   double arrow_metres_per_newton() const noexcept { return metres_per_newton_; }  // 0: nothing seen yet
   /// What its colours say, where they were asked for.
   const ColourScale& colour_scale() const noexcept { return colour_scale_; }
-  std::size_t bytes_uploaded() const noexcept { return bytes_uploaded_; }  // by the last draw()
+  // Of the last draw():
+  std::size_t bytes_uploaded() const noexcept { return bytes_uploaded_; }
+  const PixelBoxes& drawn() const noexcept { return drawn_; }  // the rest was as before
 
  private:
-  struct Tool {
-    double radius = 0;     // of the tip [m]
-    Eigen::Vector3d axis;  // from the tip up the stick, unit; of a stick, where the handle is not turned
-    double length = 0;     // of the stick, or what it is instead [m]; 0: as the picture needs
-    ToolShape shape = ToolShape::point;
-    double edge = 0;                                         // of a scalpel: from its handle [rad]
-    Eigen::Vector3d size = Eigen::Vector3d::Zero();          // of a box [m]
-    Eigen::Matrix3d attitude = Eigen::Matrix3d::Identity();  // of a box, where the handle is not turned
-    double force_limit = 0;                                  // of its device [N]
-    std::optional<std::size_t> body;                         // that it is, drawn as such, without a stick
-    bool at_hand = false;                                    // is where the hand is, not at the proxy
-    SolidDrawing stick, arrow;
+  /// Where any of it differs nothing may be kept.
+  struct Seen {
+    Lens lens;
+    PaintOptions options;
+    double size = 0, most = 0;
+    friend bool operator==(const Seen&, const Seen&) = default;
   };
   void adapt_sizes(const Eigen::AlignedBox3d& box);
-  void find_touches(const ViewModel& model, const PaintOptions& options);
+  void place_tools(const ViewModel& model, const PaintOptions& options);
   void follow_colours(const ViewModel& model, const PaintOptions& options);
+  bool has_lines(const ViewModel& model, const PaintOptions& options) const;
+  void upload(ViewModel& model, const PaintOptions& options);
+  PixelBoxes changed_pixels(const ViewModel& model, const Lens& lens, const PaintOptions& options);
+  void add_touched_pixels(const Lens& lens, const std::vector<Touch>& before, PixelBoxes& pixels) const;
+  void draw_area(const ViewModel& model, const Camera& camera, const PaintOptions& options,
+                 const PixelBox& area);
   bool is_tissue(std::size_t picture) const;
-  bool is_shown(std::size_t picture, const PaintOptions& options) const;
+  bool is_shown(const ViewModel& model, std::size_t picture, const PaintOptions& options) const;
+  bool is_opened(std::size_t picture, const PaintOptions& options) const;
   bool is_veil(std::size_t picture, const PaintOptions& options) const;
   enum class Layer { solid, veil };
-  void draw_bodies(ViewModel& model, const Camera& camera, const PaintOptions& options, int height,
-                   Layer layer);
+  void draw_bodies(const ViewModel& model, const Camera& camera, const PaintOptions& options,
+                   const PixelBox& area, Layer layer);
   void draw_body(std::size_t picture, const BodyPicture& body, const Camera& camera,
                  const PaintOptions& options, int height);
   void draw_planes(const ViewModel& model, const Camera& camera);
-  void draw_tool(Tool& tool, const ToolView& view, const ViewModel& model, const PaintOptions& options);
-  Eigen::Vector3d pushed_at(const Tool& tool, const ToolView& view, const ViewModel& model,
-                            const Eigen::Vector3d& at, const Eigen::Vector3d& axis) const;
-  void draw_arrow(Tool& tool, const Eigen::Vector3d& from, const Eigen::Vector3d& force);
 
   const Scene& scene_;
+  int samples_;
+  std::unique_ptr<Framebuffer> kept_;  // what was drawn
+  std::optional<Seen> seen_;           // when it was
+  PixelBoxes drawn_;
   LitProgram at_pixels_{Lighting::at_pixels};
   LitProgram at_vertices_{Lighting::at_vertices};
   LitProgram as_beads_{Lighting::as_beads};
@@ -84,7 +94,7 @@ class Painter {
   std::size_t first_section_, first_inside_;             // behind bodies and connections
   std::vector<std::size_t> with_section_, with_inside_;  // bodies
   std::vector<TissueDrawing> bodies_;  // of all pictures: bodies, connections, sections, what lies inside
-  std::vector<Tool> tools_;
+  std::vector<std::unique_ptr<ToolDrawing>> tools_;
   std::vector<Touch> touches_;
   double size_ = 0;  // half the diagonal of all bodies [m]
   double metres_per_newton_ = 0;

@@ -133,6 +133,8 @@ void SolidDrawing::upload(std::span<const SolidVertex> vertices, std::span<const
   vertices_.upload(vertices);
   indices_.upload(indices);
   n_indices_ = indices.size();
+  box_.setEmpty();
+  for (const SolidVertex& vertex : vertices) box_.extend(Eigen::Vector3f(vertex.position.data()));
 }
 
 void SolidDrawing::shape_box(const Eigen::Vector3f& size) {
@@ -192,7 +194,9 @@ void SolidDrawing::draw(const LitProgram& program, const Eigen::Matrix4f& pose,
   indices_.bind();
   glVertexAttribI1ui(at_flags, 0);
   glVertexAttrib4f(at_colour, rgb.x(), rgb.y(), rgb.z(), 1);
+  glEnable(GL_CULL_FACE);  // all shapes are closed
   glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(n_indices_), GL_UNSIGNED_INT, nullptr);
+  glDisable(GL_CULL_FACE);
 }
 
 }  // namespace palpate::render

@@ -47,6 +47,7 @@ class SolidDrawing {
   /// A blade in the plane of x and z, whose edge goes from the origin up and toward -x. [m] @param angle  from z [rad]
   void shape_blade(float length, float angle);
   void draw(const LitProgram& program, const Eigen::Matrix4f& pose, const Eigen::Vector3f& rgb) const;
+  const Eigen::AlignedBox3f& box() const noexcept { return box_; }  // round its shape
 
  private:
   void upload(std::span<const SolidVertex> vertices, std::span<const std::uint32_t> indices);
@@ -55,6 +56,7 @@ class SolidDrawing {
   Buffer vertices_{Buffer::Kind::vertices};
   Buffer indices_{Buffer::Kind::indices};
   std::size_t n_indices_ = 0;
+  Eigen::AlignedBox3f box_;
 };
 
 }  // namespace palpate::render

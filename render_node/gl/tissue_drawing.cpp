@@ -55,9 +55,12 @@ TissueDrawing::TissueDrawing() {
 
 std::size_t TissueDrawing::upload(BodyPicture& body) {
   std::size_t bytes = 0;
-  if (body.all_dirty()) {
+  all_changed_ = body.all_dirty();
+  any_changed_ = all_changed_ || !body.dirty_vertices().empty();
+  if (all_changed_) {
     bytes = upload_all(body);
   } else {
+    chunks_.follow(body.surface(), body.dirty_vertices());
     const std::span<const Array3f> position = body.surface().position;
     const std::span<const PackedVertex> packed = body.packed();
     for (const auto& range : body.dirty_ranges()) {
@@ -72,44 +75,83 @@ std::size_t TissueDrawing::upload(BodyPicture& body) {
 }
 
 std::size_t TissueDrawing::upload_all(const BodyPicture& body) {
-  Indices triangles, lines, beads;
-  triangles.reserve(6 * body.surface().corners.size());
+  Indices lines, beads;
   for (const auto& c : body.surface().corners) {
-    if (is_mass(c)) {
+    if (is_mass(c))
       beads.push_back(c[0]);
-    } else if (is_loose(c)) {
+    else if (is_loose(c))
       lines.insert(lines.end(), {c[0], c[1]});
-    } else {
-      triangles.insert(triangles.end(), {c[0], c[1], c[2]});
-      if (c[2] != c[3]) triangles.insert(triangles.end(), {c[0], c[2], c[3]});
-    }
   }
+  chunks_.build(body.surface());
   array_.bind();
   position_.upload(std::span<const Array3f>(body.surface().position));
   packed_.upload(std::span<const PackedVertex>(body.packed()));
   colour_.upload(std::span<const std::uint32_t>(body.vertex_rgba()));
   rest_.upload(std::span<const Array3f>(body.rest()));
   field_.upload(std::span<const float>(body.field()));
-  triangles_.upload(std::span<const std::uint32_t>(triangles));
+  triangles_.upload(chunks_.indices());
   lines_.upload(std::span<const std::uint32_t>(lines));
   beads_.upload(std::span<const std::uint32_t>(beads));
-  n_triangle_indices_ = triangles.size();
   n_line_indices_ = lines.size();
   n_bead_indices_ = beads.size();
   n_edge_indices_ = 0;
   closed_ = is_closed(body.surface());
-  return (triangles.size() + lines.size() + beads.size()) * sizeof(std::uint32_t) +
+  return (chunks_.indices().size() + lines.size() + beads.size()) * sizeof(std::uint32_t) +
          body.packed().size() *
              (2 * sizeof(Array3f) + sizeof(PackedVertex) + sizeof(std::uint32_t) + sizeof(float));
 }
 
-void TissueDrawing::draw(const LitProgram& program, bool opened, float opacity) const {
+PixelBox TissueDrawing::pixels_of_chunk(std::size_t chunk) const {
+  return one_sided_ && chunks_.faces_away(chunk, lens_.eye) ? PixelBox{}
+                                                            : pixels_of(lens_, chunks_.boxes()[chunk]);
+}
+
+std::optional<PixelBoxes> TissueDrawing::changed_pixels(const Lens& lens, bool opened) {
+  PixelBoxes pixels;
+  const bool one_sided = closed_ && !opened;
+  if (all_changed_ || lens_ != lens || one_sided_ != one_sided) {
+    lens_ = lens;
+    one_sided_ = one_sided;
+    appears_.clear();
+    for (std::size_t chunk = 0; chunk < chunks_.runs().size(); ++chunk)
+      appears_.push_back(pixels_of_chunk(chunk));
+    return std::nullopt;
+  }
+  for (const std::uint32_t chunk : chunks_.changed()) {
+    PixelBox& seen = appears_[chunk];
+    PixelBox both = seen;
+    seen = pixels_of_chunk(chunk);
+    both.extend(seen);
+    pixels.add(both);
+  }
+  if (any_changed_ && has_beads()) return std::nullopt;  // they reach further than facets
+  return pixels;
+}
+
+void TissueDrawing::look_at(const PixelBox& area) {
+  seen_counts_.clear();
+  seen_offsets_.clear();
+  std::size_t end = 0;  // of the last run [indices]
+  for (std::size_t chunk = 0; chunk < chunks_.runs().size(); ++chunk) {
+    const auto& run = chunks_.runs()[chunk];
+    if (!appears_[chunk].meets(area)) continue;
+    if (seen_counts_.empty() || run.first != end) {
+      seen_counts_.push_back(0);
+      seen_offsets_.push_back(offset_of(run.first * sizeof(std::uint32_t)));
+    }
+    seen_counts_.back() += static_cast<int>(run.n);
+    end = run.first + run.n;
+  }
+}
+
+void TissueDrawing::draw(const LitProgram& program, float opacity) const {
   program.place(Eigen::Matrix4f::Identity());
   program.finish(0.035F, opacity);
   array_.bind();
   triangles_.bind();
-  if (closed_ && !opened) glEnable(GL_CULL_FACE);
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(n_triangle_indices_), GL_UNSIGNED_INT, nullptr);
+  if (one_sided_) glEnable(GL_CULL_FACE);
+  glMultiDrawElements(GL_TRIANGLES, seen_counts_.data(), GL_UNSIGNED_INT, seen_offsets_.data(),
+                      static_cast<GLsizei>(seen_counts_.size()));
   glDisable(GL_CULL_FACE);
 }
 

@@ -78,9 +78,9 @@ void FrameFolder::thin() {
   kept_ = std::move(left);
 }
 
-FrameFolder::Written FrameFolder::write(const Image& image, const fs::path& path) {
+FrameFolder::Written FrameFolder::write(Work* work, const fs::path& path) {
   try {
-    write_png(image, path);
+    work->writer.write(work->image, path);
   } catch (const InputError& error) {
     return {0, error.what()};
   }
@@ -95,7 +95,8 @@ void FrameFolder::keep(const Image& image) {
     ++lost_;
     return;
   }
-  pending_ = std::async(std::launch::async, write, image, folder_ / frame_name(last_ + 1));
+  work_->image = image;
+  pending_ = std::async(std::launch::async, write, work_.get(), folder_ / frame_name(last_ + 1));
 }
 
 void FrameFolder::settle() {

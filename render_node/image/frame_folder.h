@@ -6,12 +6,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <future>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "common/scene/scene_fwd.h"
 #include "render_node/image/image.h"
 #include "render_node/image/own_picture.h"
+#include "render_node/image/png_file.h"
 
 namespace palpate::render {
 
@@ -51,7 +53,12 @@ class FrameFolder {
     std::uint64_t bytes = 0;
     std::string why;  // it is lost; empty: it is there
   };
-  static Written write(const Image& image, const std::filesystem::path& path);
+  /// What is being written, and what writes it.
+  struct Work {
+    Image image;
+    PngWriter writer;
+  };
+  static Written write(Work* work, const std::filesystem::path& path);
 
   std::filesystem::path folder_;
   std::size_t most_;
@@ -60,7 +67,8 @@ class FrameFolder {
   int last_ = 0;                  // highest number there, anybody's
   std::uint64_t offered_ = 0, every_ = 1, left_out_ = 0, lost_ = 0;
   std::string why_;
-  std::future<Written> pending_;
+  std::future<Written> pending_;  // before what it works on: one that is replaced is waited for
+  std::unique_ptr<Work> work_ = std::make_unique<Work>();
 };
 
 }  // namespace palpate::render

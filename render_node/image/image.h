@@ -1,9 +1,8 @@
 #pragma once
-// A picture in memory and its way to a PNG file.
+// A picture in memory.
 
 #include <cstddef>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 namespace palpate::render {
@@ -17,10 +16,5 @@ struct Image {
            (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * 3;
   }
 };
-
-/// Writes beside, then renames: `path` is either complete or untouched. It bears the mark that
-/// is_own_picture() knows.
-/// @throws InputError if the file cannot be written
-void write_png(const Image& image, const std::string& path);
 
 }  // namespace palpate::render

@@ -1,3 +1,5 @@
+#include "render_node/image/png_file.h"
+
 #include <png.h>
 
 #include <cerrno>
@@ -8,8 +10,6 @@
 
 #include "common/error/error.h"
 #include "common/file/new_file.h"
-#include "render_node/image/image.h"
-#include "render_node/image/packed_rows.h"
 
 namespace palpate::render {
 namespace {
@@ -27,7 +27,7 @@ void give_up(png_structp png, png_const_charp) { png_longjmp(png, 1); }
 void ignore(png_structp, png_const_charp) {}
 
 // libpng reports through longjmp, so nothing with a destructor lives in here. @return false: failed
-bool encode(std::FILE* file, const Image& image, const std::vector<std::uint8_t>& packed) {
+bool encode(std::FILE* file, const Image& image, std::span<const std::uint8_t> packed) {
   static char key[] = "Software", maker[] = "palpate";  // is_own_picture() looks for it
   png_text mark = {};
   mark.compression = PNG_TEXT_COMPRESSION_NONE;
@@ -54,9 +54,11 @@ bool encode(std::FILE* file, const Image& image, const std::vector<std::uint8_t>
 
 }  // namespace
 
-void write_png(const Image& image, const std::string& path) {
+void write_png(const Image& image, const std::string& path) { PngWriter().write(image, path); }
+
+void PngWriter::write(const Image& image, const std::string& path) {
   PALPATE_CHECK(image.width > 0 && image.height > 0, "an empty picture cannot be written");
-  const std::vector<std::uint8_t> packed = packed_rows(image);
+  const std::span<const std::uint8_t> packed = packer_.pack(image);
   const std::string beside = path + ".part";
   bool written = false;
   int why = 0;

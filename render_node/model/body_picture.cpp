@@ -106,6 +106,8 @@ void BodyPicture::follow_surface() {
   is_moved_.resize(n, 0);
   packed_.resize(n);
   page_dirty_.assign((n + page_vertices - 1) / page_vertices, 0);
+  dirty_.clear();
+  is_dirty_.assign(n, 0);
   vertex_rgba_ = mean_colours(surface_);
   rebuild_ = all_dirty_ = true;
   n_facets_ = static_cast<std::size_t>(std::count_if(surface_.corners.begin(), surface_.corners.end(),
@@ -231,6 +233,8 @@ std::vector<VertexRange> BodyPicture::dirty_ranges() const {
 void BodyPicture::clear_dirty() {
   all_dirty_ = false;
   std::fill(page_dirty_.begin(), page_dirty_.end(), std::uint8_t{0});
+  for (const std::uint32_t v : dirty_) is_dirty_[v] = 0;
+  dirty_.clear();
 }
 
 }  // namespace palpate::render

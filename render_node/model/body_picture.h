@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "render_node/model/memory_budget.h"
@@ -73,6 +74,7 @@ class BodyPicture {
   // What changed since clear_dirty(). All: facets, colours and vertices; else ranges of vertices.
   bool all_dirty() const noexcept { return all_dirty_; }
   std::vector<VertexRange> dirty_ranges() const;
+  std::span<const std::uint32_t> dirty_vertices() const noexcept { return dirty_; }  // each once, no order
   void clear_dirty();
 
  private:
@@ -83,7 +85,12 @@ class BodyPicture {
   void show(Surface surface);
   void follow_surface();
   void apply(const VertexBlock& block);
-  void touch(std::size_t vertex) { page_dirty_[vertex / page_vertices] = 1; }
+  void touch(std::uint32_t vertex) {
+    page_dirty_[vertex / page_vertices] = 1;
+    if (is_dirty_[vertex] != 0) return;
+    is_dirty_[vertex] = 1;
+    dirty_.push_back(vertex);
+  }
   void pack(std::size_t vertex);
 
   SurfaceAssembly assembly_;
@@ -109,6 +116,8 @@ class BodyPicture {
   std::vector<std::uint8_t> is_moved_;  // (n_vertices)
   bool all_dirty_ = false;
   std::vector<std::uint8_t> page_dirty_;  // (n_vertices / page_vertices, rounded up)
+  std::vector<std::uint32_t> dirty_;
+  std::vector<std::uint8_t> is_dirty_;  // (n_vertices)
 };
 
 }  // namespace palpate::render

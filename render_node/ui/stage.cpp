@@ -14,7 +14,7 @@
 
 namespace palpate::render {
 
-Stage::Stage(const Scene& scene, ViewModel& model, int height)
+Stage::Stage(const Scene& scene, ViewModel& model, int height, int samples)
     : scene_(scene),
       model_(model),
       camera_(scene.render->camera),
@@ -30,7 +30,7 @@ Stage::Stage(const Scene& scene, ViewModel& model, int height)
       threshold_(scene),
       section_(scene),
       inside_(scene),
-      painter_(scene, model),
+      painter_(scene, model, samples),
       imgui_(height) {}
 
 PanelWishes Stage::draw(const PanelFacts& facts, int width, int height, float seconds) {

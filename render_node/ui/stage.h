@@ -12,13 +12,14 @@ namespace palpate::render {
 
 class Stage {
  public:
-  /// @param height  of the picture, for the size of text [px]. Scene and model must outlive the stage.
-  Stage(const Scene& scene, ViewModel& model, int height);
+  /// @param height  of the picture, for the size of text [px]  @param samples  a pixel; 0: no smoothing of edges
+  /// Scene and model must outlive the stage.
+  Stage(const Scene& scene, ViewModel& model, int height, int samples);
 
   /// Makes this stage's ImGui context current; call before feeding input or drawing.
   void make_current() const { imgui_.make_current(); }
 
-  /// Draws into the bound framebuffer. The ImGui frame must not be open; `seconds` is the wall time since the last one.
+  /// Draws into the bound framebuffer, which has one sample a pixel. The ImGui frame must not be open; `seconds` is the wall time since the last one.
   PanelWishes draw(const PanelFacts& facts, int width, int height, float seconds);
 
   Camera& camera() noexcept { return camera_; }
@@ -26,7 +27,7 @@ class Stage {
   ThresholdControl& threshold() noexcept { return threshold_; }
   SectionControl& section() noexcept { return section_; }
   InsideControl& inside() noexcept { return inside_; }
-  const Painter& painter() const noexcept { return painter_; }
+  Painter& painter() noexcept { return painter_; }
 
  private:
   /// Of all bodies as they were first seen, down to the floor: what falls stays in sight.

@@ -48,7 +48,6 @@ struct Window::Glfw {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-    glfwWindowHint(GLFW_SAMPLES, samples_per_pixel);
     const std::string title = scene.title.empty() ? "palpate" : scene.title + " \xe2\x80\x93 palpate";
     window =
         glfwCreateWindow(scene.render->size_px[0], scene.render->size_px[1], title.c_str(), nullptr, nullptr);
@@ -70,7 +69,7 @@ struct Window::Glfw {
 
 Window::Window(const Scene& scene, ViewModel& model, const std::vector<std::uint32_t>& pointed)
     : glfw_(std::make_unique<Glfw>(scene)),
-      stage_(std::make_unique<Stage>(scene, model, scene.render->size_px[1])),
+      stage_(std::make_unique<Stage>(scene, model, scene.render->size_px[1], samples_per_pixel)),
       scene_(scene),
       model_(model),
       leading_(scene, model, pointed),
@@ -136,8 +135,8 @@ PanelWishes Window::draw(const PanelFacts& facts, Image* seen) {
   for (const Action action : wishes.actions) perform(action, wishes);
   if (!cursor.typing) perform_keys(wishes);
   events_.forget();
-  if (wishes.picture) wishes.picture = read_pixels(width, height);
-  if (seen != nullptr) *seen = read_pixels(width, height);
+  if (wishes.picture) PixelReader().read(width, height, *wishes.picture);
+  if (seen != nullptr) PixelReader().read(width, height, *seen);
   glfwSwapBuffers(glfw_->window);
   return wishes;
 }

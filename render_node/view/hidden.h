@@ -11,6 +11,7 @@ namespace palpate::render {
 struct Hidden {
   std::vector<bool> bodies;  // as in the scene, its connections behind; may be shorter
   std::vector<bool> tools;   // as in the scene; may be shorter
+  friend bool operator==(const Hidden&, const Hidden&) = default;
 };
 
 /// What of the bodies a person sees.

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/error/error.h"
-#include "render_node/image/image.h"
+#include "render_node/image/png_file.h"
 #include "tests/unit/deploy/palpate/temporary_folder.h"
 
 namespace palpate::deploy {

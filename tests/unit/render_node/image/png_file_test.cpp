@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "common/error/error.h"
-#include "render_node/image/image.h"
+#include "render_node/image/png_file.h"
 
 namespace palpate::render {
 namespace {

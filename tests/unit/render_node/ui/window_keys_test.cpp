@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "render_node/image/png_file.h"
 #include "render_node/ui/panels.h"
 // Last: Xlib's macros.
 #include "tests/unit/render_node/ui/shown_window.h"

@@ -14,6 +14,7 @@
 #include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
+#include "render_node/image/png_file.h"
 #include "tests/unit/render_node/render_support.h"
 // Last: Xlib's macros.
 #include "tests/unit/render_node/ui/shown_window.h"
