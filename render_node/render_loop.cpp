@@ -24,6 +24,7 @@
 #include "common/scene/tool_spec.h"
 #include "common/time/clock.h"
 #include "common/wire/heard_report.h"
+#include "render_node/eye_pace.h"
 #include "render_node/frame_schedule.h"
 #include "render_node/image/frame_folder.h"
 #include "render_node/image/screenshot.h"
@@ -37,7 +38,6 @@ namespace {
 
 constexpr int niceness = 5;  // the hand and the tissue go first
 constexpr double status_period_s = 0.25;
-constexpr double window_period_s = 1.0 / 30;
 constexpr auto nap = std::chrono::milliseconds(5);
 
 // How the eye fares, for NodeStatus and the report.
@@ -219,6 +219,7 @@ int run_window(const NodeOptions& options, const Scene& given) {
   Window window(scene, model, pointed_tools(options, scene));
   Wire wire(membership(options, scene, "render"));
   Fare fare(scene);
+  EyePace pace(window.software());
   ColourKind commanded = window.colour();
   bool stop = false;
   while (!stop && !wire.unwelcome() && !stop_requested() && !time_is_over(options, model)) {
@@ -251,11 +252,10 @@ int run_window(const NodeOptions& options, const Scene& given) {
     }
     // 3. say how it goes
     fare.tell(wire, phase_of(model), 0, false);
-    // 4. leave the processor to others: half of the time where it does the drawing
-    const double drew_s = seconds_from_ns(now_ns() - began_ns);
-    const double rest_s =
-        window.software() ? std::max(window_period_s - drew_s, drew_s) : window_period_s - drew_s;
-    if (rest_s > 0) std::this_thread::sleep_for(std::chrono::duration<double>(std::min(rest_s, 0.1)));
+    // 4. leave the processor to others
+    if (const auto& physics = model.node(NodeKind::physics)) pace.hear(*physics);
+    const double rest_s = pace.rest_s(seconds_from_ns(now_ns() - began_ns));
+    if (rest_s > 0) std::this_thread::sleep_for(std::chrono::duration<double>(rest_s));
   }
   fare.tell(wire, NodePhase::stopping, 0, true);
   const int kept = options.out.empty() ? exit_ok : fare.write_report(options.out, model, wire, nullptr);
