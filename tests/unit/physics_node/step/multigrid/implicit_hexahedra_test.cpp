@@ -92,25 +92,26 @@ TEST(ImplicitHexahedra, KeepsTheBooksOfAFallAndASwing) {
   }
 }
 
-// A step begins where the body would coast to; where that crushes cells, no search may end with more energy than there was.
-TEST(ImplicitHexahedra, TakesNoEnergyFromASearchThatGivesUp) {
+// A step begins where the body would coast to. Where that crushes cells or turns them inside out, a search may give up, or find
+// another minimum; it may not end with more energy than there was.
+TEST(ImplicitHexahedra, TakesNoEnergyFromASearchThatGoesAstray) {
   int given_up = 0;
   for (const Precision precision : {Precision::single_, Precision::double_})
-    for (unsigned seed = 0; seed < 12; ++seed) {
+    for (int n = 0; n < 24; ++n) {
       auto body = implicit(
           tissue(test::Recipe::box(40, 40, 40), "modulus_kPa = 100\npoisson_ratio = 0.47", ""), precision);
-      std::mt19937 random(seed);
+      std::mt19937 random(static_cast<unsigned>(n));
       std::uniform_real_distribution<double> cells(-1.5, 1.5);
       constexpr double dt = 0.02, cell = 5e-3;
       for (const Index node : body->body().nodes()) {
         const Vec3 to_middle = -body->body().rest_position(node);
         const Vec3 anywhere(cells(random), cells(random), cells(random));
-        body->place(node, Vec3::Zero(), (2.5 * to_middle + seed % 3 * cell * anywhere) / dt);
+        body->place(node, Vec3::Zero(), ((1 + 0.2 * n) * to_middle + n % 4 * cell * anywhere) / dt);
       }
       const Energies before = body->energies(Vec3::Zero());
-      for (int n = 0; n < 3; ++n) given_up += body->advance({.dt = dt}, {}).solved ? 0 : 1;
+      for (int step = 0; step < 3; ++step) given_up += body->advance({.dt = dt}, {}).solved ? 0 : 1;
       const Energies after = body->energies(Vec3::Zero());
-      EXPECT_LE(after.kinetic + after.elastic, (1 + 1e-6) * (before.kinetic + before.elastic)) << seed;
+      EXPECT_LE(after.kinetic + after.elastic, 1.001 * (before.kinetic + before.elastic)) << n;
     }
   EXPECT_GT(given_up, 2) << "or nothing was tried";
 }
