@@ -105,7 +105,7 @@ PixelBoxes Painter::changed_pixels(const ViewModel& model, const Lens& lens, con
   PixelBoxes pixels;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!is_shown(model, i, options)) continue;
-    if (const auto changed = bodies_[i].changed_pixels(lens, is_opened(i, options)))
+    if (const auto changed = bodies_[i].changed_pixels(lens, is_opened(i, options), options.wire))
       pixels.add(*changed);
     else
       pixels.add(all_pixels(lens));

@@ -106,7 +106,7 @@ PixelBox TissueDrawing::pixels_of_chunk(std::size_t chunk) const {
                                                             : pixels_of(lens_, chunks_.boxes()[chunk]);
 }
 
-std::optional<PixelBoxes> TissueDrawing::changed_pixels(const Lens& lens, bool opened) {
+std::optional<PixelBoxes> TissueDrawing::changed_pixels(const Lens& lens, bool opened, bool wired) {
   PixelBoxes pixels;
   const bool one_sided = closed_ && !opened;
   if (all_changed_ || lens_ != lens || one_sided_ != one_sided) {
@@ -124,7 +124,8 @@ std::optional<PixelBoxes> TissueDrawing::changed_pixels(const Lens& lens, bool o
     both.extend(seen);
     pixels.add(both);
   }
-  if (any_changed_ && has_beads()) return std::nullopt;  // they reach further than facets
+  if (any_changed_ && (has_beads() || has_lines() || wired))
+    return std::nullopt;  // no chunk knows where they are
   return pixels;
 }
 

@@ -20,8 +20,8 @@ class TissueDrawing {
   /// Uploads what is dirty and clears the dirt. @return bytes uploaded
   std::size_t upload(BodyPicture& body);
   /// Which pixels the last upload() may have changed; nothing: any. Call it before look_at().
-  /// @param opened  by a section: its inside shows
-  std::optional<PixelBoxes> changed_pixels(const Lens& lens, bool opened);
+  /// @param opened  by a section: its inside shows  @param wired  the edges of facets are drawn, too
+  std::optional<PixelBoxes> changed_pixels(const Lens& lens, bool opened, bool wired);
   /// Only facets that may appear there are drawn from now on, as changed_pixels() saw them.
   void look_at(const PixelBox& area);
 

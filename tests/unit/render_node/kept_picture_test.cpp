@@ -158,6 +158,26 @@ INSTANTIATE_TEST_SUITE_P(
                     Session{"near", [](Scene& s) { s.render->camera.distance = 0.12; }, 60}),
     [](const auto& of) { return std::string(of.param.name); });
 
+/// An element and a mass that no facet shows are in no chunk.
+TEST(KeptPictures, FollowWhatNoFacetShows) {
+  for (const bool element : {true, false})
+    for (const Edges edges : {Edges::plain, Edges::smooth}) {
+      auto surface = test::cube_surface(12, side, 0xff96b4e6U);
+      const auto n = static_cast<std::uint32_t>(surface.position.size());
+      surface.position.insert(surface.position.end(), {{-0.03F, -0.08F, 0}, {0.03F, -0.08F, 0.01F}});
+      surface.corners.push_back(element ? std::array{n, n + 1, n + 1, n + 1} : std::array{n, n, n, n});
+      surface.rgba.push_back(0xff20c020U);
+      Pair pair(test::small_scene(), surface, edges);
+      ASSERT_EQ(pair.draw(0), 0);
+      for (int k = 1; k < 5; ++k) {
+        const Image before = pair.image();
+        pair.dent({-0.03F, -0.08F, 0.01F * static_cast<float>(k - 1)}, 0.005F, {0, 0, 0.01F});
+        ASSERT_EQ(pair.draw(0.1 * k), 0) << k;
+        EXPECT_GT(differing_pixels(before, pair.image()), 10) << "it moved";
+      }
+    }
+}
+
 TEST(KeptPictures, DrawNothingWhereNothingChanged) {
   const Scene scene = test::small_scene();
   Picture picture(scene);

@@ -91,6 +91,39 @@ TEST(SurfaceChunks, FollowWhatMoves) {
   EXPECT_TRUE(chunks.changed().empty());
 }
 
+/// Whatever is left out shows its back to the eye; and about a third of a ball is.
+TEST(SurfaceChunks, FaceAwayWithAllTheirTriangles) {
+  Surface ball = surface_of(test::cube_surface(40, 0.1, 0xff96b4e6U));
+  for (Array3f& p : ball.position) {
+    const Eigen::Vector3f round = 0.05F * Eigen::Vector3f(p.data()).normalized();
+    p = {round.x(), round.y(), round.z()};
+  }
+  Surface cube = surface_of(test::cube_surface(20, 0.1, 0xff96b4e6U));
+  std::mt19937 random(2);
+  std::uniform_real_distribution<float> anywhere(-1, 1);
+  for (const Surface* surface : {&ball, &cube}) {
+    SurfaceChunks chunks;
+    chunks.build(*surface);
+    for (int n = 0; n < 40; ++n) {
+      Eigen::Vector3f eye(anywhere(random), anywhere(random), anywhere(random));
+      eye *= (0.1F + 0.01F * static_cast<float>(n)) / eye.norm();
+      std::size_t away = 0;
+      for (std::size_t c = 0; c < chunks.runs().size(); ++c) {
+        if (!chunks.faces_away(c, eye)) continue;
+        ++away;
+        for (std::size_t i = 0; i < chunks.runs()[c].n; i += 3) {
+          std::array<Eigen::Vector3f, 3> p;
+          for (std::size_t k = 0; k < 3; ++k)
+            p[k] =
+                Eigen::Vector3f(surface->position[chunks.indices()[chunks.runs()[c].first + i + k]].data());
+          EXPECT_LE((p[1] - p[0]).cross(p[2] - p[0]).dot(eye - p[0]), 0);
+        }
+      }
+      EXPECT_GT(3 * away, surface == &ball ? chunks.runs().size() : 0) << eye.transpose();
+    }
+  }
+}
+
 TEST(SurfaceChunks, OfNothingAreNone) {
   SurfaceChunks chunks;
   Surface surface;
