@@ -124,10 +124,16 @@ std::vector<std::uint32_t> pointed_tools(const NodeOptions& options, const Scene
   return tools;
 }
 
+/// Hand and tissue want a core each. Before there is a context: Mesa's software renderer takes every core otherwise.
+bool spare_cores() {
+  const bool few = std::thread::hardware_concurrency() <= 2;
+  if (few) setenv("LP_NUM_THREADS", "1", 0);
+  return few;
+}
+
 int run_headless(const NodeOptions& options, const Scene& scene) {
   FrameFolder frames(options.out, *scene.render);
-  const bool few_cores = std::thread::hardware_concurrency() <= 2;
-  if (few_cores) setenv("LP_NUM_THREADS", "1", 0);  // Mesa's software renderer takes every core otherwise
+  const bool few_cores = spare_cores();
   Wire wire(membership(options, scene, "render"));
   Fare fare(scene);
   fare.tell(wire, NodePhase::loading, 0, true);
@@ -215,6 +221,7 @@ Scene with_driver(Scene scene, const std::string& driver) {
 
 int run_window(const NodeOptions& options, const Scene& given) {
   const Scene scene = with_driver(given, options.device);
+  spare_cores();
   ViewModel model(scene);
   Window window(scene, model, pointed_tools(options, scene));
   Wire wire(membership(options, scene, "render"));

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <numbers>
 #include <string>
+#include <thread>
 
 #include "common/error/error.h"
 #include "common/scene/render_spec.h"
@@ -22,7 +23,8 @@
 namespace palpate::render {
 namespace {
 
-constexpr int samples_per_pixel = 4;
+/// Four smooth edges; where the processor draws, and has others to serve, that doubles the cost of a picture.
+int samples_per_pixel() { return software_gl() && std::thread::hardware_concurrency() <= 2 ? 0 : 4; }
 
 [[noreturn]] void complain() {
   const char* words = nullptr;
@@ -69,7 +71,7 @@ struct Window::Glfw {
 
 Window::Window(const Scene& scene, ViewModel& model, const std::vector<std::uint32_t>& pointed)
     : glfw_(std::make_unique<Glfw>(scene)),
-      stage_(std::make_unique<Stage>(scene, model, scene.render->size_px[1], samples_per_pixel)),
+      stage_(std::make_unique<Stage>(scene, model, scene.render->size_px[1], samples_per_pixel())),
       scene_(scene),
       model_(model),
       leading_(scene, model, pointed),
