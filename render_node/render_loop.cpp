@@ -26,6 +26,7 @@
 #include "common/wire/heard_report.h"
 #include "render_node/eye_pace.h"
 #include "render_node/frame_schedule.h"
+#include "render_node/gl/egl_context.h"
 #include "render_node/image/frame_folder.h"
 #include "render_node/image/screenshot.h"
 #include "render_node/model/hand_state.h"
@@ -125,19 +126,17 @@ std::vector<std::uint32_t> pointed_tools(const NodeOptions& options, const Scene
 }
 
 /// Hand and tissue want a core each. Before there is a context: Mesa's software renderer takes every core otherwise.
-bool spare_cores() {
-  const bool few = std::thread::hardware_concurrency() <= 2;
-  if (few) setenv("LP_NUM_THREADS", "1", 0);
-  return few;
+void spare_cores() {
+  if (few_cores()) setenv("LP_NUM_THREADS", "1", 0);
 }
 
 int run_headless(const NodeOptions& options, const Scene& scene) {
   FrameFolder frames(options.out, *scene.render);
-  const bool few_cores = spare_cores();
+  spare_cores();
   Wire wire(membership(options, scene, "render"));
   Fare fare(scene);
   fare.tell(wire, NodePhase::loading, 0, true);
-  Picture picture(scene, few_cores ? Edges::plain : Edges::smooth);
+  Picture picture(scene, few_cores() ? Edges::plain : Edges::smooth);
   FrameSchedule schedule(scene.render->rate_Hz);
   if (!pointed_tools(options, scene).empty())
     log_warn("driver \"mouse\": there is no window to point in; leave out --headless, on a display");

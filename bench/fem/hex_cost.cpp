@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/problems/median.h"
 #include "bench/problems/stopwatch.h"
 
 namespace palpate::bench {
@@ -12,11 +13,7 @@ constexpr int steps_a_frame = 4;
 
 }  // namespace
 
-double HexCost::median_ns() const {
-  std::vector<double> sorted = ns;
-  std::sort(sorted.begin(), sorted.end());
-  return sorted.empty() ? 0 : sorted[sorted.size() / 2];
-}
+double HexCost::median_ns() const { return median(ns); }
 
 double HexCost::least_ns() const { return ns.empty() ? 0 : *std::min_element(ns.begin(), ns.end()); }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include "bench/problems/median.h"
 #include "bench/problems/stopwatch.h"
 #include "common/scene/body_spec.h"
 #include "common/scene/material_spec.h"
@@ -62,11 +63,7 @@ std::unique_ptr<physics::World> make_world(const LumpKind& kind, int along) {
 
 }  // namespace
 
-double LumpCost::median_ns() const {
-  std::vector<double> sorted = ns;
-  std::sort(sorted.begin(), sorted.end());
-  return sorted.empty() ? 0 : sorted[sorted.size() / 2];
-}
+double LumpCost::median_ns() const { return median(ns); }
 
 std::vector<LumpCost> measure_lumps(const std::vector<LumpKind>& kinds, int along, int rounds) {
   std::vector<LumpCost> costs;

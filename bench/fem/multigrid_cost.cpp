@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "bench/problems/median.h"
 #include "bench/problems/stopwatch.h"
 #include "physics_node/step/body_model.h"
 #include "physics_node/step/lattice/stable_step.h"
@@ -17,11 +18,6 @@ constexpr double frame = FrameCost::frame;
 
 /// Of one thread its CPU time, so that what else the machine does counts less; of several the wall time.
 double seconds(const Stopwatch& watch, int threads) { return threads == 1 ? watch.cpu_s() : watch.wall_s(); }
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values.empty() ? 0 : values[values.size() / 2];
-}
 
 /// Nodes that are free and lie highest, those nearest to the middle first.
 std::vector<Index> highest(const physics::Body& body, std::size_t count) {

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "bench/fem/tet_work.h"
+#include "bench/problems/median.h"
 #include "bench/problems/stopwatch.h"
 #include "physics_node/mesh/renumber.h"
 #include "physics_node/mesh/tet_box.h"
@@ -58,11 +59,7 @@ physics::TetModel model_of(const TetCubeKind& kind) {
 
 }  // namespace
 
-double TetCost::median_ns() const {
-  std::vector<double> sorted = ns;
-  std::sort(sorted.begin(), sorted.end());
-  return sorted.empty() ? 0 : sorted[sorted.size() / 2];
-}
+double TetCost::median_ns() const { return median(ns); }
 
 double TetCost::least_ns() const { return ns.empty() ? 0 : *std::min_element(ns.begin(), ns.end()); }
 

@@ -1,4 +1,5 @@
 #include "bench/peers/measure.h"
+#include "bench/problems/median.h"
 
 #include <fmt/format.h>
 
@@ -12,12 +13,6 @@
 
 namespace palpate::bench {
 namespace {
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::vector<Solver*> all_solvers(const std::vector<Peer>& peers) {
   std::vector<Solver*> solvers;

@@ -1,10 +1,5 @@
 #include "bench/render/message_tape.h"
 
-#include <algorithm>
-#include <cmath>
-
-#include "common/scene/render_spec.h"
-
 namespace palpate::bench {
 
 void MessageTape::take(std::uint32_t tool, const TraceSample& sample) {
@@ -15,9 +10,7 @@ void MessageTape::take(std::uint32_t tool, const TraceSample& sample) {
 
 void MessageTape::frame(physics::World& world, std::int64_t now_ns) {
   if (!source_) source_ = std::make_unique<deploy::EyeMessages>(scene_, world);
-  const auto every = std::max<std::int64_t>(
-      1, static_cast<std::int64_t>(std::lround(1 / (scene_.render->rate_Hz * world.frame_seconds()))));
-  if (frames_++ % every != 0 || pictures() >= most_) return;
+  if (frames_++ % deploy::frames_a_picture(scene_, world) != 0 || pictures() >= most_) return;
   Writer writer{pending_};
   source_->write(world, now_ns, writer);
   parts_.push_back({world.t(), std::move(pending_)});

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "bench/machine/result_folder.h"
+#include "bench/problems/median.h"
 #include "bench/problems/stopwatch.h"
 #include "bench/render/message_tape.h"
 #include "bench/subcommands.h"
@@ -30,13 +31,6 @@ struct Costs {
   std::vector<double> messages, drawing, file;  // CPU time of each picture [ms]
   std::vector<double> drawn;                    // share of the pixels of each
 };
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 double ms_of(const std::function<void()>& work) {
   const Stopwatch watch;

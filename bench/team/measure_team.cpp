@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench/problems/cube.h"
+#include "bench/problems/median.h"
 #include "bench/team/crowd.h"
 #include "physics_node/step/team_choice.h"
 
@@ -16,12 +17,6 @@ using Clock = std::chrono::steady_clock;
 
 std::int64_t ns_since(Clock::time_point begin) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - begin).count();
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// @return wall time of a step [us]

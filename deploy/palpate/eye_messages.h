@@ -1,6 +1,7 @@
 #pragma once
 // What the eye is told of a world that runs in this process, when a picture is due.
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -11,6 +12,12 @@
 #include "physics_node/world.h"
 
 namespace palpate::deploy {
+
+/// Frames of the world from picture to picture.
+inline std::int64_t frames_a_picture(const Scene& scene, const physics::World& world) {
+  const double frames = 1 / (scene.render->rate_Hz * world.frame_seconds());
+  return std::max<std::int64_t>(1, static_cast<std::int64_t>(frames + 0.5));
+}
 
 class EyeMessages {
  public:

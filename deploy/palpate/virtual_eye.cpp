@@ -1,7 +1,5 @@
 #include "deploy/palpate/virtual_eye.h"
 
-#include <algorithm>
-
 #include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
 
@@ -11,8 +9,7 @@ VirtualEye::VirtualEye(const Scene& scene, const physics::World& world)
     : messages_(scene, world),
       picture_(scene),
       spec_(*scene.render),
-      every_(std::max<std::int64_t>(
-          1, static_cast<std::int64_t>(1 / (scene.render->rate_Hz * world.frame_seconds()) + 0.5))) {}
+      every_(frames_a_picture(scene, world)) {}
 
 void VirtualEye::leave_in(const std::filesystem::path& out) { folder_.emplace(out, spec_); }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <thread>
 
 #include "common/error/error.h"
 
@@ -97,5 +98,7 @@ bool software_gl() {
   return what.find("llvmpipe") != std::string::npos || what.find("softpipe") != std::string::npos ||
          what.find("swrast") != std::string::npos;
 }
+
+bool few_cores() { return std::thread::hardware_concurrency() <= 2; }
 
 }  // namespace palpate::render

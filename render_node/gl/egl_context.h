@@ -31,4 +31,7 @@ std::string current_gl();
 /// Does the processor do the drawing of the current context?
 bool software_gl();
 
+/// Do hand and tissue want all cores of this machine?
+bool few_cores();
+
 }  // namespace palpate::render

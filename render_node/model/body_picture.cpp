@@ -105,7 +105,6 @@ void BodyPicture::follow_surface() {
   field_.resize(n, 0.0F);
   is_moved_.resize(n, 0);
   packed_.resize(n);
-  page_dirty_.assign((n + page_vertices - 1) / page_vertices, 0);
   dirty_.clear();
   is_dirty_.assign(n, 0);
   vertex_rgba_ = mean_colours(surface_);
@@ -217,8 +216,10 @@ void BodyPicture::pack(std::size_t vertex) {
 
 std::vector<VertexRange> BodyPicture::dirty_ranges() const {
   std::vector<VertexRange> ranges;
-  for (std::size_t page = 0; page < page_dirty_.size(); ++page) {
-    if (page_dirty_[page] == 0) continue;
+  std::vector<std::uint8_t> is_dirty((packed_.size() + page_vertices - 1) / page_vertices, 0);
+  for (const std::uint32_t v : dirty_) is_dirty[v / page_vertices] = 1;
+  for (std::size_t page = 0; page < is_dirty.size(); ++page) {
+    if (is_dirty[page] == 0) continue;
     const auto first = page * page_vertices;
     const auto n = std::min(page_vertices, packed_.size() - first);
     if (!ranges.empty() && ranges.back().first + ranges.back().n == first) {
@@ -232,7 +233,6 @@ std::vector<VertexRange> BodyPicture::dirty_ranges() const {
 
 void BodyPicture::clear_dirty() {
   all_dirty_ = false;
-  std::fill(page_dirty_.begin(), page_dirty_.end(), std::uint8_t{0});
   for (const std::uint32_t v : dirty_) is_dirty_[v] = 0;
   dirty_.clear();
 }

@@ -86,7 +86,6 @@ class BodyPicture {
   void follow_surface();
   void apply(const VertexBlock& block);
   void touch(std::uint32_t vertex) {
-    page_dirty_[vertex / page_vertices] = 1;
     if (is_dirty_[vertex] != 0) return;
     is_dirty_[vertex] = 1;
     dirty_.push_back(vertex);
@@ -115,7 +114,6 @@ class BodyPicture {
   std::vector<std::uint32_t> moved_;    // since the last refresh(), each once
   std::vector<std::uint8_t> is_moved_;  // (n_vertices)
   bool all_dirty_ = false;
-  std::vector<std::uint8_t> page_dirty_;  // (n_vertices / page_vertices, rounded up)
   std::vector<std::uint32_t> dirty_;
   std::vector<std::uint8_t> is_dirty_;  // (n_vertices)
 };

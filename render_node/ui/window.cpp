@@ -10,7 +10,6 @@
 #include <cstdlib>
 #include <numbers>
 #include <string>
-#include <thread>
 
 #include "common/error/error.h"
 #include "common/scene/render_spec.h"
@@ -24,7 +23,7 @@ namespace palpate::render {
 namespace {
 
 /// Four smooth edges; where the processor draws, and has others to serve, that doubles the cost of a picture.
-int samples_per_pixel() { return software_gl() && std::thread::hardware_concurrency() <= 2 ? 0 : 4; }
+int samples_per_pixel() { return software_gl() && few_cores() ? 0 : 4; }
 
 [[noreturn]] void complain() {
   const char* words = nullptr;

@@ -282,12 +282,7 @@ NewtonReport Newton<Real>::solve(const Crew& crew, const NewtonTask& task) noexc
   }));
   report.scale = std::max(outside, report.residual);
   double enough = task.tolerance * report.scale;
-  const double at_rest = task.held + sum(crew, [&](std::size_t i) {
-                           double square = 0;
-                           for (std::size_t a = 0; a < 3; ++a)
-                             square += static_cast<double>(coast[a][i]) * static_cast<double>(coast[a][i]);
-                           return 0.5 * static_cast<double>(m.mass[i]) * square;
-                         });
+  // Which nodes planes hold is found one set after the other.
   const int most_iterations = task.planes.empty() ? task.most_iterations : 3 * task.most_iterations;
   const auto seek = [&](int iterations, int cycles) {
     NewtonTask part = task;
@@ -307,7 +302,15 @@ NewtonReport Newton<Real>::solve(const Crew& crew, const NewtonTask& task) noexc
   // Why: where coasting crushes cells or turns them inside out, a search that gives up, or ends in another minimum, leaves more energy
   // than there was. From rest it cannot. The margin is what single precision makes of the energy.
   constexpr double margin = 1e-4;
-  if (task.dt > 0 && !(phi <= (1 + margin) * at_rest)) {
+  const auto at_rest = [&] {  // Phi at D = 0
+    return task.held + sum(crew, [&](std::size_t i) {
+             double square = 0;
+             for (std::size_t a = 0; a < 3; ++a)
+               square += static_cast<double>(coast[a][i]) * static_cast<double>(coast[a][i]);
+             return 0.5 * static_cast<double>(m.mass[i]) * square;
+           });
+  };
+  if (task.dt > 0 && !(phi <= (1 + margin) * at_rest())) {
     each_node(crew, [&](std::size_t i) {
       for (auto& axis : D) axis[i] = 0;
     });

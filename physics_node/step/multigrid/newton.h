@@ -38,6 +38,8 @@ struct NewtonReport {
 /// directions only, while the plane takes the part of -g that presses (Bertsekas 1982: projected Newton). Where even a small step would
 /// press a face into a plane that the whole body falls onto, it ends where the first node meets the plane. The planes that hold a node
 /// are found anew in every iteration, from the sign of what they would take; what begins within a thousandth of a cell counts as lying there.
+/// A step that ends with a larger Phi than it has at D = 0 is sought once more from there, from where Phi can only fall: no step leaves
+/// more energy than there was.
 /// Cost: bench/fem. Contract: allocates and throws nothing after construction; the same bits on any number of threads.
 template <class Real>
 class Newton {

@@ -20,13 +20,6 @@ namespace {
 
 constexpr double side = 0.1;
 
-int differing_pixels(const Image& a, const Image& b) {
-  int n = 0;
-  for (std::size_t i = 0; i < a.rgb.size(); i += 3)
-    n += std::equal(&a.rgb[i], &a.rgb[i] + 3, &b.rgb[i]) ? 0 : 1;
-  return n;
-}
-
 /// Two pictures of the same messages.
 class Pair {
  public:
@@ -73,7 +66,7 @@ class Pair {
     whole_.draw_whole();
     whole_.draw(t);
     kept_.draw(t);
-    return differing_pixels(kept_.image(), whole_.image());
+    return test::pixels_that_differ(kept_.image(), whole_.image());
   }
   double drawn_share() const { return kept_.drawn_share(); }
   const Image& image() const { return kept_.image(); }
@@ -134,7 +127,7 @@ TEST_P(KeptPicture, IsThatOfWhichAllIsDrawn) {
         pair.point(n % 4 == 1 ? 0 : 1, {between(-h, h), between(-1.6 * h, -h), between(-h, h)}, t,
                    std::max(0.0, between(-0.5, 1)));
       ASSERT_EQ(pair.draw(t), 0) << GetParam().name << ", picture " << n;
-      if (n > 0) changed += differing_pixels(before, pair.image()) > 0 ? 1 : 0;
+      if (n > 0) changed += test::pixels_that_differ(before, pair.image()) > 0 ? 1 : 0;
       parts += pair.drawn_share() < 0.9 ? 1 : 0;
       before = pair.image();
     }
@@ -173,7 +166,7 @@ TEST(KeptPictures, FollowWhatNoFacetShows) {
         const Image before = pair.image();
         pair.dent({-0.03F, -0.08F, 0.01F * static_cast<float>(k - 1)}, 0.005F, {0, 0, 0.01F});
         ASSERT_EQ(pair.draw(0.1 * k), 0) << k;
-        EXPECT_GT(differing_pixels(before, pair.image()), 10) << "it moved";
+        EXPECT_GT(test::pixels_that_differ(before, pair.image()), 10) << "it moved";
       }
     }
 }

@@ -19,6 +19,7 @@ namespace {
 
 using test::block_of;
 using test::cube_surface;
+using test::pixels_that_differ;
 using test::show;
 using test::small_scene;
 
@@ -34,13 +35,6 @@ Eigen::Vector3i pixel(const Picture& picture, const Eigen::Vector2d& p) {
 }
 
 int difference(const Eigen::Vector3i& a, const Eigen::Vector3i& b) { return (a - b).cwiseAbs().maxCoeff(); }
-
-int pixels_that_differ(const Image& a, const Image& b) {
-  int n = 0;
-  for (std::size_t i = 0; i < a.rgb.size(); i += 3)
-    n += std::equal(&a.rgb[i], &a.rgb[i] + 3, &b.rgb[i]) ? 0 : 1;
-  return n;
-}
 
 TEST(Picture, ShowsALitCubeWhereItIsAndTheBackgroundElsewhere) {
   const Scene scene = small_scene();

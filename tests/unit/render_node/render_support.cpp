@@ -142,6 +142,22 @@ Camera camera_of_cube(const Scene& scene, double side_m) {
   return camera;
 }
 
+Surface surface_of(const VoxelSurface& made) {
+  Surface surface;
+  surface.revision = 1;
+  surface.position = made.position;
+  surface.corners = made.corners;
+  surface.rgba = made.rgba;
+  return surface;
+}
+
+int pixels_that_differ(const Image& a, const Image& b) {
+  int n = 0;
+  for (std::size_t i = 0; i < a.rgb.size(); i += 3)
+    n += std::equal(&a.rgb[i], &a.rgb[i] + 3, &b.rgb[i]) ? 0 : 1;
+  return n;
+}
+
 Scene small_scene() {
   Scene scene;
   scene.title = "A small scene";

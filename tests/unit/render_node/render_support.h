@@ -8,6 +8,7 @@
 
 #include "common/message/messages.h"
 #include "common/scene/scene_fwd.h"
+#include "render_node/model/surface.h"
 #include "render_node/picture.h"
 #include "render_node/view/camera.h"
 
@@ -28,6 +29,11 @@ VoxelSurface voxel_surface(std::array<int, 3> size, std::array<double, 3> spacin
 
 /// A solid cube of n cells a side round the origin, all of one colour.
 VoxelSurface cube_surface(int n, double side_m, std::uint32_t rgba);
+
+/// As the eye has it when it has come whole.
+Surface surface_of(const VoxelSurface& made);
+
+int pixels_that_differ(const Image& a, const Image& b);
 
 std::vector<BodySurface> chunks_of(const VoxelSurface& surface, std::uint32_t body, std::uint32_t revision);
 

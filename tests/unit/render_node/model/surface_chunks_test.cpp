@@ -12,15 +12,6 @@
 namespace palpate::render {
 namespace {
 
-Surface surface_of(const test::VoxelSurface& from) {
-  Surface surface;
-  surface.revision = 1;
-  surface.position = from.position;
-  surface.corners = from.corners;
-  surface.rgba = from.rgba;
-  return surface;
-}
-
 using Triangle = std::array<std::uint32_t, 3>;
 
 void expect_boxes_round_their_triangles(const Surface& surface, const SurfaceChunks& chunks) {
@@ -39,7 +30,7 @@ TEST(SurfaceChunks, HoldEveryTriangleOnceInRunsWithoutGaps) {
   cube.corners.push_back({0, 1, 1, 1});  // an element
   cube.corners.push_back({0, 1, 2, 2});  // a triangle
   cube.rgba.insert(cube.rgba.end(), 3, 0xff96b4e6U);
-  const Surface surface = surface_of(cube);
+  const Surface surface = test::surface_of(cube);
   SurfaceChunks chunks;
   chunks.build(surface);
   std::multiset<Triangle> found, there;
@@ -63,7 +54,7 @@ TEST(SurfaceChunks, HoldEveryTriangleOnceInRunsWithoutGaps) {
 }
 
 TEST(SurfaceChunks, FollowWhatMoves) {
-  Surface surface = surface_of(test::cube_surface(20, 0.1, 0xff96b4e6U));
+  Surface surface = test::surface_of(test::cube_surface(20, 0.1, 0xff96b4e6U));
   SurfaceChunks chunks;
   chunks.build(surface);
   std::mt19937 random(1);
@@ -93,12 +84,12 @@ TEST(SurfaceChunks, FollowWhatMoves) {
 
 /// Whatever is left out shows its back to the eye; and about a third of a ball is.
 TEST(SurfaceChunks, FaceAwayWithAllTheirTriangles) {
-  Surface ball = surface_of(test::cube_surface(40, 0.1, 0xff96b4e6U));
+  Surface ball = test::surface_of(test::cube_surface(40, 0.1, 0xff96b4e6U));
   for (Array3f& p : ball.position) {
     const Eigen::Vector3f round = 0.05F * Eigen::Vector3f(p.data()).normalized();
     p = {round.x(), round.y(), round.z()};
   }
-  Surface cube = surface_of(test::cube_surface(20, 0.1, 0xff96b4e6U));
+  Surface cube = test::surface_of(test::cube_surface(20, 0.1, 0xff96b4e6U));
   std::mt19937 random(2);
   std::uniform_real_distribution<float> anywhere(-1, 1);
   for (const Surface* surface : {&ball, &cube}) {

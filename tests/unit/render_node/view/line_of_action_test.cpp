@@ -13,15 +13,7 @@
 namespace palpate::render {
 namespace {
 
-Surface surface_of(const test::VoxelSurface& made) {
-  Surface surface;
-  surface.revision = 1;
-  surface.position = made.position;
-  for (const auto& corners : made.corners) surface.corners.push_back(corners);
-  return surface;
-}
-
-const Surface cube = surface_of(test::cube_surface(5, 0.1, 0xffffffffU));  // from -0.05 to 0.05
+const Surface cube = test::surface_of(test::cube_surface(5, 0.1, 0xffffffffU));  // from -0.05 to 0.05
 
 TEST(LineOfAction, GoesThroughThePointWhereAForceActs) {
   std::mt19937_64 random(3);
