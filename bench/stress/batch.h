@@ -13,7 +13,7 @@ namespace palpate::bench {
 
 struct Crash {
   std::uint64_t seed = 0;
-  std::string how;  // "signal 11 (Segmentation fault)", "no answer in 300 s", "exit code 1"
+  std::string how;  // "signal 11 (Segmentation fault)", "no answer in 300 s of CPU time", "exit code 1"
 };
 
 struct BatchResults {
