@@ -151,13 +151,14 @@ void FacePress::list(const ShapePose& pose, std::span<const std::uint32_t> candi
   for (const std::uint32_t facet : candidates) {
     if (!surface_.exists(facet) || faces_.size() == most_facets) continue;
     Face face;
-    const Vec3 middle = surface_.centroid(facet, moving_);
+    std::array<Vec3, 4> corner;
+    for (std::size_t c = 0; c < 4; ++c) corner[c] = surface_.position(facet, c, moving_);
+    const Vec3 middle = (corner[0] + corner[1] + corner[2] + corner[3]) / 4;
     const Vec3 p = pose.axes.transpose() * (middle - pose.tip) + z_ * Vec3::UnitZ();
     const double gap = distance(p).distance;
     // Why twice the spacing: from the middle of a face to its corners, stretched.
     if (gap > 2 * moving_.body().spacing() + around()) continue;
-    for (std::size_t c = 0; c < 4; ++c)
-      face.reach = std::max(face.reach, (surface_.position(facet, c, moving_) - middle).norm());
+    for (const Vec3& of : corner) face.reach = std::max(face.reach, (of - middle).norm());
     if (gap > face.reach + around()) continue;
     face.area = surface_.rest_area(facet).norm();
     if (!(face.area > 0)) continue;

@@ -118,13 +118,12 @@ void PointTool::find_contact(double t) noexcept {
   }
   if (!std::isfinite(least)) return;
 
-  ToolContact& contact = contacts_[touched_];
-  contact.find_shares(proxy_);
   if (touched_ != before) {
     if (faces_[before]) faces_[before]->release();
     pressed_shares_.clear();
   }
   if (pressed_by_faces()) find_faces();
+  if (pressed_shares_.empty()) contacts_[touched_].find_shares(proxy_);
   for (const MassShare& share : shares()) {
     moving_share_ += share.share;
     plane_velocity_ += share.share * moving_[touched_]->velocity(share.cell);
