@@ -1,15 +1,15 @@
 #include "physics_node/collision/pair_search.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
-#include <tuple>
 
 #include "physics_node/collision/facet_now.h"
 
 namespace palpate::physics {
 namespace {
 
-constexpr double cell_over_L = 2;  // of a grid: few cells to look at, few masses in each
+constexpr double least_cell_over_L = 2;  // of a grid: few cells to look at, few masses in each
 // Two masses that have not left their places by more than this, drift apart, do not meet: at rest those that are not joined
 // are 1.4 L apart, L where an element broke, and 0.82 L from a facet that broke off.
 constexpr double still_over_L = 0.1;
@@ -33,9 +33,10 @@ void PairList::add(PairEnd mass, PairEnd other) noexcept {
 }
 
 void PairList::sort() noexcept {
-  std::sort(pairs_.begin(), pairs_.end(), [](const NearPair& p, const NearPair& q) {
-    return std::tie(p.mass.body, p.mass.n, p.other.body, p.other.n) <
-           std::tie(q.mass.body, q.mass.n, q.other.body, q.other.n);
+  const auto key = [](const PairEnd& end) { return std::uint64_t{end.body} << 32 | end.n; };
+  std::sort(pairs_.begin(), pairs_.end(), [&](const NearPair& p, const NearPair& q) {
+    const std::uint64_t a = key(p.mass), b = key(q.mass);
+    return a != b ? a < b : key(p.other) < key(q.other);
   });
 }
 
@@ -79,7 +80,7 @@ void PairSearch::choose(const std::vector<ContactBody>& bodies, std::uint32_t a,
                         double reach) noexcept {
   for (const std::uint32_t n : {a, b}) {
     sides_[n].box.setEmpty();
-    sides_[n].grid.clear(cell_over_L * bodies[n].candidates().length());
+    sides_[n].grid.clear(std::max(least_cell_over_L * bodies[n].candidates().length(), reach));
   }
   if (a == b) return choose_movers(bodies[a], a);
   const auto widened = [&](const ContactBody& body) {
@@ -146,12 +147,17 @@ void PairSearch::seek_masses_near(const std::vector<ContactBody>& bodies, PairEn
   const bool seeks = same && (side.seeks[k[0]] | side.seeks[k[1]] | side.seeks[k[2]]) != 0;
   if (!seeks && !side.box.intersects(box)) return;
   const bool loose = k[0] == k[1];
+  const Vec3 middle = (now.corner[0] + now.corner[1] + now.corner[2]) / 3;
+  double out = 0;  // of the corners from there
+  for (const Vec3& corner : now.corner) out = std::max(out, (corner - middle).squaredNorm());
+  const double around = (std::sqrt(out) + within) * (1 + 1e-12);
   side.grid.visit_box(box.min(), box.max(), [&](std::uint32_t m) {
     if (!seeks && side.seeks[m] == 0) return;
     const Vec3& p = d.x()[m];
     if (same && (m == k[0] || m == k[1] || m == k[2])) return;
     // A loose mass that meets a facet is found by that facet; two loose ones find each other once.
     if (loose && (!bodies[other].facets()->is_loose(m) || other > b || (same && m > k[0]))) return;
+    if ((p - middle).squaredNorm() > around * around) return;  // most of a box, and far quicker told
     if (closest_point(p, now.corner).distance > within) return;
     if (same && (c.are_joined(m, k[0]) || c.are_joined(m, k[1]) || c.are_joined(m, k[2]))) return;
     list.add({other, m}, facet);
