@@ -57,12 +57,14 @@ SurfaceSprings<Real>::SurfaceSprings(const SpringSurface& surface, const std::ve
     for (std::size_t end = 0; end < 2; ++end)
       incident_[next[static_cast<std::size_t>(springs_[s].node[end])]++] = {static_cast<Index>(s),
                                                                             end == 0 ? Real(1) : Real(-1)};
-  for (const MeshTriangle& corners : triangles_)
+  for (std::size_t t = 0; t < triangles_.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k)
-      around_[next_around[static_cast<std::size_t>(corners[k])]++] = {corners[(k + 1) % 3],
-                                                                      corners[(k + 2) % 3]};
+      around_[next_around[static_cast<std::size_t>(triangles_[t][k])]++] = {
+          static_cast<Index>(t), {triangles_[t][(k + 1) % 3], triangles_[t][(k + 2) % 3]}};
   u_ = ZeroedArray<Real>(4 * n, 0), v_ = ZeroedArray<Real>(4 * n, 1);
   now_.resize(springs_.size());
+  x_ = rest_;
+  area_.resize(triangles_.size());
   damping_.assign(n, Vec3::Zero()), damping_before_ = damping_;
   elastic_.resize(pieces_of(springs_.size()));
   volumes_.resize(pieces_of(triangles_.size()));
@@ -106,6 +108,10 @@ void SurfaceSprings<Real>::look_at_springs(const ExplicitStep& step) noexcept {
       const Real longer = now.length - spring.length;
       now.tension = spring.k * longer;
       now.damping = beta * spring.k * rate;
+      for (std::size_t k = 0; k < 3; ++k) {
+        now.pull[k] = now.tension * now.u[k];
+        now.slow[k] = now.damping * now.u[k];
+      }
       elastic +=
           0.5 * static_cast<double>(spring.k) * static_cast<double>(longer) * static_cast<double>(longer);
     }
@@ -114,31 +120,32 @@ void SurfaceSprings<Real>::look_at_springs(const ExplicitStep& step) noexcept {
 }
 
 template <class Real>
-Vec3 SurfaceSprings<Real>::from_middle(Index node) const noexcept {
-  return rest_[static_cast<std::size_t>(node)] + vector_at(u_, static_cast<std::size_t>(node));
-}
-
-template <class Real>
 void SurfaceSprings<Real>::look_at_volume(const ExplicitStep& step) noexcept {
+  each(step, n_nodes(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) x_[n] = rest_[n] + vector_at(u_, n);
+  });
   each(step, triangles_.size(), [&](std::size_t p, std::size_t begin, std::size_t end) {
     double volume = 0;
     for (std::size_t t = begin; t < end; ++t) {
-      const auto [a, b, c] = triangles_[t];
-      volume += from_middle(a).dot(from_middle(b).cross(from_middle(c))) / 6;
+      const auto at = [&](std::size_t k) -> const Vec3& {
+        return x_[static_cast<std::size_t>(triangles_[t][k])];
+      };
+      area_[t] = 0.5 * (at(1) - at(0)).cross(at(2) - at(0));
+      volume += at(0).dot(area_[t]);
     }
-    volumes_[p] = volume;
+    volumes_[p] = volume / 3;
   });
   volume_ = sum_of(volumes_);
   pressure_ = membrane_.pressure + membrane_.content_modulus * (rest_volume_ - volume_) / rest_volume_;
 }
 
-/// V is the sum of x_a . (x_b x x_c) / 6.
+/// V is the sum of x_a . (x_b x x_c) / 6; round a node of a closed surface the sum of x_b x x_c is that of twice the areas.
 template <class Real>
 Vec3 SurfaceSprings<Real>::swelling(std::size_t node) const noexcept {
   Vec3 sum = Vec3::Zero();
   for (std::size_t t = around_begin_[node]; t < around_begin_[node + 1]; ++t)
-    sum += from_middle(around_[t][0]).cross(from_middle(around_[t][1]));
-  return sum / 6;
+    sum += area_[static_cast<std::size_t>(around_[t].triangle)];
+  return sum / 3;
 }
 
 template <class Real>
@@ -146,9 +153,9 @@ typename SurfaceSprings<Real>::Felt SurfaceSprings<Real>::felt(std::size_t node)
   Felt felt;
   for (std::size_t i = begin_[node]; i < begin_[node + 1]; ++i) {
     const SpringNow& now = now_[static_cast<std::size_t>(incident_[i].spring)];
-    const Vec3 u = vector_of(now.u);
-    felt.elastic += static_cast<double>(incident_[i].sign * now.tension) * u;
-    felt.damping += static_cast<double>(incident_[i].sign * now.damping) * u;
+    const auto sign = static_cast<double>(incident_[i].sign);
+    felt.elastic += sign * vector_of(now.pull);
+    felt.damping += sign * vector_of(now.slow);
   }
   if (is_filled()) felt.elastic += pressure_ * swelling(node);
   felt.damping -= membrane_.drag * vector_at(v_, node);
@@ -182,8 +189,10 @@ typename SurfaceSprings<Real>::Fastest SurfaceSprings<Real>::fastest(std::size_t
   Fastest sum{2 * stiffness(node), 0};
   if (is_filled()) {
     for (std::size_t t = around_begin_[node]; t < around_begin_[node + 1]; ++t)
-      sum.of_nodes +=
-          std::abs(pressure_) / 3 * (from_middle(around_[t][1]) - from_middle(around_[t][0])).norm();
+      sum.of_nodes += std::abs(pressure_) / 3 *
+                      (x_[static_cast<std::size_t>(around_[t].others[1])] -
+                       x_[static_cast<std::size_t>(around_[t].others[0])])
+                          .norm();
     sum.of_content = membrane_.content_modulus / rest_volume_ * swelling(node).squaredNorm();
   }
   return {sum.of_nodes * inverse_mass_[node], sum.of_content * inverse_mass_[node]};

@@ -15,7 +15,7 @@ namespace palpate::physics {
 /// Symplectic Euler, and its energy is that of the leapfrog: see lattice/element_step.h. The damper and the drag are
 /// booked by their forces on the nodes at either end of a step, which is exact; what that would give in place of taking
 /// is `numerical`. What the pressure at rest gives counts with what gravity gives.
-/// Cost of a step: a pass over springs, one over nodes and their springs; where it is filled, triangles twice.
+/// Cost of a step: a pass over springs, one over nodes and their springs; where it is filled, one more over nodes and triangles.
 template <class Real>
 class SurfaceSprings {
  public:
@@ -77,14 +77,20 @@ class SurfaceSprings {
     std::array<Real, 3> rest{};  // from the first to the second node [m]
   };
   struct SpringNow {
-    std::array<Real, 3> u{};  // unit vector from the first to the second node
-    Real tension = 0;         // k (l - L) [N]
-    Real damping = 0;         // c l' [N]
-    Real length = 0;          // l [m]
+    std::array<Real, 3> u{};             // unit vector from the first to the second node
+    Real tension = 0;                    // k (l - L) [N]
+    Real damping = 0;                    // c l' [N]
+    Real length = 0;                     // l [m]
+    std::array<Real, 3> pull{}, slow{};  // tension and damping along u: forces on the first node [N]
   };
   struct Incident {
     Index spring = 0;
     Real sign = 0;  // 1: the node is its first
+  };
+  /// A triangle at a node, and its two other corners, in their order.
+  struct Around {
+    Index triangle = 0;
+    std::array<Index, 2> others{};
   };
   /// What one node feels.
   struct Felt {
@@ -107,7 +113,6 @@ class SurfaceSprings {
   void look_at_springs(const ExplicitStep& step) noexcept;
   void look_at_volume(const ExplicitStep& step) noexcept;
   Vec3 swelling(std::size_t node) const noexcept;  // dV/dp: a third of the area vectors around it [m^2]
-  Vec3 from_middle(Index node) const noexcept;
   Felt felt(std::size_t node) const noexcept;
   double stiffness(std::size_t node) const noexcept;  // largest eigenvalue of S_i, see omega2() [N/m]
   Fastest fastest(std::size_t node) const noexcept;
@@ -126,13 +131,15 @@ class SurfaceSprings {
   std::vector<Vec3> rest_;  // from the middle of its box, so that no digits are lost [m]
   std::vector<MeshTriangle> triangles_;
   std::vector<std::size_t> around_begin_;  // of around_, by node
-  std::vector<std::array<Index, 2>>
-      around_;  // the two other corners of each of its triangles, in their order
+  std::vector<Around> around_;
   std::vector<double> inverse_mass_;
   double omega2_at_rest_ = 0;
 
   ZeroedArray<Real> u_, v_;
   std::vector<SpringNow> now_;
+  // As last looked at; only where it is filled:
+  std::vector<Vec3> x_;     // of nodes, as rest_ [m]
+  std::vector<Vec3> area_;  // of triangles, outwards [m^2]
   std::vector<Vec3> damping_,
       damping_before_;  // forces of damper and drag on nodes, in this step and in the last [N]
   std::vector<double> elastic_, volumes_;  // by piece
