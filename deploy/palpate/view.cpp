@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <numbers>
 
 #include "common/error/error.h"
 #include "common/file/privacy.h"
@@ -20,6 +19,7 @@
 #include "deploy/palpate/become_program.h"
 #include "deploy/palpate/image_tissue.h"
 #include "deploy/palpate/install_paths.h"
+#include "deploy/palpate/patient_views.h"
 #include "deploy/palpate/scene_draft.h"
 #include "deploy/palpate/subcommands.h"
 #include "physics_node/appearance/appearance.h"
@@ -60,7 +60,7 @@ std::array<int, 3> partition_of(const std::array<int, 3>& size) {
 
 /// A scene without a hand. Some cells in its middle may move, since a body must have some that do.
 std::string scene_text(const ViewOptions& options, const std::string& scene, const KeepWindow& keep,
-                       const std::array<int, 3>& partition) {
+                       const std::array<int, 3>& partition, const PatientView& front) {
   return fmt::format(
       R"(# {}: written by palpate view.
 #   palpate run SCENE --nodes physics,render
@@ -84,10 +84,12 @@ viscosity_Pa_s    = 1
 
 [render]
 size_px = [1280, 720]
+camera  = {{ yaw_deg = {:.6g}, pitch_deg = {:.6g} }}
 {})",
       in_comment(fs::path(options.volume).filename().string()),
       in_quotes(fs::path(options.volume).stem().string()), in_quotes(named_from(options.volume, scene)),
-      partition[0], partition[1], partition[2], keep.lo, keep.hi,
+      partition[0], partition[1], partition[2], keep.lo, keep.hi, deg_from_rad(front.yaw),
+      deg_from_rad(front.pitch),
       options.inside
           ? fmt::format("inside  = {:.9g}\nopacity = {:g}\n", *options.inside, render::InsideControl::veil)
           : std::string());
@@ -95,28 +97,34 @@ size_px = [1280, 720]
 
 struct Look {
   const char* name;
-  double yaw, pitch;       // [rad]
-  std::optional<int> cut;  // across this axis, through the middle
-  bool through = false;    // tissue, at what lies inside
+  PatientView from;
+  bool cut = false;      // across its axis, through the middle
+  bool through = false;  // tissue, at what lies inside
 };
-constexpr double quarter = std::numbers::pi / 2;
-constexpr Look looks[] = {{"front", 0, 0, {}},      {"side", quarter, 0, {}},
-                          {"coronal", 0, 0, 1},     {"sagittal", quarter, 0, 0},
-                          {"axial", 0, quarter, 2}, {"inside", 0.5, 0.2, {}, true}};
+std::array<Look, 6> looks_of(const PatientViews& views) {
+  PatientView aside = views.front;
+  aside.yaw += 0.5, aside.pitch += 0.2;
+  return {{{"front", views.front},
+           {"side", views.side},
+           {"coronal", views.front, true},
+           {"sagittal", views.side, true},
+           {"axial", views.top, true},
+           {"inside", aside, false, true}}};
+}
 
 /// @return their names
-std::string draw_pictures(const Scene& scene, const fs::path& out) {
+std::string draw_pictures(const Scene& scene, const PatientViews& views, const fs::path& out) {
   std::string names;
   const physics::World world(scene);
   physics::Appearance appearance(world, std::nullopt);
   Eigen::AlignedBox3d box;
-  for (const Look& look : looks) {
+  for (const Look& look : looks_of(views)) {
     if (look.through && !scene.render->inside) continue;
     Scene seen = scene;
     if (!look.through) seen.render->inside.reset(), seen.render->opacity = 1;
-    seen.render->camera.yaw = look.yaw;
-    seen.render->camera.pitch = look.pitch;
-    if (look.cut) seen.render->section = SectionSpec{*look.cut, box.center()[*look.cut]};
+    seen.render->camera.yaw = look.from.yaw;
+    seen.render->camera.pitch = look.from.pitch;
+    if (look.cut) seen.render->section = SectionSpec{look.from.axis, box.center()[look.from.axis]};
     appearance.set_section(seen.render->section);
     appearance.set_inside(seen.render->inside);
     appearance.publish_anew(0);  // each picture begins with nothing
@@ -163,7 +171,8 @@ int view(const ViewOptions& options) {
   if (error) throw InputError(fmt::format("--out {}: cannot be made ({})", out.string(), error.message()));
   const std::string scene_path = (out / "view.toml").string();
   const std::array<int, 3> partition = partition_of(volume.size);
-  const std::string text = scene_text(options, scene_path, keep, partition);
+  const PatientViews views = patient_views(volume);
+  const std::string text = scene_text(options, scene_path, keep, partition, views.front);
   const Scene scene = parse_scene(text, scene_path);
   write_scene(text, scene_path);
   fmt::print("tissue       intensity {:g} to {:g}, in {} x {} x {} cells\n", keep.lo, keep.hi, partition[0],
@@ -172,7 +181,7 @@ int view(const ViewOptions& options) {
   if (!options.headless && render::display_present())
     become_program(bin_folder() / "palpate",
                    {"run", scene_path, "--nodes", "physics,render", "--out", (out / "session").string()});
-  const std::string names = draw_pictures(scene, out);
+  const std::string names = draw_pictures(scene, views, out);
   fmt::print("pictures     {}: {} .png\n", out.string(), names);
   return exit_ok;
 }
