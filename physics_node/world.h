@@ -45,6 +45,7 @@ class World {
   std::size_t n_bodies() const { return bodies_.size(); }
   const BodyModel& body(std::size_t b) const { return *bodies_[b]; }
   BodyModel& body(std::size_t b) { return *bodies_[b]; }  // to start a test or a benchmark from a given state
+  const Surface& surface_as_loaded(std::size_t b) const { return touchable_[b].surface->surface(); }
   /// What has come off; null for a body that cannot break.
   const Fragments* fragments(std::size_t b) const { return fragments_[b].get(); }
   Tool& tool(std::size_t n) { return *toolbox_.tools[n]; }

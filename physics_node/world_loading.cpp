@@ -167,7 +167,7 @@ void World::join_bodies() {
   for (const ConnectionSpec& spec : scene_.connections) {
     const std::size_t from = number(spec.from), to = number(spec.to);
     const auto surface = [this](std::size_t b) {
-      return on_masses(bodies_[b]->body(), touchable_[b].surface->surface());
+      return on_masses(bodies_[b]->body(), surface_as_loaded(b));
     };
     auto strands = make_strands(spec, surface(from), surface(to));
     if (strands.empty())

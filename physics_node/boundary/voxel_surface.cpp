@@ -56,6 +56,16 @@ class Numbering {
     return value;
   }
 
+  void make_room(std::size_t vertices, Surface& surface) {
+    numbers_.reserve(vertices);
+    at_lip_.reserve(vertices);
+    surface.rest.reserve(vertices);
+    surface.cell.reserve(vertices);
+    if (!skin_) return;
+    surface.bearers.reserve(vertices);
+    surface.fan.reserve(vertices);
+  }
+
   const std::vector<Vec3>& scenery() const { return scenery_; }
   bool is_smooth() const { return skin_.has_value(); }
   /// Is it a vertex of a smooth skin at a cut?
@@ -128,16 +138,23 @@ class Builder {
         cut_(body, live),
         numbering_(body, live, cut_, threshold),
         threshold_(cells_.intensity.empty() ? std::nullopt : threshold),
+        is_whole_(!cut_.any() && live.parted().empty()),
         rgba_(rgba) {}
 
   Surface build() {
     const auto is_shown = [this](const Vec3i& cell) { return shown(cell); };
     const VoxelFacets facets(cut_, is_shown);
+    mark_shown();
+    make_room();
     for (int k = 0; k < cells_.size.z(); ++k)
       for (int j = 0; j < cells_.size.y(); ++j)
         for (int i = 0; i < cells_.size.x(); ++i) {
           const Vec3i cell(i, j, k);
           if (!shown(cell)) continue;
+          if (is_buried(cell)) {
+            count_hidden(6);
+            continue;
+          }
           for (const VoxelFace& face : voxel_faces) add_opened(cell, face);
           for (const VoxelFace& face : voxel_faces)
             count_hidden(facets.on_face(cell, face, [&](const FacetCorners& corners, bool) {
@@ -152,9 +169,37 @@ class Builder {
   }
 
  private:
-  bool shown(const Vec3i& cell) const {
-    if (!cells_.is_filled(cell.x(), cell.y(), cell.z())) return false;
-    return !threshold_ || intensity(cell) >= *threshold_;
+  void mark_shown() {
+    if (!threshold_) return;
+    over_threshold_.resize(cells_.filled.size());
+    for (std::size_t n = 0; n < over_threshold_.size(); ++n)
+      over_threshold_[n] =
+          cells_.filled[n] != 0 && static_cast<double>(cells_.intensity[n]) >= *threshold_ ? 1 : 0;
+  }
+  /// About as many facets and vertices as there are shown cells with a neighbour that is not.
+  void make_room() {
+    const auto& s = all_shown();
+    const auto row = static_cast<std::size_t>(cells_.size.x());
+    std::size_t ends = 0;  // of rows of shown cells: as many facets look along x as along y and z, or nearly
+    for (std::size_t n = 0; n + row < s.size(); ++n) ends += (s[n] != s[n + row]) + (s[n] != s[n + 1]);
+    const std::size_t facets = ends + ends / 2;
+    facets_.reserve(facets);
+    surface_.rgba.reserve(facets);
+    surface_.site.reserve(facets);
+    numbering_.make_room(facets, surface_);
+  }
+  const std::vector<std::uint8_t>& all_shown() const { return threshold_ ? over_threshold_ : cells_.filled; }
+  bool shown(const Vec3i& c) const {
+    return cells_.is_filled(c.x(), c.y(), c.z()) && all_shown()[cells_.index(c.x(), c.y(), c.z())] != 0;
+  }
+  /// Most cells of a scan are, and are not looked at face by face.
+  bool is_buried(const Vec3i& c) const {
+    if (!is_whole_ || (c.array() < 1).any() || (c.array() > cells_.size.array() - 2).any()) return false;
+    const auto& s = all_shown();
+    const auto row = static_cast<std::size_t>(cells_.size.x());
+    const std::size_t n = cells_.index(c.x(), c.y(), c.z()),
+                      plane = row * static_cast<std::size_t>(cells_.size.y());
+    return (s[n - 1] & s[n + 1] & s[n - row] & s[n + row] & s[n - plane] & s[n + plane]) != 0;
   }
   double intensity(const Vec3i& cell) const {
     return static_cast<double>(cells_.intensity[cells_.index(cell.x(), cell.y(), cell.z())]);
@@ -219,6 +264,8 @@ class Builder {
   CutCells cut_;
   Numbering numbering_;
   std::optional<double> threshold_;
+  bool is_whole_;  // nothing has broken or been cut
+  std::vector<std::uint8_t> over_threshold_;
   std::uint32_t rgba_;
   Surface surface_;
   std::vector<std::array<std::int64_t, 4>> facets_;

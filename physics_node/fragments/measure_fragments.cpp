@@ -26,16 +26,12 @@ std::vector<FragmentMeasure> measure_fragments(const NodeMotion& moving, const F
 }
 
 double fragment_shape_rms(const NodeMotion& moving, const Fragments& fragments, Index label) {
-  const Index n = fragments.masses()[static_cast<std::size_t>(label)];
-  if (n < 3) return 0;
-  Eigen::Matrix3Xd rest(3, n), now(3, n);
-  Eigen::Index column = 0;
-  moving.body().each_node([&](Index cell) {
-    if (fragments.label(cell) != label) return;
-    rest.col(column) = moving.body().rest_position(cell);
-    now.col(column++) = moving.position(cell);
+  if (fragments.masses()[static_cast<std::size_t>(label)] < 3) return 0;
+  return rigid_fit_rms([&](const auto& visit) {
+    moving.body().each_node([&](Index cell) {
+      if (fragments.label(cell) == label) visit(moving.body().rest_position(cell), moving.position(cell));
+    });
   });
-  return rigid_fit_rms(rest, now);
 }
 
 }  // namespace palpate::physics

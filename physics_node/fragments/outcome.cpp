@@ -29,9 +29,9 @@ Outcome classify(const OutcomeMeasures& m) {
   return Outcome::restitution;
 }
 
-OutcomeMeasures measure_outcome(const BodyModel& moving, const Fragments* fragments) {
+OutcomeMeasures measure_outcome(const BodyModel& moving, const Fragments* fragments,
+                                const BodyCounts& counts) {
   const Body& body = moving.body();
-  const BodyCounts counts = moving.counts();
   OutcomeMeasures m;
   m.touched = moving.touched();
   if (counts.elements > 0)

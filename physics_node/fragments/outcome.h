@@ -43,6 +43,10 @@ inline constexpr double crush_shape = 0.1;
 Outcome classify(const OutcomeMeasures& measures);
 
 /// @param fragments  null for a body that cannot break
-OutcomeMeasures measure_outcome(const BodyModel& moving, const Fragments* fragments);
+OutcomeMeasures measure_outcome(const BodyModel& moving, const Fragments* fragments,
+                                const BodyCounts& counts);
+inline OutcomeMeasures measure_outcome(const BodyModel& moving, const Fragments* fragments) {
+  return measure_outcome(moving, fragments, moving.counts());
+}
 
 }  // namespace palpate::physics

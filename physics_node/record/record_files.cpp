@@ -16,12 +16,12 @@ namespace palpate::physics {
 namespace {
 
 /// Facets whose four corners are masses, by mass number, for viewers.
-std::vector<std::uint32_t> mass_facets(const BodyModel& moving) {
-  const Surface surface = make_surface(moving, std::nullopt, 0);
+std::vector<std::uint32_t> mass_facets(const BodyModel& moving, const Surface& surface) {
   std::vector<std::uint32_t> number(static_cast<std::size_t>(moving.body().capacity()), 0);
   std::uint32_t next = 0;
   for (const Index cell : moving.body().nodes()) number[static_cast<std::size_t>(cell)] = next++;
   std::vector<std::uint32_t> facets;
+  facets.reserve(4 * surface.facets.size());
   for (const auto& facet : surface.facets) {
     bool all_move = true;
     for (const auto corner : facet) all_move = all_move && corner < surface.n_moving();
@@ -61,8 +61,9 @@ void Recorder::make_files(const World& world, const SceneSource& source) {
   for (std::size_t b = 0; b < world.n_bodies(); ++b) {
     const BodyModel& moving = world.body(b);
     const std::string base = "/bodies/" + moving.body().name;
-    const auto facets = mass_facets(moving);
+    const auto facets = mass_facets(moving, world.surface_as_loaded(b));
     std::vector<float> rest;
+    rest.reserve(3 * static_cast<std::size_t>(moving.body().n_nodes()));
     for (const Index cell : moving.body().nodes())
       for (int a = 0; a < 3; ++a) rest.push_back(static_cast<float>(moving.body().rest_position(cell)[a]));
     body_names_.push_back(moving.body().name);

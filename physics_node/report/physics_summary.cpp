@@ -36,7 +36,7 @@ nlohmann::json body_part(const BodyModel& moving, const Fragments* fragments) {
   if (counts.least_corner_J) part["min_corner_J"] = *counts.least_corner_J;
   if (may_change_for_good(moving.body()))
     part["yielded_fraction"] = static_cast<double>(counts.yielded_masses) / n_masses;
-  const OutcomeMeasures measures = measure_outcome(moving, fragments);
+  const OutcomeMeasures measures = measure_outcome(moving, fragments, counts);
   part["outcome"] = name_of(classify(measures));
   if (fragments != nullptr) {
     part["fragments"] = measures.fragments;

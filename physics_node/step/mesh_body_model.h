@@ -161,10 +161,9 @@ class MeshBodyModel final : public BodyModel {
     counts.elements = counts.live_elements = body_.n_elements();
     counts.max_stretch = elements_.largest_stretch();
     if constexpr (requires { elements_.least_J(); }) counts.least_corner_J = elements_.least_J();
-    Eigen::Matrix3Xd rest(3, body_.n_nodes()), now(3, body_.n_nodes());
-    for (const Index node : body_.nodes())
-      rest.col(node) = body_.rest_position(node), now.col(node) = position(node);
-    counts.shape_rms = rigid_fit_rms(rest, now);
+    counts.shape_rms = rigid_fit_rms([&](const auto& visit) {
+      for (const Index node : body_.nodes()) visit(body_.rest_position(node), position(node));
+    });
     return counts;
   }
 

@@ -1,6 +1,8 @@
 #pragma once
 // Memory for one number of every storage cell.
 
+#include <sys/mman.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -23,6 +25,13 @@ class ZeroedArray {
     const auto address = reinterpret_cast<std::uintptr_t>(block_.get());
     const std::uintptr_t aligned = (address + 63) / 64 * 64;
     data_ = reinterpret_cast<T*>(aligned + (colour * 5 * 64) % page);
+  }
+  /// Of an array that is about to be written everywhere: in pages of 2 MB where the system has them, as common/process/large_pages.cpp.
+  void will_be_filled() noexcept {
+    constexpr std::uintptr_t large = std::uintptr_t{2} << 20;
+    const auto begin = (reinterpret_cast<std::uintptr_t>(data_) + large - 1) / large * large;
+    const auto end = reinterpret_cast<std::uintptr_t>(data_ + n_) / large * large;
+    if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);  // a wish
   }
   T* data() noexcept { return data_; }
   const T* data() const noexcept { return data_; }

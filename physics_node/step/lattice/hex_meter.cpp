@@ -91,8 +91,9 @@ MeasuredHexahedra measure_hexahedra(const Body& body, const HexGrid& grid, const
                                     CellsOf which, const Three<Real>& v,
                                     std::span<const double> broken_soon) {
   MeasuredHexahedra sum;
-  sum.force.assign(static_cast<std::size_t>(body.capacity()), Vec3::Zero());
-  sum.force_of_rate.assign(sum.force.size(), Vec3::Zero());
+  // Memory is touched only at the nodes of cells that are measured.
+  sum.force = ZeroedArray<Vec3>(static_cast<std::size_t>(body.capacity()));
+  sum.force_of_rate = ZeroedArray<Vec3>(sum.force.size());
   sum.power.assign(grid.runs.size() + 1, 0);
   const HexCellMeter<Real> meter(body, state, v);
   for_each_strained_cell(

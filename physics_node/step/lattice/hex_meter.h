@@ -86,8 +86,8 @@ struct MeasuredHexahedra {
   double elastic = 0, lost_before = 0;
   std::vector<double> power;          // by run, then of those that a cut has parted [W]
   std::vector<double> power_of_cell;  // of fast ones, in storage order [W]
-  std::vector<Vec3> force;            // (n_cells)
-  std::vector<Vec3> force_of_rate;    // of dampers alone  (n_cells)
+  ZeroedArray<Vec3> force;            // (n_cells)
+  ZeroedArray<Vec3> force_of_rate;    // of dampers alone  (n_cells)
 };
 /// @param v  velocities of the nodes [m/s]
 /// @param broken_soon  stiffness that each cell is about to lose before it acts again, in units of a whole one; empty: none

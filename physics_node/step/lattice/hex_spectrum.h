@@ -16,7 +16,7 @@ namespace palpate::physics {
 /// vibrates faster than its fastest cell alone would, w^2 <= largest eigenvalue of a cell / (density V / 8). On a cube of uniform
 /// cells that bound allows 0.7 of the step that is stable.
 /// Of cells that may be cut that bound is what counts: a cut may leave each of them alone.
-/// Cost: at most 60 sweeps over the cells, in double.
+/// Cost: at most 60 sweeps over the cells, in double; of more than a million nodes in float and some ten, and w^2 is up to 2 % too large.
 StiffestMode stiffest_mode_of_hexahedra(const Body& body);
 
 /// The same where only some cells have a stiffness, without the bound of a single cell; all nodes keep their masses.

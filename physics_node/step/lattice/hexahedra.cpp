@@ -53,6 +53,7 @@ Hexahedra<Real>::Hexahedra(const Body& body, const LatticeState<Real>& state)
   at_rest_ = hex_bound_at_rest(body);
   std::size_t colour = 8 + n_remembered * solid.relaxation.size();  // after those of LatticeState
   stiffness_ = ZeroedArray<Real>(n, colour++);
+  stiffness_.will_be_filled();
   for (const Index cell : body.lattice.masses)
     stiffness_[static_cast<std::size_t>(cell)] =
         static_cast<Real>(solid.stiffness[static_cast<std::size_t>(cell)]);
@@ -263,16 +264,19 @@ BodyCounts Hexahedra<Real>::counts(const Body& body, const LatticeState<Real>& s
       counts.elements += body.solid->stiffness[static_cast<std::size_t>(i)] > 0 ? 1 : 0;
   if (may_change_for_good(body))
     for (const Index node : body.nodes()) counts.yielded_masses += is_marked(body, state, node) ? 1 : 0;
-  for_each_cell(body, grid_, state, [&](double, const std::array<Index, 8>& corner, std::size_t, Index) {
-    ++counts.live_elements;
-    Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
-    for (std::size_t a = 0; a < 8; ++a)
-      for (std::size_t j = 0; j < 3; ++j)
-        f.col(static_cast<Eigen::Index>(j)) +=
-            ((a >> j & 1) != 0 ? k.per_4h[j] : -k.per_4h[j]) * vector_of(state.u, corner[a]);
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> squared(f.transpose() * f, Eigen::EigenvaluesOnly);
-    counts.max_stretch = std::max(counts.max_stretch, std::sqrt(squared.eigenvalues()[2]));
-  });
+  for_each_cell(body, grid_, state,
+                [&](double, const std::array<Index, 8>&, std::size_t, Index) { ++counts.live_elements; });
+  for_each_strained_cell(
+      body, grid_, state, [&](double, const std::array<Index, 8>& corner, std::size_t, Index) {
+        Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
+        for (std::size_t a = 0; a < 8; ++a)
+          for (std::size_t j = 0; j < 3; ++j)
+            f.col(static_cast<Eigen::Index>(j)) +=
+                ((a >> j & 1) != 0 ? k.per_4h[j] : -k.per_4h[j]) * vector_of(state.u, corner[a]);
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> squared(f.transpose() * f,
+                                                                     Eigen::EigenvaluesOnly);
+        counts.max_stretch = std::max(counts.max_stretch, std::sqrt(squared.eigenvalues()[2]));
+      });
   return counts;
 }
 

@@ -56,7 +56,7 @@ class LatticeBody final : public BodyModel, private PendingStep {
       region_ = std::make_unique<AwakeRegion<Real>>(body_);
       NodeMotion::show(region_->parts());
     }
-    reset();
+    begin();
   }
 
   StepOutcome advance(const ExplicitStep& step, std::span<const NodalForce> forces) noexcept override {
@@ -180,18 +180,7 @@ class LatticeBody final : public BodyModel, private PendingStep {
     state_.reset(body_);
     if (body_.cell_net() != nullptr) rejoin_cells(body_, state_);
     unknown_for_ = 2;
-    if (region_) region_->clear(body_, state_);
-    for (std::size_t n = 0; n < start_.size(); ++n)
-      for (std::size_t a = 0; a < 3; ++a)
-        state_.u[a][static_cast<std::size_t>(body_.nodes()[n])] =
-            static_cast<Real>(start_[n][static_cast<Eigen::Index>(a)]);
-    momentum_ = {};
-    restart_momentum();
-    for (std::size_t a = 0; a < 3 && state_.v_half[a].size() > 0; ++a)
-      for (const Index cell : body_.lattice.masses)
-        state_.v_half[a][static_cast<std::size_t>(cell)] = state_.v[a][static_cast<std::size_t>(cell)];
-    save(false);
-    save(true);
+    begin();
   }
 
   void place(Index cell, const Vec3& displacement, const Vec3& velocity) noexcept override {
@@ -275,6 +264,16 @@ class LatticeBody final : public BodyModel, private PendingStep {
   std::uint64_t hash(std::uint64_t seed) const noexcept override { return hash_of(body_, state_, seed); }
 
  private:
+  /// With a state as made or reset.
+  void begin() noexcept {
+    if (region_) region_->clear(body_, state_);
+    state_.start_from(body_, start_);
+    momentum_ = {};
+    restart_momentum();
+    save(false);
+    save(true);
+  }
+
   StepOutcome integrate(const ExplicitStep& step, std::span<const NodalForce> forces) noexcept {
     if (region_) return integrate_region(step, forces);
     if (step.verlet && step.dt != state_.dt_before) begin_leapfrog();
@@ -384,7 +383,7 @@ class LatticeBody final : public BodyModel, private PendingStep {
   GoodState<SavedState<Real>> saved_;
   std::unique_ptr<ImplicitSolver<Real>> implicit_;  // only for backward_euler
   std::unique_ptr<AwakeRegion<Real>> region_;       // only of a body that is awake in parts
-  int unknown_for_ = 0;    // steps: after a reset, at once and after the next, events of cuts tell nothing
+  int unknown_for_ = 2;    // steps: after a reset, at once and after the next, events of cuts tell nothing
   double pending_dt_ = 0;  // of a step that is solved and not over; 0: none [s]
 };
 

@@ -105,14 +105,12 @@ BodyCounts measure_counts(const Body& body, const LatticeState<Real>& state) {
 
 template <class Real>
 double measure_shape_rms(const Body& body, const LatticeState<Real>& state) {
-  Eigen::Matrix3Xd rest(3, body.lattice.n_masses());
-  Eigen::Matrix3Xd now(3, body.lattice.n_masses());
-  Eigen::Index column = 0;
-  for (const Index i : body.lattice.masses) {
-    rest.col(column) = body.lattice.rest_position(i);
-    now.col(column++) = body.lattice.rest_position(i) + vector_of(state.u, i);
-  }
-  return rigid_fit_rms(rest, now);
+  return rigid_fit_rms([&](const auto& visit) {
+    for (const Index i : body.lattice.masses) {
+      const Vec3 rest = body.lattice.rest_position(i);
+      visit(rest, rest + vector_of(state.u, i));
+    }
+  });
 }
 
 template Energies measure_energies(const Body&, const LatticeState<float>&, const Vec3&);

@@ -18,6 +18,8 @@ LatticeState<Real>::LatticeState(const Body& body) : fast(body) {
     for (auto& array : *three) array = ZeroedArray<Real>(n, colour++);
   mask = ZeroedArray<Mask>(n, colour++);
   inverse_mass = ZeroedArray<Real>(n, colour++);
+  mask.will_be_filled();
+  inverse_mass.will_be_filled();
   if (any_yields(body)) {
     for (std::size_t h = 0; h < n_half; ++h) {
       l_c[h] = ZeroedArray<Real>(n, colour++);
@@ -47,6 +49,7 @@ LatticeState<Real>::LatticeState(const Body& body) : fast(body) {
 template <class Real>
 void LatticeState<Real>::reset(const Body& body) {
   const bool yields = any_yields(body);
+  const bool is_new = replacements == 0;  // as made: not even read, so that pages stay free
   for (auto* three : {&u, &v, &f})
     body.each_copy([&](Index copy) {
       for (auto& axis : *three) axis[static_cast<std::size_t>(copy)] = 0;
@@ -57,11 +60,13 @@ void LatticeState<Real>::reset(const Body& body) {
     for (std::size_t a = 0; a < 3; ++a) {
       const auto start = static_cast<Real>(body.velocity[static_cast<Eigen::Index>(a)]);
       // Only what was written: untouched pages stay free.
-      if (u[a][c] != 0) u[a][c] = 0;
-      if (f[a][c] != 0) f[a][c] = 0;
-      if (const Real begins = held ? Real(0) : start; v[a][c] != begins) v[a][c] = begins;
+      if (!is_new && u[a][c] != 0) u[a][c] = 0;
+      if (!is_new && f[a][c] != 0) f[a][c] = 0;
+      const Real begins = held ? Real(0) : start;
+      if (is_new ? begins != 0 : v[a][c] != begins) v[a][c] = begins;
     }
     mask[c] = body.lattice.mask[c];
+    if (is_new) continue;
     for (auto& array : remembered) array[c] = 0;
     if (failed.reached.size() > 0 && failed.reached[c] != 0)
       for (auto* array : failed.arrays()) (*array)[c] = 0;
@@ -80,6 +85,17 @@ void LatticeState<Real>::reset(const Body& body) {
   std::fill(row_state.begin(), row_state.end(), RowState::awake);
   ++row_changes;
   std::fill(ledger.begin(), ledger.end(), RowLedger{});
+}
+
+template <class Real>
+void LatticeState<Real>::start_from(const Body& body, std::span<const Vec3> start) {
+  for (std::size_t n = 0; n < start.size(); ++n)
+    for (std::size_t a = 0; a < 3; ++a)
+      u[a][static_cast<std::size_t>(body.nodes()[n])] =
+          static_cast<Real>(start[n][static_cast<Eigen::Index>(a)]);
+  for (std::size_t a = 0; a < 3 && v_half[a].size() > 0; ++a)
+    for (const Index cell : body.lattice.masses)
+      v_half[a][static_cast<std::size_t>(cell)] = v[a][static_cast<std::size_t>(cell)];
 }
 
 template <class Real>

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "physics_node/body/body.h"
@@ -92,6 +93,8 @@ struct LatticeState {
 
   explicit LatticeState(const Body& body);
   void reset(const Body& body);
+  /// After a reset. @param start  displacements, of the nodes in their order; EMPTY: none [m]
+  void start_from(const Body& body, std::span<const Vec3> start);
   /// No step came before this state: what the next one begins with is what there is.
   void forget_last_step() noexcept { v_half_known = v_seen_known = false, dt_before = 0; }
 };
