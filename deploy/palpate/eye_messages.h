@@ -8,6 +8,7 @@
 #include "common/message/messages.h"
 #include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
+#include "common/scene/tool_spec.h"
 #include "physics_node/appearance/appearance.h"
 #include "physics_node/world.h"
 
