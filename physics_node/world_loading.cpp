@@ -148,7 +148,8 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
   n_substeps_ = static_cast<int>(steps_a_frame(scene_, stable_dt_));
   unrounded_ = std::min(1.0, frame_dt_ / (scene.physics->safety * stable_dt_) / n_substeps_);
   dt_ = frame_dt_ / n_substeps_;
-  if (dt_ > stable_dt_) {
+  constexpr double rounding = 1e-9;  // that steps_a_frame() allows
+  if (dt_ > (1 + rounding) * stable_dt_) {
     remarks_.push_back(fmt::format(
         "{}: a step of {:.4g} ms is above the stable {:.4g} ms; expect the guard to act",
         scene.physics->place.line == 0 && scene.physics->place.file.empty() ? scene.path + ": [physics]"
