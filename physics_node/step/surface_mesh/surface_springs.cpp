@@ -107,10 +107,10 @@ void SurfaceSprings<Real>::look_at_springs(const ExplicitStep& step) noexcept {
       }
       const Real longer = now.length - spring.length;
       now.tension = spring.k * longer;
-      now.damping = beta * spring.k * rate;
+      const Real damping = beta * spring.k * rate;
       for (std::size_t k = 0; k < 3; ++k) {
         now.pull[k] = now.tension * now.u[k];
-        now.slow[k] = now.damping * now.u[k];
+        now.slow[k] = damping * now.u[k];
       }
       elastic +=
           0.5 * static_cast<double>(spring.k) * static_cast<double>(longer) * static_cast<double>(longer);

@@ -79,9 +79,8 @@ class SurfaceSprings {
   struct SpringNow {
     std::array<Real, 3> u{};             // unit vector from the first to the second node
     Real tension = 0;                    // k (l - L) [N]
-    Real damping = 0;                    // c l' [N]
     Real length = 0;                     // l [m]
-    std::array<Real, 3> pull{}, slow{};  // tension and damping along u: forces on the first node [N]
+    std::array<Real, 3> pull{}, slow{};  // tension, and c l', along u: forces on the first node [N]
   };
   struct Incident {
     Index spring = 0;
