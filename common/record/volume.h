@@ -1,7 +1,7 @@
 #pragma once
 // An imported image: what `palpate import` writes and physics_node reads. HDF5 on disk, docs/volume_file.md.
 
-#include <Eigen/Core>
+#include <Eigen/LU>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -35,6 +35,8 @@ struct Volume {
     return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
            static_cast<std::size_t>(size[2]);
   }
+  /// Do its axes go round the other way than a patient's? Then a body made of it has x turned round, so that it is no mirror image.
+  bool is_left_handed() const { return orientation && orientation->determinant() < 0; }
   float at(int i, int j, int k) const {
     return intensity[static_cast<std::size_t>(i) +
                      static_cast<std::size_t>(size[0]) *

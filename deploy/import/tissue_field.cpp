@@ -12,7 +12,7 @@ TissueField::TissueField(const Volume& volume, double keep_min, double keep_max,
   physics::Cells cells;
   cells.size = {volume.size[0], volume.size[1], volume.size[2]};
   cells.filled.resize(volume.n_cells());
-  const bool mirrored = volume.orientation && volume.orientation->determinant() < 0;
+  const bool mirrored = volume.is_left_handed();
   for (int k = 0; k < volume.size[2]; ++k)
     for (int j = 0; j < volume.size[1]; ++j)
       for (int i = 0; i < volume.size[0]; ++i) {

@@ -54,7 +54,7 @@ Cells tissue_of(const Volume& volume, const KeepWindow& keep, bool in_world) {
     cells.filled[n] = value >= keep.lo && value <= keep.hi ? 1 : 0;
   }
   physics::keep_largest_component(cells);
-  if (!in_world || !volume.orientation || volume.orientation->determinant() > 0) return cells;
+  if (!in_world || !volume.is_left_handed()) return cells;
   for (auto row = cells.filled.begin(); row != cells.filled.end(); row += volume.size[0])
     std::reverse(row, row + volume.size[0]);
   return cells;

@@ -23,8 +23,7 @@ PatientView along(const Vec3& d, double yaw) {
 
 PatientViews patient_views(const Volume& volume) {
   Eigen::Matrix3d to_patient = volume.orientation.value_or(Eigen::Matrix3d::Identity());
-  // A left-handed image stands in the world with x turned round (physics_node/body/cells.cpp).
-  if (to_patient.determinant() < 0) to_patient.col(0) *= -1;
+  if (volume.is_left_handed()) to_patient.col(0) *= -1;  // as the body stands in the world
   const auto in_world = [&](const Vec3& lps) { return Vec3((to_patient.transpose() * lps).normalized()); };
   PatientViews views;
   views.front = along(in_world(Vec3::UnitY()), 0);

@@ -121,7 +121,7 @@ Cells volume_cells(const BodySpec& body, const VolumeShape& shape) {
                     body.place.text(), body.name, shape.keep_min, shape.keep_max, *lo, *hi));
   }
   // An image whose axes are left-handed would stand in the world as its mirror image: a left ear on the right.
-  const bool mirrored = volume.orientation && volume.orientation->determinant() < 0;
+  const bool mirrored = volume.is_left_handed();
   carve(body, mirrored, cells);
   if (shape.largest_component) keep_largest_component(cells);
   mark_deformable(cells, shape.deformable);

@@ -176,11 +176,11 @@ class Builder {
       over_threshold_[n] =
           cells_.filled[n] != 0 && static_cast<double>(cells_.intensity[n]) >= *threshold_ ? 1 : 0;
   }
-  /// About as many facets and vertices as there are shown cells with a neighbour that is not.
+  /// About as many facets as there are faces between cells that are shown and cells that are not, and no more vertices.
   void make_room() {
     const auto& s = all_shown();
     const auto row = static_cast<std::size_t>(cells_.size.x());
-    std::size_t ends = 0;  // of rows of shown cells: as many facets look along x as along y and z, or nearly
+    std::size_t ends = 0;  // of rows of shown cells along x and y; about half as many are along z
     for (std::size_t n = 0; n + row < s.size(); ++n) ends += (s[n] != s[n + row]) + (s[n] != s[n + 1]);
     const std::size_t facets = ends + ends / 2;
     facets_.reserve(facets);

@@ -61,6 +61,7 @@ class ScaledStiffness {
         root_[at + k] = static_cast<Real>(std::sqrt(body.inverse_mass[i]));
       }
     });
+    largest_root_ = root_.maxCoeff();
     elastic_.resize(grid_.runs.size());
     m_.runs = grid_.runs.data();
     m_.runs_of_row = grid_.runs_of_row.data();
@@ -79,7 +80,7 @@ class ScaledStiffness {
   double largest() { return largest_eigenvalue<Real>(*this, 3 * n_nodes_); }
 
   void apply(const Vector& x, Vector& y) {
-    const Real one = size_ / (root_.maxCoeff() * x.cwiseAbs().maxCoeff());
+    const Real one = size_ / (largest_root_ * x.cwiseAbs().maxCoeff());
     each_row([&](Index first, Index count, Eigen::Index n) {
       for (std::size_t c = 0; c < 3; ++c)
         part(u_[c], first, count) = one * (root_.segment(n, count) * x.segment(number(c, n), count).array());
@@ -130,6 +131,7 @@ class ScaledStiffness {
   Three<Real> u_, low_, high_;
   ZeroedArray<Real> stiffness_;
   Eigen::ArrayX<Real> root_;  // of the inverse mass; 0: held  (nodes)
+  Real largest_root_ = 0;
   std::vector<double> elastic_;
   HexKernel<Real> kernel_;
   HexContext<Real> m_ = {};
