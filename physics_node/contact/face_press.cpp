@@ -14,7 +14,6 @@ constexpr double stiffness_in_cells =
 // Why: with 24 forces differ by 1 % at most, and cost five times as much. A stick bears along its side on many, across on few.
 constexpr double samples_in_size = 10, samples_in_side = 5;
 constexpr std::size_t most_bearings = 4 * FacePress::most_facets * 8;
-constexpr int fewest_a_side = 2, most_a_side = 8;
 constexpr double far = std::numeric_limits<double>::infinity();
 
 double stiffest(const Body& body) {
@@ -59,6 +58,11 @@ FacePress::FacePress(const Boundary& surface, const NodeMotion& moving, const Ri
   near_.reserve(most_samples);
   forces_.reserve(4 * most_facets);
   bears_.reserve(4 * most_facets);
+  for (int n = fewest_a_side; n <= most_a_side; ++n)
+    for (int at = 0; at < n * n; ++at) {
+      const double p = (at % n + 0.5) / n, q = (at / n + 0.5) / n;
+      weights_[static_cast<std::size_t>(n)].push_back({(1 - p) * (1 - q), p * (1 - q), p * q, (1 - p) * q});
+    }
 }
 
 double FacePress::reach() const noexcept {
@@ -85,14 +89,16 @@ RigidShape::Distance FacePress::distance(const Vec3& p) const noexcept {
   return d;
 }
 
-FacePress::Weights FacePress::weights(const Face& face, std::uint32_t at) const noexcept {
-  const double p = (at % face.n + 0.5) / face.n, q = (at / face.n + 0.5) / face.n;
-  return {(1 - p) * (1 - q), p * (1 - q), p * q, (1 - p) * q};
+const FacePress::Weights& FacePress::weights(const Face& face, std::uint32_t at) const noexcept {
+  return weights_[face.n][at];
 }
 
 Vec3 FacePress::at(const Face& face, const Weights& w) const noexcept {
-  return w[0] * vertices_[face.vertex[0]].moved + w[1] * vertices_[face.vertex[1]].moved +
-         w[2] * vertices_[face.vertex[2]].moved + w[3] * vertices_[face.vertex[3]].moved;
+  const Vec3 &a = vertices_[face.vertex[0]].moved, &b = vertices_[face.vertex[1]].moved,
+             &c = vertices_[face.vertex[2]].moved, &d = vertices_[face.vertex[3]].moved;
+  Vec3 x;  // Why by component: an expression of vectors is not inlined here, and takes twice as long
+  for (int i = 0; i < 3; ++i) x[i] = w[0] * a[i] + w[1] * b[i] + w[2] * c[i] + w[3] * d[i];
+  return x;
 }
 
 /// From outside, by the middles and corners of faces that look at the shape.
@@ -163,7 +169,8 @@ void FacePress::list(const ShapePose& pose, std::span<const std::uint32_t> candi
     face.area = surface_.rest_area(facet).norm();
     if (!(face.area > 0)) continue;
     face.triangle = surface_.is_triangle(facet);
-    face.n = static_cast<std::uint8_t>(std::lround(std::sqrt(face.area) / sample_spacing(face.area)));
+    face.n = static_cast<std::uint8_t>(std::clamp<long>(
+        std::lround(std::sqrt(face.area) / sample_spacing(face.area)), fewest_a_side, most_a_side));
     faces_.push_back(face);
     listed_.push_back(facet);
   }

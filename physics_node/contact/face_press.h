@@ -150,7 +150,7 @@ class FacePress {
   };
   using Weights = std::array<double, 4>;
   RigidShape::Distance distance(const Vec3& p) const noexcept;
-  Weights weights(const Face& face, std::uint32_t at) const noexcept;
+  const Weights& weights(const Face& face, std::uint32_t at) const noexcept;
   Vec3 at(const Face& face, const Weights& w) const noexcept;
   double around() const noexcept;
   void find_vertices(std::span<const std::uint32_t> of_faces) noexcept;
@@ -183,6 +183,9 @@ class FacePress {
   double k_;       // of an area [N/m^3]
   double margin_;  // by which the depth may change before samples are collected anew [m]
   std::span<const std::uint32_t> candidates_;
+  static constexpr int fewest_a_side = 2, most_a_side = 8;
+  std::array<std::vector<Weights>, most_a_side + 1>
+      weights_;  // of the samples of a face, by how many lie along a side
   std::vector<Face> faces_;
   std::vector<std::uint32_t> listed_;  // the facet of each
   std::vector<Vertex> vertices_;

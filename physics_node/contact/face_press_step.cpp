@@ -14,6 +14,9 @@ constexpr int most_looks = 60;   // Why: a first touch from far takes some twent
 constexpr double near_in_margin = 0.25;  // Why: a first sweep moves nodes by more, the others by less
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
+/// As deep as the shape's tip is.
+Vec3 raised(const Vec3& x, double z) noexcept { return {x.x(), x.y(), x.z() + z}; }
+
 }  // namespace
 
 void FacePress::read_nodes(const ShapePose& pose) noexcept {
@@ -48,16 +51,16 @@ void FacePress::collect() noexcept {
     Face& face = faces_[f];
     const Vec3 &a = vertices_[face.vertex[0]].x, &b = vertices_[face.vertex[1]].x,
                &c = vertices_[face.vertex[2]].x, &d = vertices_[face.vertex[3]].x;
-    const Vec3 middle = 0.25 * (a + b + c + d) + z_ * Vec3::UnitZ();
+    const Vec3 middle = raised(0.25 * (a + b + c + d), z_);
     // Why more than the reach: corners have moved since the frame began.
     if (distance(middle).distance > 1.1 * face.reach + 2 * margin_) continue;
     face.normal = (c - a).cross(d - b).normalized();
     const int n = face.n * face.n;
     for (int at_n = 0; at_n < n && samples_.size() < most_samples; ++at_n) {
-      const Weights w = weights(face, static_cast<std::uint32_t>(at_n));
+      const Weights& w = weights(face, static_cast<std::uint32_t>(at_n));
       Sample sample{.face = f, .w = w};
       sample.x = w[0] * a + w[1] * b + w[2] * c + w[3] * d;
-      sample.clear = distance(sample.x + z_ * Vec3::UnitZ()).distance;
+      sample.clear = distance(raised(sample.x, z_)).distance;
       if (sample.clear > 2 * margin_) continue;
       // The map of a square on a triangle, whose last corners are one.
       const double density = face.triangle ? 2 * (w[0] + w[1]) : 1;
@@ -94,7 +97,7 @@ void FacePress::look_at_all(double z) noexcept {
   for (Sample& sample : samples_) {
     sample.x = at(faces_[sample.face], sample.w);
     sample.part = part(sample);
-    sample.clear = distance(sample.x + z * Vec3::UnitZ()).distance;
+    sample.clear = distance(raised(sample.x, z)).distance;
   }
   seen_z_ = z, moved_by_ = 0;
   keep_near(near_in_margin * margin_);
@@ -106,7 +109,7 @@ FacePress::Balance FacePress::look(double z) noexcept {
   Balance sum;
   for (const std::uint32_t s : near_) {
     Sample& sample = samples_[s];
-    const RigidShape::Distance d = distance(sample.x + z * Vec3::UnitZ());
+    const RigidShape::Distance d = distance(raised(sample.x, z));
     sample.o = d.outward;
     sample.c = std::clamp(-lets_go_by * d.outward.dot(faces_[sample.face].normal), 0.0, 1.0);
     const double k = sample.part * sample.k * sample.c;
@@ -118,15 +121,22 @@ FacePress::Balance FacePress::look(double z) noexcept {
   return sum;
 }
 
-/// From the shape to the nearest sample that looks at it, of all that are listed. [m]
+/// From the shape to the nearest sample that looks at it, of all that are listed. No sample of a face is nearer than its middle less what its
+/// corners are away from that. [m]
 double FacePress::nearest() const noexcept {
   double least = unbounded;
   for (const Face& face : faces_) {
+    Vec3 middle = Vec3::Zero();
+    for (const std::uint32_t v : face.vertex) middle += 0.25 * vertices_[v].moved;
+    double around = 0;
+    for (const std::uint32_t v : face.vertex)
+      around = std::max(around, (vertices_[v].moved - middle).squaredNorm());
+    if (distance(raised(middle, z_)).distance - std::sqrt(around) > least) continue;
     const Vec3 normal = (vertices_[face.vertex[2]].x - vertices_[face.vertex[0]].x)
                             .cross(vertices_[face.vertex[3]].x - vertices_[face.vertex[1]].x);
     for (int n = 0; n < face.n * face.n; ++n) {
       const Vec3 x = at(face, weights(face, static_cast<std::uint32_t>(n)));
-      const RigidShape::Distance d = distance(x + z_ * Vec3::UnitZ());
+      const RigidShape::Distance d = distance(raised(x, z_));
       if (d.outward.z() < 0 && d.outward.dot(normal) < 0) least = std::min(least, d.distance);
     }
   }

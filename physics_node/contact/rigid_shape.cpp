@@ -54,9 +54,9 @@ RigidShape::Distance RigidShape::distance(const Vec3& p) const noexcept {
 
 /// |p - nearest point of the axis| - R
 RigidShape::Distance RigidShape::to_round(const Vec3& p) const noexcept {
-  const Vec3 off = p - std::clamp(p.z(), radius_, length_ - radius_) * Vec3::UnitZ();
-  const double r = off.norm();
-  return {r - radius_, r > tiny ? Vec3(off / r) : Vec3(-Vec3::UnitZ())};
+  const Vec3 off(p.x(), p.y(), p.z() - std::clamp(p.z(), radius_, length_ - radius_));
+  const double r = std::sqrt(off.x() * off.x() + off.y() * off.y() + off.z() * off.z());
+  return {r - radius_, r > tiny ? Vec3(off.x() / r, off.y() / r, off.z() / r) : Vec3(0, 0, -1)};
 }
 
 RigidShape::Distance RigidShape::to_turned(const Vec3& p) const noexcept {
