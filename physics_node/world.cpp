@@ -106,22 +106,22 @@ void World::take(const StepOutcome& outcome) noexcept {
   report_.contact_lost += outcome.contact_lost;
 }
 
-void World::move_bodies(double dt, bool watch) noexcept {
+void World::move_bodies(double dt, int left) noexcept {
   // Why: what a cut lets go of moves otherwise in the next step than in this, and a damper's power tells too much then.
   const bool parts = std::ranges::any_of(toolbox_.pressing, [this](const PressingTool* tool) {
     const Body& body = bodies_[tool->touched_body()]->body();
     return tool->follows_steps() && tool->may_press() && is_of_finite_elements(body) && any_cut(body);
   });
-  const ExplicitStep how{.dt = dt,
-                         .gravity = scene_.gravity,
-                         .team = team_.get(),
-                         .threads = choice_.threads(),
-                         .verlet = scene_.physics->integrator == Integrator::velocity_verlet,
-                         .watch = watch,
-                         .exact = may_be_struck() || pressed_ || pressed_before_,
-                         .struck = may_be_struck() || parts,
-                         .planes = planes_,
-                         .restitution = scene_.contact->restitution};
+  ExplicitStep how{.dt = dt,
+                   .gravity = scene_.gravity,
+                   .team = team_.get(),
+                   .threads = choice_.threads(),
+                   .verlet = scene_.physics->integrator == Integrator::velocity_verlet,
+                   .watch = left == 0,
+                   .exact = may_be_struck() || pressed_ || pressed_before_,
+                   .struck = may_be_struck() || parts,
+                   .planes = planes_,
+                   .restitution = scene_.contact->restitution};
   stiffening_ = 1;
   gather();
   const Stage stage = is_implicit() ? Stage::integrate : Stage::element_forces;
@@ -130,9 +130,11 @@ void World::move_bodies(double dt, bool watch) noexcept {
     const StageTimer timer(report_, stage);
     const bool joint = is_implicit() && near_;
     if (joint && !collisions_->solve(how, gathered_)) ++report_.unsolved;
-    for (std::size_t b = 0; b < bodies_.size(); ++b)
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      how.acts_for = strides_.acts_for(b, left, dt, how.struck);
       take(joint ? bodies_[b]->pending()->end(how, {gathered_[b], collisions_->contact(b)})
                  : bodies_[b]->advance(how, gathered_[b]));
+    }
     if (joint) book_work(collisions_->driven_work());
   }
   choice_.took(report_[stage].total_ns - before);
@@ -162,7 +164,7 @@ void World::touch(double dt, double done) noexcept {
       report_.contact_lost += body->bounce_off(plane, scene_.contact->restitution, dt).lost;
 }
 
-void World::step(double dt, double done, bool watch) noexcept {
+void World::step(double dt, double done, int left) noexcept {
   if (may_be_struck())
     for (auto& body : bodies_) body->remember_velocities();
   if (!is_implicit())
@@ -170,8 +172,8 @@ void World::step(double dt, double done, bool watch) noexcept {
   for (PressingTool* tool : toolbox_.pressing) tool->begin_step();
   double work = book_tools(dt, false);
   for (auto& connection : connections_) connection->find_forces(dt);
-  move_bodies(dt, watch);
-  if (watch) watched_ = Booked(report_), cut_since_ = {};
+  move_bodies(dt, left);
+  if (left == 0) watched_ = Booked(report_), cut_since_ = {};
   for (auto& connection : connections_) connection->act(dt);
   work += press(dt);
   follow_breaks();
@@ -212,6 +214,7 @@ void World::recover() noexcept {
     touchable_[b].surface->follow();
   }
   for (auto& connection : connections_) connection->restore();
+  strides_.restart();
   if (collisions_) collisions_->restart();
   guard_.begin();
   ++report_.restored;
@@ -272,7 +275,17 @@ int World::substeps_of_frame() noexcept {
     held_substeps_ = stiff, held_until_ = since_reset_ + held_s;
   double wanted = held_substeps_;
   if (near_) wanted = std::max(wanted, std::min(frame_dt_ / collisions_->wanted_step(), most));
-  return std::max(n_substeps_, static_cast<int>(std::ceil(wanted)));
+  const int n = std::max(n_substeps_, static_cast<int>(std::ceil(wanted)));
+  return n > n_substeps_ ? strides_.shared(n) : n;
+}
+
+/// n steps of dt come.
+void World::plan_strides(int n, double dt) noexcept {
+  // Why held: strides of another length are steps that leapfrog does not keep energy through, as above.
+  const double stiffening = std::max(1.0, held_substeps_ / (n_substeps_ * unrounded_));
+  strides_.divide(n, dt, std::ldexp(stiffening, guard_.recoveries()));
+  for (const PressingTool* tool : toolbox_.pressing)
+    if (!tool->forces().empty()) strides_.act_in_every_step(tool->touched_body());
 }
 
 /// As many steps as the frame needs when it begins; where elements stiffen meanwhile, what is left of it is divided anew.
@@ -280,14 +293,16 @@ void World::divide_frame() noexcept {
   constexpr double rounding = 1e-9;
   int n_substeps = substeps_of_frame();
   double begun = 0;  // share of the frame before it was divided last
+  plan_strides(n_substeps, frame_dt_ / n_substeps);
   for (int n = 1; n <= n_substeps; ++n) {
     const double share = begun + (1 - begun) * n / n_substeps;
-    step((1 - begun) * frame_dt_ / n_substeps, share, n == n_substeps);
+    step((1 - begun) * frame_dt_ / n_substeps, share, n_substeps - n);
     const int wanted = static_cast<int>(std::ceil((1 - share) * substeps_of_frame() - rounding));
     if (wanted <= n_substeps - n) continue;
     begun = share;
     n_substeps = wanted;
     n = 0;
+    plan_strides(n_substeps, (1 - begun) * frame_dt_ / n_substeps);
   }
 }
 
@@ -315,6 +330,7 @@ void World::reset() noexcept {
     touchable_[b].surface->follow();
   }
   for (auto& connection : connections_) connection->reset();
+  strides_.restart();
   for (auto& tool : toolbox_.tools) tool->reset(), tool->book() = {};
   if (collisions_) collisions_->restart();
   if (inside_) inside_->restart();

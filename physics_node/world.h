@@ -17,6 +17,7 @@
 #include "physics_node/fragments/fragments.h"
 #include "physics_node/guard.h"
 #include "physics_node/step/step_report.h"
+#include "physics_node/step/strides.h"
 #include "physics_node/step/team.h"
 #include "physics_node/step/team_choice.h"
 
@@ -62,6 +63,8 @@ class World {
   StepReport& report() { return report_; }
   const StepReport& report() const { return report_; }
   std::uint64_t state_hash() const noexcept;
+  /// Steps in which the elements of a body have acted: all, or fewer where it needs fewer than the others.
+  std::int64_t steps_of_body(std::size_t b) const noexcept { return strides_.acted(b); }
   /// Where the energy went; a pass over all elements.
   EnergyLedger ledger() const;
   /// The same as the kernels saw it when the last step of the frame began, before tools, contact and floor acted. A sum over
@@ -83,12 +86,16 @@ class World {
  private:
   /// Strands between bodies, which shorten the stable step. @throws InputError: one joins nothing
   void join_bodies();
+  /// Which bodies need fewer steps than the world, and in how many steps of a frame they then fit.
+  void settle_strides();
   Energies energies() const;
   Losses losses_and_due() const;
   /// Which integrator it is, where the scene leaves that open, and its stable step; bodies hear of stiff cells that step alone.
   Integrator settle_steps(std::vector<Body>& built);
-  void step(double dt, double done, bool watch) noexcept;
-  void move_bodies(double dt, bool watch) noexcept;
+  /// @param left  steps of the frame after this one; the last is watched
+  void step(double dt, double done, int left) noexcept;
+  void move_bodies(double dt, int left) noexcept;
+  void plan_strides(int n, double dt) noexcept;
   void touch(double dt, double done) noexcept;
   double book_tools(double dt, bool begun) noexcept;
   void book_solved(double dt) noexcept;
@@ -134,11 +141,14 @@ class World {
   double frame_dt_ = 0;
   double dt_ = 0;  // of a step; frame_dt_ / n_substeps_
   double stable_dt_ = 0;
+  std::vector<double> stable_alone_,
+      unshaken_;  // of each body: stable by itself; for which its elements may act beside its strands [s]
   int n_substeps_ = 1;
   double unrounded_ = 1;  // as many steps as would do at rest, over n_substeps_
   double held_substeps_ = 0,
-         held_until_ = 0;       // what stiffening asked for, and until when since_reset_ is [s]
-  double stiffening_ = 1;       // largest of the bodies in the last step: see StepOutcome
+         held_until_ = 0;  // what stiffening asked for, and until when since_reset_ is [s]
+  double stiffening_ = 1;  // largest of the bodies in the last step: see StepOutcome
+  Strides strides_;
   std::unique_ptr<Team> team_;  // null: one thread
   TeamChoice choice_ = TeamChoice::always(1);
   bool any_breaks_ = false;

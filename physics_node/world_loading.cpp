@@ -68,6 +68,25 @@ std::vector<double> inverse_masses_when_cut(const Body& body) {
   return inverse;
 }
 
+/// What strands add to the largest squared frequency of a body, and to the rate of its dampers.
+struct Joined {
+  double omega2 = 0, rate = 0;  // [1/s^2], [1/s]
+  void add(const Joined& other) noexcept { omega2 += other.omega2, rate += other.rate; }
+};
+
+/// Of a sum at most the sum: dt^2 w^2 / 4 + dt D <= 1, with 2 D the rate of dampers that act by the velocity before. [s]
+double stable_when_joined(double alone, const Joined& by) noexcept {
+  if (by.omega2 == 0 && by.rate == 0) return alone;
+  const double quarter = 1 / (alone * alone) + by.omega2 / 4, half = by.rate / 2;
+  return (std::sqrt(half * half + 4 * quarter) - half) / (2 * quarter);
+}
+
+// Elements that act for S steps at once shake what strands pull at meanwhile, by (S dt w)^2 / 4 of what these hold, w their frequency at a foot: 1 % at most.
+constexpr double shakes = 0.2, unbounded = std::numeric_limits<double>::infinity();
+
+/// May its elements act for several steps at once?
+bool may_stride(const Body& body) { return body.mesh && is_of_finite_elements(body); }
+
 /// Refuses what would take more memory than there is before it takes it. @throws InputError
 std::vector<Body> build_bodies(const Scene& scene) {
   const double memory = usable_memory();
@@ -146,6 +165,7 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
 
   frame_dt_ = 1.0 / scene.physics->frame_Hz;
   n_substeps_ = static_cast<int>(steps_a_frame(scene_, stable_dt_));
+  settle_strides();
   unrounded_ = std::min(1.0, frame_dt_ / (scene.physics->safety * stable_dt_) / n_substeps_);
   dt_ = frame_dt_ / n_substeps_;
   constexpr double rounding = 1e-9;  // that steps_a_frame() allows
@@ -159,12 +179,28 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
   restart_ledger();
 }
 
+void World::settle_strides() {
+  // Why not of a given step: who gives one wants it of all.
+  const bool explicit_euler =
+      scene_.physics->integrator == Integrator::symplectic_euler && !scene_.physics->step;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const bool may = explicit_euler && may_stride(bodies_[b]->body());
+    strides_.add(may ? std::min(scene_.physics->safety * stable_alone_[b], unshaken_[b]) : 0.0,
+                 static_cast<double>(bodies_[b]->body().n_elements()));
+  }
+  strides_.share(n_substeps_, frame_dt_);
+  n_substeps_ = strides_.shared(n_substeps_);
+}
+
 void World::join_bodies() {
   const auto number = [this](const std::string& name) {
     return static_cast<std::size_t>(std::ranges::find(scene_.bodies, name, &BodySpec::name) -
                                     scene_.bodies.begin());
   };
-  double added = 0, rate = 0;  // to the largest squared frequency [1/s^2]; of their dampers [1/s]
+  std::vector<Joined> joined(bodies_.size());
+  std::vector<double> pulls(
+      bodies_.size());  // the same of masses as loaded, which a cut makes lighter [1/s^2]
+  Joined any;
   for (const ConnectionSpec& spec : scene_.connections) {
     const std::size_t from = number(spec.from), to = number(spec.to);
     const auto surface = [this](std::size_t b) {
@@ -179,15 +215,21 @@ void World::join_bodies() {
                       spec.place.text(), spec.name, spec.from, 1e3 * spec.within, spec.to));
     const auto of_from = inverse_masses_when_cut(bodies_[from]->body());
     const auto of_to = inverse_masses_when_cut(bodies_[to]->body());
-    added += std::max(added_omega2(strands, 0, of_from), added_omega2(strands, 1, of_to));
-    rate += std::max(added_rate(strands, 0, of_from), added_rate(strands, 1, of_to));
+    const Joined at_from{added_omega2(strands, 0, of_from), added_rate(strands, 0, of_from)};
+    const Joined at_to{added_omega2(strands, 1, of_to), added_rate(strands, 1, of_to)};
+    joined[from].add(at_from), joined[to].add(at_to);
+    pulls[from] += added_omega2(strands, 0, bodies_[from]->body().inverse_mass);
+    pulls[to] += added_omega2(strands, 1, bodies_[to]->body().inverse_mass);
+    any.add({std::max(at_from.omega2, at_to.omega2), std::max(at_from.rate, at_to.rate)});
     connections_.push_back(std::make_unique<Connection>(std::move(strands), *bodies_[from], *bodies_[to]));
   }
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    stable_alone_[b] = stable_when_joined(stable_alone_[b], joined[b]);
+    unshaken_.push_back(pulls[b] > 0 ? shakes / std::sqrt(pulls[b]) : unbounded);
+  }
   if (connections_.empty()) return;
-  // Of a sum at most the sum: dt^2 w^2 / 4 + dt D <= 1, with 2 D the rate of dampers that act by the velocity before.
-  const double quarter = 1 / (stable_dt_ * stable_dt_) + added / 4, half = rate / 2;
   const double unjoined = stable_dt_, shortest = 1 / (scene_.physics->frame_Hz * most_steps_a_frame);
-  stable_dt_ = (std::sqrt(half * half + 4 * quarter) - half) / (2 * quarter);
+  stable_dt_ = stable_when_joined(stable_dt_, any);
   const double safety = scene_.physics->safety;
   if (safety * stable_dt_ < shortest && safety * unjoined >= shortest && !scene_.physics->step)
     throw InputError(fmt::format(
@@ -208,9 +250,10 @@ Integrator World::settle_steps(std::vector<Body>& built) {
     if (!choice.remark.empty()) remarks_.push_back(std::move(choice.remark));
   }
   stable_dt_ = std::numeric_limits<double>::infinity();
-  for (std::size_t b = 0; b < built.size(); ++b)
-    stable_dt_ =
-        std::min(stable_dt_, settle_step(scene_.bodies[b], built[b], scene_, may_touch(scene_), remarks_));
+  for (std::size_t b = 0; b < built.size(); ++b) {
+    stable_alone_.push_back(settle_step(scene_.bodies[b], built[b], scene_, may_touch(scene_), remarks_));
+    stable_dt_ = std::min(stable_dt_, stable_alone_.back());
+  }
   return integrator;
 }
 

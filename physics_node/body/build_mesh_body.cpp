@@ -130,9 +130,9 @@ void build_mesh_body(Body& body, const BodySpec& spec, const std::vector<Materia
     law.modulus = *material->modulus;
     law.cut_toughness = material->cut_toughness.value_or(0.0);
     law.puncture_ratio = material->puncture_ratio;
-    // Forces act as if the body were somewhat further: what turns loses a little of its angular momentum.
     law.damped = model.beta > 0;
-    law.damper = Damper::relative;
+    law.damper = Damper::
+        axial;  // Why: it resists the rate of strain alone, and so both momenta stay, as along elements
   }
   body.law = body.laws.front();
   MeshBody mesh = mesh_body(std::move(model));

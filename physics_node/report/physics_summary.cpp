@@ -176,6 +176,7 @@ nlohmann::json physics_summary(const World& world, const Recorder* recorder, dou
     const BodyModel& moving = world.body(b);
     part["bodies"][moving.body().name] = body_part(moving, world.fragments(b));
     nlohmann::json& of_body = part["bodies"][moving.body().name];
+    of_body["steps"] = world.steps_of_body(b);
     if (world.n_bodies() > 1) {
       of_body["inside_others"] = inside->now(b);
       of_body["inside_others_max"] = inside->most(b);

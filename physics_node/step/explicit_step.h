@@ -10,7 +10,9 @@
 namespace palpate::physics {
 
 struct ExplicitStep {
-  double dt = 0;                // [s]
+  double dt = 0;  // [s]
+  // For how many steps of dt elements act now, as step/strides.h says: other than 1 only of tetrahedra.
+  int acts_for = 1;
   Vec3 gravity = Vec3::Zero();  // [m/s^2]
   Team* team = nullptr;         // null: no team
   int threads = 1;              // of the team that this step may use

@@ -32,8 +32,9 @@ class MeshBodyModel final : public BodyModel {
   StepOutcome advance(const ExplicitStep& step, std::span<const NodalForce> forces) noexcept override {
     if (net() != nullptr) net()->begin();
     if (unknown_for_ > 0) --unknown_for_;
-    momentum_.step(step.gravity, step.dt, step.dt);
-    const StepOutcome outcome = elements_.step(step);
+    const double acts = step.acts_for * step.dt;
+    momentum_.step(step.gravity, acts, step.dt);
+    const StepOutcome outcome = move(step, acts);
     kick(forces, step.dt);
     return outcome;
   }
@@ -168,6 +169,13 @@ class MeshBodyModel final : public BodyModel {
   }
 
  private:
+  StepOutcome move(const ExplicitStep& step, double acts) noexcept {
+    if constexpr (requires { elements_.drift(acts); })
+      return acts == 0 && !step.watch ? elements_.drift(step.dt) : elements_.step(step, acts);
+    else
+      return elements_.step(step);
+  }
+
   static constexpr bool may_part = requires(Elements & e, const TetNet& net) { e.separate({}, net); };
 
   TetNet* net() const noexcept { return body_.mesh->net.get(); }

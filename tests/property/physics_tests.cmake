@@ -23,6 +23,8 @@ palpate_test(NAME physics_failure_test KIND property SOURCES physics_failure_tes
 palpate_test(NAME physics_yield_test KIND property SOURCES physics_yield_test.cpp LIBS palpate_physics_worlds)
 # Meshes of tetrahedra through the door of a scene: closed forms, laws, contact.
 palpate_test(NAME physics_meshes_test KIND property SOURCES physics_meshes_test.cpp LIBS palpate_physics_worlds)
+# Bodies that need fewer steps than others.
+palpate_test(NAME physics_strides_test KIND property SOURCES physics_strides_test.cpp LIBS palpate_physics_worlds)
 palpate_test(NAME physics_surfaces_test KIND property SOURCES physics_surfaces_test.cpp LIBS palpate_physics_worlds)
 # Finite elements against what is known: closed forms, and CalculiX where it is installed.
 palpate_test(NAME physics_solids_test KIND property APART SOURCES physics_calculix_test.cpp physics_solids_test.cpp physics_large_strain_test.cpp physics_presses_test.cpp

@@ -58,12 +58,12 @@ struct TetContext {
   double* least_J;            // of each block, when asked for
   double* elastic_of_shares;  // of each chunk of shares, when asked for [J]
   TetNodeLedger* ledger;      // of each chunk of nodes
-  Real dt, g[3];
-  Real dt_before;  // of the step before; 0: there was none
-  Real beta;       // of the damper [s]
-  double z;        // beta / 2 times the fastest frequency at rest
+  Real dt, kick, g[3];        // for which nodes move; for which forces act
+  Real dt_before;             // for which they acted last; 0: they have not
+  Real beta;                  // of the damper [s]
+  double z;                   // beta / 2 times the fastest frequency at rest
   bool watch;
-  bool begins;  // the step before was of another dt, or there was none
+  bool begins;  // that was of another length, or they have not
 };
 
 enum class TetKind { plain, nodal, second_order };

@@ -31,7 +31,7 @@ __attribute__((noinline)) void watch_node(const TetContext<Real>& m, const Moved
   // See watch_begin in lattice/move_masses.inl: K = m v(-) . v(+) / 2, and v(+) becomes another.
   if (m.begins)
     ledger.numerical += 0.5 * p.mass * dot3<Real>(p.v, p.acceleration) *
-                        (static_cast<double>(m.dt_before) - static_cast<double>(m.dt));
+                        (static_cast<double>(m.dt_before) - static_cast<double>(m.kick));
   if (!m.watch) return;
   const double v2 = dot3<Real>(p.v_after, p.v_after);
   ledger.speed2 = v2 > ledger.speed2 ? v2 : ledger.speed2;
@@ -41,7 +41,7 @@ __attribute__((noinline)) void watch_node(const TetContext<Real>& m, const Moved
   ledger.fallen_before += p.mass * dot3<Real>(p.u, g);
 }
 
-/// Sums the parts of each node and moves it: v := v + dt (f / m + g), u := u + dt v. A held one stays.
+/// Sums the parts of each node and moves it: v := v + kick (f / m + g), u := u + dt v. A held one stays.
 /// @tparam apart  the damper's forces are known by themselves; see damper_loss()
 template <class Real, bool apart>
 void move_nodes(const TetContext<Real>& m, std::size_t chunk, Index end) {
@@ -51,7 +51,7 @@ void move_nodes(const TetContext<Real>& m, std::size_t chunk, Index end) {
   TetNodeLedger& ledger = m.ledger[chunk];
   ledger = {};
   const V g = {m.g[0], m.g[1], m.g[2], 0};
-  const Real dt = m.dt;
+  const Real dt = m.dt, kick = m.kick;
   for (std::size_t n = first; n < static_cast<std::size_t>(end); ++n) {
     const Real w = m.inverse_mass[n];
     MovedNode<Real> p;
@@ -76,7 +76,7 @@ void move_nodes(const TetContext<Real>& m, std::size_t chunk, Index end) {
     }
     if (w == 0) continue;
     p.acceleration = force * w + g;
-    p.v_after = p.v + dt * p.acceleration;
+    p.v_after = p.v + kick * p.acceleration;
     p.u_after = p.u + dt * p.v_after;
     Q::store(m.v + 4 * n, p.v_after);
     Q::store(m.u + 4 * n, p.u_after);

@@ -123,6 +123,7 @@ double Tetrahedra<Real>::separate(std::span<const NodeSplit> splits, const TetNe
     inverse_mass_[to] = inverse_mass_[from];
     set_vector(u_, to, displacement(node));
     set_vector(v_, to, velocity(node));
+    if (damped) set_vector(began_, to, vector_at(began_, static_cast<std::size_t>(node)));
     if (damped) set_vector(seen_rate_, to, Vec3::Zero());  // its part is with the node, which is as fast
     const std::size_t first_new = layout_.node_of_share.size();
     give_copy(layout_, *lanes_, net, copy);

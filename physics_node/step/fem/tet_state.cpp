@@ -21,7 +21,7 @@ template <class Real>
 void Tetrahedra<Real>::place(Index node, const Vec3& displacement, const Vec3& velocity) noexcept {
   set_vector(u_, static_cast<std::size_t>(node), displacement);
   set_vector(v_, static_cast<std::size_t>(node), velocity);
-  dt_before_ = 0;  // no step came before this state
+  dt_before_ = since_ = 0;  // no step came before this state
 }
 
 template <class Real>
@@ -57,7 +57,7 @@ void Tetrahedra<Real>::bring_back(const Saved& from) noexcept {
   watch_ = from.watch;
   watch_.kinetic = watch_.between = watch_.speed = 0;
   stiffening_ = 1;
-  dt_before_ = 0;
+  dt_before_ = since_ = 0;
 }
 
 template <class Real>
@@ -65,7 +65,7 @@ void Tetrahedra<Real>::forget() noexcept {
   watch_ = {};
   viscous_ = passed_ = numerical_ = 0;
   stiffening_ = least_of_all_J_ = 1;
-  dt_before_ = 0;
+  dt_before_ = since_ = 0;
 }
 
 #define PALPATE_STATE_OF(Real)                                                     \

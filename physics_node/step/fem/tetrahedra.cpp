@@ -97,7 +97,7 @@ Tetrahedra<Real>::Tetrahedra(TetModel model, InstructionSet set, std::size_t mos
   }
   if (!damped) return;
   rate_force_ = Four(4 * parts, colour++);
-  seen_rate_ = Four(4 * n, colour++);
+  for (auto* of_nodes : {&seen_rate_, &began_, &mean_v_}) *of_nodes = Four(4 * n, colour++);
   mean_rate_ = ZeroedArray<Real>(shares, colour++);
   mean_rate_before_ = ZeroedArray<Real>(shares, colour++);
   for (auto* powers : {&power_, &power_before_}) powers->resize(layout_.n_batches() + chunks(shares));
@@ -193,16 +193,24 @@ double Tetrahedra<Real>::elastic() const noexcept {
 }
 
 template <class Real>
-StepOutcome Tetrahedra<Real>::step(const ExplicitStep& step) noexcept {
+StepOutcome Tetrahedra<Real>::step(const ExplicitStep& step, double kick) noexcept {
   TetContext<Real> m = context();
   for (std::size_t a = 0; a < 3; ++a) m.g[a] = static_cast<Real>(step.gravity[static_cast<Eigen::Index>(a)]);
   m.dt = static_cast<Real>(step.dt);
+  m.kick = static_cast<Real>(kick);
   m.dt_before = static_cast<Real>(dt_before_);
   m.watch = step.watch;
-  m.begins = step.dt != dt_before_;
+  m.begins = kick != dt_before_;
   const bool damped = model_.beta > 0, apart = damped && step.struck;
+  if (damped && since_ > 0) {
+    for (std::size_t i = 0; i < 4 * n_nodes(); ++i)
+      mean_v_[i] = (u_[i] - began_[i]) / static_cast<Real>(since_);
+    m.v = mean_v_.data();
+  }
   const TetSweep<Real>& sweep = this->sweep();
   elements(m, step, sweep, apart ? sweep.apart : step.watch ? sweep.watched_forces : sweep.forces);
+  m.v = v_.data();
+  note_way(kick, step.dt);
   const auto nodes = static_cast<Index>(n_nodes());
   const auto move = apart ? kernel_.move_apart : kernel_.move;
   each(step, ledger_.size(),
@@ -219,7 +227,7 @@ StepOutcome Tetrahedra<Real>::step(const ExplicitStep& step) noexcept {
     std::swap(mean_rate_, mean_rate_before_);
     rate_known_ = apart;
   }
-  dt_before_ = step.dt;
+  dt_before_ = kick;
   if (step.watch) {
     viscous_ = passed_;
     watch_ = {};
@@ -236,6 +244,25 @@ StepOutcome Tetrahedra<Real>::step(const ExplicitStep& step) noexcept {
     stiffening_ = std::ranges::max(stiffest_);
     least_of_all_J_ = std::min(least_of_all_J_, std::ranges::min(least_J_));
   }
+  return {.stiffening = stiffening_, .least_corner_J = least_of_all_J_};
+}
+
+/// Before nodes move.
+template <class Real>
+void Tetrahedra<Real>::note_way(double kick, double dt) noexcept {
+  since_ = 0;
+  if (model_.beta == 0 || !(kick > 1.5 * dt)) return;
+  since_ = dt;
+  std::copy_n(u_.data(), 4 * n_nodes(), began_.data());
+}
+
+template <class Real>
+StepOutcome Tetrahedra<Real>::drift(double dt) noexcept {
+  if (since_ > 0) since_ += dt;
+  const auto by = static_cast<Real>(dt);
+  for (std::size_t n = 0; n < n_nodes(); ++n)
+    if (inverse_mass_[n] > 0)
+      for (std::size_t a = 4 * n; a < 4 * n + 4; ++a) u_[a] += by * v_[a];
   return {.stiffening = stiffening_, .least_corner_J = least_of_all_J_};
 }
 

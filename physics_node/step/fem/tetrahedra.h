@@ -30,7 +30,12 @@ class Tetrahedra {
   /// A step. Of ExplicitStep: `verlet` and `exact` mean nothing here; struck ones book exactly. Allocates, locks and throws nothing.
   /// @return of what was watched: least J of the tetrahedra; and the largest stiffening of one, by which squared frequencies of the body
   ///   grow by no more but for some percent (6 in 36 bodies strained by up to 0.4 at random), nor, damped, shortens its stable step
-  StepOutcome step(const ExplicitStep& step) noexcept;
+  StepOutcome step(const ExplicitStep& step) noexcept { return this->step(step, step.dt); }
+  /// @param kick  for which elements act, while nodes move for step.dt: see step/strides.h. The damper then sees how nodes have moved since elements acted
+  ///   before: what acts in between shakes them to and fro at no mean velocity [s]
+  StepOutcome step(const ExplicitStep& step, double kick) noexcept;
+  /// Nodes go on as they are for dt; nothing acts. @return as of the last step that was watched
+  StepOutcome drift(double dt) noexcept;
 
   const TetModel& model() const noexcept { return model_; }
   const TetLayout& layout() const noexcept { return layout_; }
@@ -98,6 +103,7 @@ class Tetrahedra {
   const TetSweep<Real>& sweep() const noexcept { return model_.beta > 0 ? kernel_.damped : kernel_.elastic; }
   void elements(const TetContext<Real>& m, const ExplicitStep& step, const TetSweep<Real>& sweep,
                 typename TetSweep<Real>::OfBlock kernel) noexcept;
+  void note_way(double kick, double dt) noexcept;
   void write_corner(std::size_t lane, std::size_t corner) noexcept;
   double volume_change(std::size_t tet) const noexcept;
   Real rate_before(Index node, std::size_t material) const noexcept;
@@ -128,7 +134,9 @@ class Tetrahedra {
   Four u_, v_, force_;
   Four rate_force_, seen_rate_;  // see TetContext; only damped
   ZeroedArray<Real> swelling_, mean_, mean_rate_, mean_rate_before_;
-  double dt_before_ = 0;  // [s]
+  double dt_before_ = 0;  // for which elements acted last [s]
+  Four began_, mean_v_;   // of nodes: where elements acted last, and how they have moved since; only damped
+  double since_ = 0;      // elements acted for more than a step, and nodes have moved for this long [s]
 
   std::vector<double> elastic_, stiffest_, least_J_;  // by block: see TetContext
   std::vector<double> elastic_of_shares_;             // by chunk: the same

@@ -48,7 +48,7 @@ TEST(PhysicsSummary, HasTheKeysPromised) {
   }
   expect_keys(summary.at("bodies").at("body"),
               {"masses", "elements", "live_elements", "broken_fraction", "shape_rms_m", "max_stretch",
-               "sleeping_fraction"},
+               "sleeping_fraction", "steps"},
               "body");
   EXPECT_FALSE(summary.at("bodies").at("body").contains("yielded_fraction")) << "it cannot yield";
   EXPECT_FALSE(summary.at("bodies").at("body").contains("fragments")) << "it cannot break";
