@@ -50,7 +50,7 @@ void Strides::share(int n_loaded, double frame) noexcept {
     for (const Of& body : of_) {
       const int k = impulses(body, n, frame);
       cost += body.cost * k;
-      if (body.seconds > 0) beat = std::lcm(beat, k);
+      if (k < n) beat = std::lcm(beat, k);
     }
     if (cost < least) least = cost, beat_ = beat;
   }

@@ -95,6 +95,14 @@ TEST(Strides, DivideTheStepsThatThereAre) {
   EXPECT_EQ(strides.acted(1), 3 + 2 + 3 + 1 + 9);
 }
 
+/// One that sets the pace by itself wants as many steps as it wants, and no more of them.
+TEST(Strides, AddNoStepsWhereNoneIsLeftOut) {
+  Strides alone;
+  alone.add(0.1e-3, 1);
+  alone.share(10, 1e-3);
+  for (int n = 10; n < 40; ++n) EXPECT_EQ(alone.shared(n), n);
+}
+
 TEST(Strides, LeaveOutWhatASoftBodyDoesNotNeed) {
   Recipe recipe = soft_below_stiff();
   World world(scene_of(recipe));
