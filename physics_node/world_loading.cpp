@@ -81,7 +81,8 @@ double stable_when_joined(double alone, const Joined& by) noexcept {
   return (std::sqrt(half * half + 4 * quarter) - half) / (2 * quarter);
 }
 
-// Elements that act for S steps at once shake what strands pull at meanwhile, by (S dt w)^2 / 4 of what these hold, w their frequency at a foot: 1 % at most.
+// Elements that act for S steps at once shake what strands pull at meanwhile, by (S dt w)^2 / 4 of what these
+// hold, w their frequency at a foot: 1 % at most.
 constexpr double shakes = 0.2, unbounded = std::numeric_limits<double>::infinity();
 
 /// May its elements act for several steps at once?

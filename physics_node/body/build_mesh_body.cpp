@@ -131,8 +131,8 @@ void build_mesh_body(Body& body, const BodySpec& spec, const std::vector<Materia
     law.cut_toughness = material->cut_toughness.value_or(0.0);
     law.puncture_ratio = material->puncture_ratio;
     law.damped = model.beta > 0;
-    law.damper = Damper::
-        axial;  // Why: it resists the rate of strain alone, and so both momenta stay, as along elements
+    // Why: it resists the rate of strain alone, and so both momenta stay, as along elements.
+    law.damper = Damper::axial;
   }
   body.law = body.laws.front();
   MeshBody mesh = mesh_body(std::move(model));

@@ -121,8 +121,8 @@ FacePress::Balance FacePress::look(double z) noexcept {
   return sum;
 }
 
-/// From the shape to the nearest sample that looks at it, of all that are listed. No sample of a face is nearer than its middle less what its
-/// corners are away from that. [m]
+/// From the shape to the nearest sample that looks at it, of all that are listed. No sample of a face is nearer
+/// than its middle less what its corners are away from that. [m]
 double FacePress::nearest() const noexcept {
   double least = unbounded;
   for (const Face& face : faces_) {

@@ -1,13 +1,14 @@
 #pragma once
-// Bodies that need fewer steps than the world takes: their elements act once for several of its steps, with the impulse of them all, and between that
-// their nodes go on as they are.
+// Bodies that need fewer steps than the world takes: their elements act once for several of its steps, with the
+// impulse of them all, and between that their nodes go on as they are.
 //
 //   v := v + S dt a(x)  in every S-th step,   x := x + dt v  in each
 //
-// What else acts on them (tools, strands, contact) does so in every step. Where S changes, elements act until the next of the new S-th steps: never twice for the
-// same time, nor after it. A body alone is then stepped by leapfrog with S dt, which is at most what is stable
-// for it with the strands on it: no vibration of its own meets the impulses in step. Energy is read where elements act, so they do in the last step of a
-// frame, and S divides its steps.
+// What else acts on them (tools, strands, contact) does so in every step. Where S changes, elements act until the
+// next of the new S-th steps: never twice for the same time, nor after it. A body alone is then stepped by leapfrog
+// with S dt, which is at most what is stable for it with the strands on it: no vibration of its own meets the
+// impulses in step. Energy is read where elements act, so they do in the last step of a frame, and S divides its
+// steps.
 // Source: the impulse method, Grubmueller et al. 1991; Tuckerman, Berne & Martyna 1992.
 
 #include <cstddef>
@@ -21,9 +22,10 @@ class Strides {
   /// The next body. @param seconds  for which its elements may act at once; 0: they act in every step
   /// @param cost  of one step of it, in any unit
   void add(double seconds, double cost);
-  /// The number of steps of a frame, or of what is left of one, that these bodies can share: n, or up to a quarter more, whatever costs least when tissue is a little stiffer than at rest.
-  /// @param n_loaded  of a frame when all rests; @param frame  its length [s]
+  /// After all are there: finds what number of steps costs least, from n_loaded to a quarter more, when tissue is a
+  /// little stiffer than at rest. @param n_loaded  of a frame when all rests; @param frame  its length [s]
   void share(int n_loaded, double frame) noexcept;
+  /// The steps of a frame, or of what is left of one, that wants n: n, or up to a quarter more that bodies can share.
   int shared(int n) const noexcept;
 
   /// n steps of dt come. @param stiffening  of the bodies: see StepOutcome

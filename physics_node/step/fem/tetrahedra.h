@@ -31,8 +31,8 @@ class Tetrahedra {
   /// @return of what was watched: least J of the tetrahedra; and the largest stiffening of one, by which squared frequencies of the body
   ///   grow by no more but for some percent (6 in 36 bodies strained by up to 0.4 at random), nor, damped, shortens its stable step
   StepOutcome step(const ExplicitStep& step) noexcept { return this->step(step, step.dt); }
-  /// @param kick  for which elements act, while nodes move for step.dt: see step/strides.h. The damper then sees how nodes have moved since elements acted
-  ///   before: what acts in between shakes them to and fro at no mean velocity [s]
+  /// @param kick  for which elements act, while nodes move for step.dt: see step/strides.h. The damper then sees how
+  ///   nodes have moved since elements acted before: what acts in between shakes them at no mean velocity [s]
   StepOutcome step(const ExplicitStep& step, double kick) noexcept;
   /// Nodes go on as they are for dt; nothing acts. @return as of the last step that was watched
   StepOutcome drift(double dt) noexcept;
