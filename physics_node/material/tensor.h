@@ -74,9 +74,11 @@ Tensor<T> product(const Tensor<T>& a, const Tensor<T>& b) noexcept {
 
 /// I + h
 template <class P, class T = typename P::V>
-Tensor<T> plus_identity(Tensor<T> h) noexcept {
-  for (std::size_t i = 0; i < 3; ++i) h[i][i] = h[i][i] + P::all(1);
-  return h;
+Tensor<T> plus_identity(const Tensor<T>& h) noexcept {
+  Tensor<T> f;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) f[i][j] = i == j ? h[i][j] + P::all(1) : h[i][j];
+  return f;
 }
 
 }  // namespace palpate::physics

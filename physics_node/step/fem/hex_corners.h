@@ -64,8 +64,8 @@ inline __attribute__((always_inline)) HexCorner<P> hex_corner(const HexConstants
   for (std::size_t j = 0; j < 3; ++j) {
     const std::size_t from = a & ~(std::size_t{1} << j), to = a | std::size_t{1} << j;
     for (std::size_t i = 0; i < 3; ++i) at.f[i][j] = (w[i][to] - w[i][from]) * P::all(4 * k.per_4h[j]);
+    at.f[j][j] = at.f[j][j] + P::all(1);
   }
-  at.f = plus_identity<P>(at.f);
   at.cof = cofactor<P>(at.f);
   at.J = P::fma(at.f[0][2], at.cof[0][2], P::fma(at.f[0][1], at.cof[0][1], at.f[0][0] * at.cof[0][0]));
   return at;
@@ -131,7 +131,9 @@ __attribute__((noinline)) void corner_forces(const HexConstants<Real>& k, const 
   for (auto& axis : out.f) axis.fill(zero);
   for (std::size_t a = 0; a < 8; ++a) {
     const HexCorner<P> at = hex_corner<P>(k, w, a);
-    const T less = wanted - at.J, d = less > zero ? less : zero;
+    const T less = wanted - at.J;
+    if (!P::any_above_zero(less)) continue;  // of half of the corners of a cell that is inside out
+    const T d = less > zero ? less : zero;
     const T force = mu_v * d * d;
     pressed = pressed + force;
     out.energy = P::fma(force * P::all(Real(1.0 / 3.0)), d, out.energy);
