@@ -8,7 +8,7 @@
 #include "physics_node/step/fem/tet_spectrum.h"
 #include "physics_node/step/lattice/hex_spectrum.h"
 #include "physics_node/step/lattice/lattice_spectrum.h"
-#include "physics_node/step/surface_mesh/surface_springs.h"
+#include "physics_node/step/surface_mesh/surface_spectrum.h"
 
 namespace palpate::physics {
 namespace {
@@ -53,10 +53,7 @@ StiffestMode stiffest_mode_anyhow(const Body& body) {
 }
 
 StiffestMode stiffest_mode(const Body& body) {
-  if (is_surface_of_springs(body)) {
-    SurfaceSprings<double> springs(*body.mesh->springs, body.inverse_mass);
-    return {springs.omega2(), springs.gamma()};
-  }
+  if (is_surface_of_springs(body)) return stiffest_mode_of_surface(*body.mesh->springs, body.inverse_mass);
   if (body.mesh && body.mesh->net) return stiffest_mode_when_cut(body.mesh->model);
   if (body.mesh) return stiffest_mode_of_tetrahedra(body.mesh->model);
   if (body.solid) return stiffest_mode_of_hexahedra(body);

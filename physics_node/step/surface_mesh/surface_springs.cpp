@@ -17,11 +17,6 @@ constexpr std::size_t piece = 512;  // of springs, nodes or triangles. Why: some
 
 std::size_t pieces_of(std::size_t n) { return (n + piece - 1) / piece; }
 
-template <class Real>
-Vec3 vector_of(const std::array<Real, 3>& u) {
-  return {static_cast<double>(u[0]), static_cast<double>(u[1]), static_cast<double>(u[2])};
-}
-
 double sum_of(const std::vector<double>& parts) { return std::accumulate(parts.begin(), parts.end(), 0.0); }
 
 }  // namespace
@@ -40,11 +35,11 @@ SurfaceSprings<Real>::SurfaceSprings(const SpringSurface& surface, const std::ve
   for (const SurfaceSpring& spring : surface.springs) {
     const auto [a, b] = spring.node;
     const Vec3 d = rest_[static_cast<std::size_t>(b)] - rest_[static_cast<std::size_t>(a)];
-    springs_.push_back(
-        {.node = spring.node,
-         .k = static_cast<Real>(spring.k),
-         .length = static_cast<Real>(spring.length),
-         .rest = {static_cast<Real>(d.x()), static_cast<Real>(d.y()), static_cast<Real>(d.z())}});
+    springs_.push_back({.rest = Four::Zero(),
+                        .node = spring.node,
+                        .k = static_cast<Real>(spring.k),
+                        .length = static_cast<Real>(spring.length)});
+    springs_.back().rest.template head<3>() = d.array().cast<Real>();
     for (const Index node : spring.node) ++begin_[static_cast<std::size_t>(node) + 1];
   }
   for (const MeshTriangle& corners : triangles_)
@@ -55,14 +50,14 @@ SurfaceSprings<Real>::SurfaceSprings(const SpringSurface& surface, const std::ve
   std::vector<std::size_t> next = begin_, next_around = around_begin_;
   for (std::size_t s = 0; s < springs_.size(); ++s)
     for (std::size_t end = 0; end < 2; ++end)
-      incident_[next[static_cast<std::size_t>(springs_[s].node[end])]++] = {static_cast<Index>(s),
-                                                                            end == 0 ? Real(1) : Real(-1)};
+      incident_[next[static_cast<std::size_t>(springs_[s].node[end])]++] = {end == 0 ? 1.0 : -1.0,
+                                                                            static_cast<Index>(s)};
   for (std::size_t t = 0; t < triangles_.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k)
       around_[next_around[static_cast<std::size_t>(triangles_[t][k])]++] = {
           static_cast<Index>(t), {triangles_[t][(k + 1) % 3], triangles_[t][(k + 2) % 3]}};
   u_ = ZeroedArray<Real>(4 * n, 0), v_ = ZeroedArray<Real>(4 * n, 1);
-  now_.resize(springs_.size());
+  now_.resize(springs_.size()), pulls_.resize(springs_.size());
   x_ = rest_;
   area_.resize(triangles_.size());
   damping_.assign(n, Vec3::Zero()), damping_before_ = damping_;
@@ -91,27 +86,18 @@ void SurfaceSprings<Real>::look_at_springs(const ExplicitStep& step) noexcept {
     for (std::size_t s = begin; s < end; ++s) {
       const Spring& spring = springs_[s];
       SpringNow& now = now_[s];
-      const Real* const ua = u_.data() + 4 * static_cast<std::size_t>(spring.node[0]);
-      const Real* const ub = u_.data() + 4 * static_cast<std::size_t>(spring.node[1]);
-      const Real* const va = v_.data() + 4 * static_cast<std::size_t>(spring.node[0]);
-      const Real* const vb = v_.data() + 4 * static_cast<std::size_t>(spring.node[1]);
-      std::array<Real, 3> d;
-      for (std::size_t k = 0; k < 3; ++k) d[k] = spring.rest[k] + (ub[k] - ua[k]);
-      now.length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+      const auto at = [&](const ZeroedArray<Real>& four, std::size_t which) {
+        return Eigen::Map<const Four>(four.data() + 4 * static_cast<std::size_t>(spring.node[which]));
+      };
+      const Four d = spring.rest + (at(u_, 1) - at(u_, 0)), squared = d * d;
+      now.length = std::sqrt(squared[0] + squared[1] + squared[2]);
       // Ends at one place push each other nowhere.
-      const Real inverse = now.length > 0 ? 1 / now.length : Real(0);
-      Real rate = 0;
-      for (std::size_t k = 0; k < 3; ++k) {
-        now.u[k] = d[k] * inverse;
-        rate += now.u[k] * (vb[k] - va[k]);
-      }
-      const Real longer = now.length - spring.length;
+      now.u = d * (now.length > 0 ? 1 / now.length : Real(0));
+      const Four rates = now.u * (at(v_, 1) - at(v_, 0));
+      const Real longer = now.length - spring.length, rate = rates[0] + rates[1] + rates[2];
       now.tension = spring.k * longer;
-      const Real damping = beta * spring.k * rate;
-      for (std::size_t k = 0; k < 3; ++k) {
-        now.pull[k] = now.tension * now.u[k];
-        now.slow[k] = damping * now.u[k];
-      }
+      pulls_[s].elastic = (now.tension * now.u).template cast<double>();
+      pulls_[s].damping = (beta * spring.k * rate * now.u).template cast<double>();
       elastic +=
           0.5 * static_cast<double>(spring.k) * static_cast<double>(longer) * static_cast<double>(longer);
     }
@@ -150,13 +136,14 @@ Vec3 SurfaceSprings<Real>::swelling(std::size_t node) const noexcept {
 
 template <class Real>
 typename SurfaceSprings<Real>::Felt SurfaceSprings<Real>::felt(std::size_t node) const noexcept {
-  Felt felt;
+  Pull sum;
   for (std::size_t i = begin_[node]; i < begin_[node + 1]; ++i) {
-    const SpringNow& now = now_[static_cast<std::size_t>(incident_[i].spring)];
-    const auto sign = static_cast<double>(incident_[i].sign);
-    felt.elastic += sign * vector_of(now.pull);
-    felt.damping += sign * vector_of(now.slow);
+    const auto [sign, spring] = incident_[i];
+    const Pull& pull = pulls_[static_cast<std::size_t>(spring)];
+    sum.elastic += sign * pull.elastic;
+    sum.damping += sign * pull.damping;
   }
+  Felt felt{sum.elastic.template head<3>().matrix(), sum.damping.template head<3>().matrix()};
   if (is_filled()) felt.elastic += pressure_ * swelling(node);
   felt.damping -= membrane_.drag * vector_at(v_, node);
   return felt;
@@ -168,7 +155,7 @@ double SurfaceSprings<Real>::stiffness(std::size_t node) const noexcept {
   for (std::size_t i = begin_[node]; i < begin_[node + 1]; ++i) {
     const auto s = static_cast<std::size_t>(incident_[i].spring);
     const SpringNow& now = now_[s];
-    const Vec3 u = vector_of(now.u);
+    const Vec3 u = now.u.template head<3>().template cast<double>().matrix();
     const double across = now.tension > 0 ? static_cast<double>(now.tension / now.length) : 0.0;
     sum += (static_cast<double>(springs_[s].k) - across) * u * u.transpose() +
            across * Eigen::Matrix3d::Identity();

@@ -1,6 +1,7 @@
 #pragma once
 // A closed surface of springs that moves: its state, its step and its books. See body/spring_surface.h.
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <vector>
 
@@ -70,21 +71,25 @@ class SurfaceSprings {
   double gamma() noexcept;
 
  private:
-  /// A spring with what its nodes see of it.
+  using Four = Eigen::Array<Real, 4, 1>;  // x, y, z and 0
   struct Spring {
+    Four rest = Four::Zero();  // from the first to the second node [m]
     std::array<Index, 2> node{};
     Real k = 0, length = 0;
-    std::array<Real, 3> rest{};  // from the first to the second node [m]
   };
   struct SpringNow {
-    std::array<Real, 3> u{};             // unit vector from the first to the second node
-    Real tension = 0;                    // k (l - L) [N]
-    Real length = 0;                     // l [m]
-    std::array<Real, 3> pull{}, slow{};  // tension, and c l', along u: forces on the first node [N]
+    Four u = Four::Zero();  // unit vector from the first to the second node
+    Real tension = 0;       // k (l - L) [N]
+    Real length = 0;        // l [m]
+  };
+  /// What its nodes read of a spring, in one line of cache: forces on the first, and 0.
+  struct alignas(64) Pull {
+    Eigen::Array4d elastic = Eigen::Array4d::Zero();  // tension along u [N]
+    Eigen::Array4d damping = Eigen::Array4d::Zero();  // c l' along u [N]
   };
   struct Incident {
+    double sign = 0;  // 1: the node is its first
     Index spring = 0;
-    Real sign = 0;  // 1: the node is its first
   };
   /// A triangle at a node, and its two other corners, in their order.
   struct Around {
@@ -136,6 +141,7 @@ class SurfaceSprings {
 
   ZeroedArray<Real> u_, v_;
   std::vector<SpringNow> now_;
+  std::vector<Pull> pulls_;
   // As last looked at; only where it is filled:
   std::vector<Vec3> x_;     // of nodes, as rest_ [m]
   std::vector<Vec3> area_;  // of triangles, outwards [m^2]
