@@ -17,12 +17,13 @@ struct Tear {
       0;  // between its ends, for what that lacks of its toughness: J r - w J^2 / 2 of what moves them apart at r [N s]
   double by_impulse = 0;  // [J]
 };
-/// @param apart  r, its rate [m/s]  @param w  inverse mass between its ends [1/kg]
-Tear tear_of(const Strand& strand, double longer, double apart, double w, double dt_before) noexcept {
+/// @param k  of what is left of it [N/m]  @param apart  r, its rate [m/s]  @param w  inverse mass between its ends [1/kg]
+Tear tear_of(const Strand& strand, double k, double longer, double apart, double w,
+             double dt_before) noexcept {
   Tear tear;
   const double before = std::max(0.0, longer - dt_before * std::max(0.0, apart));
-  tear.pulled = 0.5 * strand.k * before * longer;
-  const double lacks = 0.5 * strand.k * strand.most_longer * strand.most_longer - tear.pulled;
+  tear.pulled = 0.5 * k * before * longer;
+  const double lacks = 0.5 * k * strand.most_longer * strand.most_longer - tear.pulled;
   if (!(apart > 0) || !(w > 0) || !(lacks > 0)) return tear;
   tear.impulse = (apart - std::sqrt(std::max(0.0, apart * apart - 2 * w * lacks))) / w;
   tear.by_impulse = tear.impulse * apart - 0.5 * w * tear.impulse * tear.impulse;
@@ -40,6 +41,11 @@ Connection::Connection(std::vector<Strand> strands, BodyModel& from, BodyModel& 
       saved_(Left{left_}, Left{left_}) {
   on_from_.reserve(strands_.size());
   on_to_.reserve(3 * strands_.size());
+  for (const Strand& strand : strands_) {
+    rest_.push_back(-from_->body().rest_position(strand.node));
+    for (std::size_t c = 0; c < 3; ++c)
+      rest_.back() += strand.share[c] * to_->body().rest_position(strand.foot[c]);
+  }
   if (to_->body().mesh && to_->body().mesh->net) find_tets();
 }
 
@@ -90,9 +96,10 @@ double Connection::inverse_mass_of_foot(const Strand& strand, std::size_t corner
   return to_->body().inverse_mass[static_cast<std::size_t>(strand.foot[corner])];
 }
 
-Connection::Now Connection::now(const Strand& strand) const noexcept {
-  const Ends ends = places(strand);
-  const Vec3 d = ends.foot - ends.node;
+Connection::Now Connection::now(std::size_t s) const noexcept {
+  const Strand& strand = strands_[s];
+  Vec3 d = rest_[s] - from_->displacement(strand.node);
+  for (std::size_t c = 0; c < 3; ++c) d += strand.share[c] * to_->displacement(strand.foot[c]);
   const double length = d.norm();
   if (!(length > strand.length)) return {};
   return {length - strand.length, d / length};
@@ -111,9 +118,9 @@ void Connection::put(const Strand& strand, const Vec3& on_node, const Vec3& on_f
 }
 
 /// As much as it may take from a pull, and no more: it does not push.
-Vec3 Connection::damp(const Strand& strand, const Now& at) const noexcept {
-  const double rate = -power(strand, at.u);
-  return std::max(strand.c * rate, -strand.k * at.longer) * at.u;
+Vec3 Connection::damp(std::size_t s, const Now& at) const noexcept {
+  const double rate = -power(strands_[s], at.u);
+  return left_[s] * std::max(strands_[s].c * rate, -strands_[s].k * at.longer) * at.u;
 }
 
 double Connection::due() const noexcept {
@@ -135,15 +142,15 @@ void Connection::find_forces(double dt) noexcept {
   for (std::size_t s = 0; s < strands_.size(); ++s) {
     damping_[s].setZero();
     if (!holds(s)) continue;
-    Strand strand = strands_[s];
-    strand.k *= left_[s], strand.c *= left_[s];
-    const Now at = now(strand);
+    const Now at = now(s);
     if (at.longer <= 0) continue;
+    const Strand& strand = strands_[s];
+    const double k = left_[s] * strand.k;
     if (at.longer < strand.most_longer) {
-      const Vec3 force = strand.k * at.longer * at.u;
-      watched_ += 0.5 * strand.k * at.longer * at.longer + 0.5 * dt * power(strand, force);
+      const Vec3 force = k * at.longer * at.u;
+      watched_ += 0.5 * k * at.longer * at.longer + 0.5 * dt * power(strand, force);
       if (strand.c > 0) {
-        damping_[s] = damp(strand, at);
+        damping_[s] = damp(s, at);
         viscous_ -= 0.5 * dt * power(strand, damping_[s]);
       }
       pull(strand, force + damping_[s]);
@@ -152,7 +159,7 @@ void Connection::find_forces(double dt) noexcept {
     double w = inverse_mass_of_node(strand);
     for (std::size_t c = 0; c < 3; ++c)
       w += strand.share[c] * strand.share[c] * inverse_mass_of_foot(strand, c);
-    const Tear tear = tear_of(strand, at.longer, -power(strand, at.u), w, dt_before_);
+    const Tear tear = tear_of(strand, k, at.longer, -power(strand, at.u), w, dt_before_);
     left_[s] = 0;
     ++n_torn_;
     broken_ += tear.pulled + tear.by_impulse;
@@ -193,7 +200,7 @@ double Connection::cut(std::span<const StrandPush> pushes) noexcept {
     double& left = left_[push.strand];
     const double cut = std::min(push.cuts, left);
     if (cut <= 0) continue;
-    released += cut * energy(strands_[push.strand]);
+    released += cut * energy(push.strand);
     left -= cut;
     if (left <= 0) ++n_cut_;
   }
@@ -202,20 +209,21 @@ double Connection::cut(std::span<const StrandPush> pushes) noexcept {
 }
 
 /// As the leapfrog has it.
-double Connection::energy(const Strand& strand) const noexcept {
-  const Now at = now(strand);
+double Connection::energy(std::size_t s) const noexcept {
+  const Now at = now(s);
+  const Strand& strand = strands_[s];
   const Vec3 force = strand.k * at.longer * at.u;
   return 0.5 * strand.k * at.longer * at.longer + 0.5 * dt_before_ * power(strand, force);
 }
 
 double Connection::stored_by_share(std::size_t strand) const noexcept {
-  return std::max(0.0, energy(strands_[strand]));
+  return std::max(0.0, energy(strand));
 }
 
 double Connection::energy() const noexcept {
   double sum = 0;
   for (std::size_t s = 0; s < strands_.size(); ++s)
-    if (holds(s)) sum += left_[s] * energy(strands_[s]);
+    if (holds(s)) sum += left_[s] * energy(s);
   return sum;
 }
 

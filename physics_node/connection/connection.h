@@ -92,14 +92,15 @@ class Connection {
     double longer = 0;
     Vec3 u = Vec3::Zero();
   };
-  Now now(const Strand& strand) const noexcept;
+  Now now(std::size_t strand) const noexcept;
   double power(const Strand& strand, const Vec3& force) const noexcept;
-  double energy(const Strand& strand) const noexcept;  // of a whole one
+  double energy(std::size_t strand) const noexcept;  // of a whole one
   double due() const noexcept;  // the half of the last step's dampers that is still to be booked [J]
-  Vec3 damp(const Strand& strand, const Now& at) const noexcept;
+  Vec3 damp(std::size_t strand, const Now& at) const noexcept;
   void put(const Strand& strand, const Vec3& on_node, const Vec3& on_foot) noexcept;
 
   std::vector<Strand> strands_;
+  std::vector<Vec3> rest_;  // of each, from its node to its foot; parts of a cut body keep it [m]
   BodyModel* from_;
   BodyModel* to_;
   std::vector<OnTet> on_tet_;  // of each strand; EMPTY: of another body

@@ -13,6 +13,7 @@
 #include "common/scene/scene.h"
 #include "common/scene/surroundings_spec.h"
 #include "common/scene/tool_spec.h"
+#include "physics_node/body/kept_momentum.h"
 #include "physics_node/fragments/outcome.h"
 #include "physics_node/report/run_warnings.h"
 
@@ -48,14 +49,6 @@ nlohmann::json body_part(const BodyModel& moving, const Fragments* fragments) {
     part["deformable_voxels"] = moving.body().cells->n_deformable();
   }
   return part;
-}
-
-/// Can its momentum be known from what is booked?
-bool keeps_momentum(const Body& body) {
-  return !is_anchored(body) && body.handle.empty() &&
-         std::all_of(body.laws.begin(), body.laws.end(), [](const ElementLaw& law) {
-           return law.drag == 0 && (!law.damped || law.damper == Damper::axial);
-         });
 }
 
 /// Of the box round a body at rest, half of its diagonal [m].

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "physics_node/body/kept_momentum.h"
 #include "physics_node/step/body_model.h"
 #include "physics_node/step/good_state.h"
 #include "physics_node/step/rebound.h"
@@ -21,6 +22,7 @@ class MeshBodyModel final : public BodyModel {
   MeshBodyModel(Body body, std::vector<Vec3> start, Elements elements)
       : BodyModel(body_),
         body_(std::move(body)),
+        keeps_momentum_(keeps_momentum(body_)),
         start_(std::move(start)),
         elements_(std::move(elements)),
         saved_(elements_.saved(), elements_.saved()) {
@@ -33,7 +35,7 @@ class MeshBodyModel final : public BodyModel {
     if (net() != nullptr) net()->begin();
     if (unknown_for_ > 0) --unknown_for_;
     const double acts = step.acts_for * step.dt;
-    momentum_.step(step.gravity, acts, step.dt);
+    if (keeps_momentum_) momentum_.step(step.gravity, acts, step.dt);
     const StepOutcome outcome = move(step, acts);
     kick(forces, step.dt);
     return outcome;
@@ -85,7 +87,7 @@ class MeshBodyModel final : public BodyModel {
       elements_.place(node, start_.empty() ? Vec3(Vec3::Zero()) : start_[n],
                       inverse_mass(node) > 0 ? body_.velocity : Vec3(Vec3::Zero()));
     }
-    momentum_ = {};
+    momentum_ = {}, touched_ = false;
     restart_momentum();
     save(false);
     save(true);
@@ -107,7 +109,7 @@ class MeshBodyModel final : public BodyModel {
     for (const NodalForce& nodal : forces) {
       const double w = inverse_mass(nodal.cell);
       if (w == 0) continue;
-      momentum_.push(dt * nodal.force, position(nodal.cell) - dt * velocity(nodal.cell), dt);
+      book_push(dt * nodal.force, nodal.cell, dt);
       elements_.push(nodal.cell, w * dt * nodal.force, dt);
     }
   }
@@ -152,7 +154,7 @@ class MeshBodyModel final : public BodyModel {
     return all;
   }
   Momenta momenta() const override { return measured().momenta; }
-  bool touched() const noexcept override { return momentum_.hits() > 0; }
+  bool touched() const noexcept override { return touched_; }
   void restart_momentum() noexcept override { momentum_.restart(measured()); }
   MomentumBalance momentum_balance() const override { return momentum_.balance(momenta()); }
   std::uint64_t hash(std::uint64_t seed) const noexcept override { return elements_.hash(seed); }
@@ -187,8 +189,13 @@ class MeshBodyModel final : public BodyModel {
   Vec3 mean_velocity(Index node, const Vec3& v_move) const noexcept {
     return v_before_.empty() ? v_move : Vec3(0.5 * (v_move + v_before_[static_cast<std::size_t>(node)]));
   }
+  /// Where no summary tells of it, it is left out: two roots and a moment for each strand and step, a twentieth of a bag's time.
+  void book_push(const Vec3& impulse, Index node, double dt) noexcept {
+    touched_ = true;
+    if (keeps_momentum_) momentum_.push(impulse, position(node) - dt * velocity(node), dt);
+  }
   void push_one(Index node, const Vec3& dv, double dt) noexcept {
-    momentum_.push(dv / inverse_mass(node), position(node) - dt * velocity(node), dt);
+    book_push(dv / inverse_mass(node), node, dt);
     elements_.push(node, dv, dt);
     // It acts before the elements do: who reads the mean of this and the velocity after them finds all of it.
     if (!v_before_.empty()) v_before_[static_cast<std::size_t>(node)] += dv;
@@ -235,6 +242,8 @@ class MeshBodyModel final : public BodyModel {
   }
 
   Body body_;
+  const bool keeps_momentum_;
+  bool touched_ = false;
   std::vector<Vec3> start_;  // displacements of its nodes; EMPTY: none [m]
   mutable Elements
       elements_;  // what measures it writes forces and energies of its elements, which the next step makes anew
