@@ -107,7 +107,7 @@ void InsideOthers::mark_in_tetrahedron(const std::array<Vec3, 4>& x, Index piece
   const double volume = a.dot(b.cross(c));
   if (volume == 0) return;
   const Vec3 u = b.cross(c) / volume, v = c.cross(a) / volume, w = a.cross(b) / volume;
-  grid_.visit_box(box.min(), box.max(), [&](std::uint32_t n) {
+  grid_.visit_box(box.min(), box.max(), [&](std::uint32_t n, const Vec3&) {
     if (piece_[n] == piece) return;
     const Vec3 p = point_[n] - x[0];
     const double i = u.dot(p), j = v.dot(p), k = w.dot(p);

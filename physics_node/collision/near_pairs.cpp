@@ -27,7 +27,7 @@ NearPairs::NearPairs(const std::vector<ContactBody>& bodies, PairKind kind)
           std::max(pairs_per_candidate * n, std::min(few_pairs, pairs_per_candidate_of_few * n));
       Link link{a, b, false, false, MotionMark(of_a), MotionMark(a == b ? 0 : of_b), 0, 0, 0, 0, {}, {}};
       if (kind != PairKind::facets) link.masses.make_room(room);
-      if (kind != PairKind::masses) link.facets.make_room(room), most_facets_ += room;
+      if (kind != PairKind::masses) link.facets.make_room(room, n), most_facets_ += room;
       links_.push_back(std::move(link));
     }
 }

@@ -40,6 +40,16 @@ void PairList::sort() noexcept {
   });
 }
 
+void PairList::sort_by_mass(std::uint32_t a, std::size_t n_a, std::size_t n) noexcept {
+  const auto number = [&](const PairEnd& mass) { return (mass.body == a ? 0 : n_a) + mass.n; };
+  begin_.assign(n + 1, 0);
+  for (const NearPair& pair : pairs_) ++begin_[number(pair.mass) + 1];
+  for (std::size_t m = 0; m < n; ++m) begin_[m + 1] += begin_[m];
+  by_mass_.resize(pairs_.size());
+  for (const NearPair& pair : pairs_) by_mass_[begin_[number(pair.mass)]++] = pair;
+  pairs_.swap(by_mass_);
+}
+
 PairSearch::PairSearch(const std::vector<ContactBody>& bodies) {
   for (const auto& body : bodies) {
     const std::size_t most = body.candidates().most();
@@ -104,10 +114,10 @@ void PairSearch::find_masses(const std::vector<ContactBody>& bodies, std::uint32
   for (std::uint32_t n = 0; n < c.size(); ++n) {
     if (seeks[n] == 0) continue;
     const Vec3& p = c.x()[n];
-    sides_[b].grid.visit_box(p - reach, p + reach, [&](std::uint32_t m) {
+    sides_[b].grid.visit_box(p - reach, p + reach, [&](std::uint32_t m, const Vec3& at) {
       // Of two that seek each other the first finds the second.
       if (a == b && (m == n || (m < n && seeks[m] != 0))) return;
-      if ((d.x()[m] - p).squaredNorm() > within * within) return;
+      if ((at - p).squaredNorm() > within * within) return;
       if (a == b && c.are_joined(n, m)) return;
       list.add({a, a == b ? std::min(n, m) : n}, {b, a == b ? std::max(n, m) : m});
     });
@@ -127,7 +137,8 @@ void PairSearch::find_facets(const std::vector<ContactBody>& bodies, std::uint32
   };
   seek(a, b);
   if (a != b) seek(b, a);
-  list.sort();
+  const std::size_t n_a = bodies[a].candidates().size();
+  list.sort_by_mass(a, n_a, a == b ? n_a : n_a + bodies[b].candidates().size());
 }
 
 void PairSearch::seek_masses_near(const std::vector<ContactBody>& bodies, PairEnd facet, std::uint32_t other,
@@ -151,13 +162,13 @@ void PairSearch::seek_masses_near(const std::vector<ContactBody>& bodies, PairEn
   double out = 0;  // of the corners from there
   for (const Vec3& corner : now.corner) out = std::max(out, (corner - middle).squaredNorm());
   const double around = (std::sqrt(out) + within) * (1 + 1e-12);
-  side.grid.visit_box(box.min(), box.max(), [&](std::uint32_t m) {
+  side.grid.visit_box(box.min(), box.max(), [&](std::uint32_t m, const Vec3& p) {
+    if ((p - middle).squaredNorm() > around * around)
+      return;  // most of a box, and far quicker told than the rest
     if (!seeks && side.seeks[m] == 0) return;
-    const Vec3& p = d.x()[m];
     if (same && (m == k[0] || m == k[1] || m == k[2])) return;
     // A loose mass that meets a facet is found by that facet; two loose ones find each other once.
     if (loose && (!bodies[other].facets()->is_loose(m) || other > b || (same && m > k[0]))) return;
-    if ((p - middle).squaredNorm() > around * around) return;  // most of a box, and far quicker told
     if (closest_point(p, now.corner).distance > within) return;
     if (same && (c.are_joined(m, k[0]) || c.are_joined(m, k[1]) || c.are_joined(m, k[2]))) return;
     list.add({other, m}, facet);

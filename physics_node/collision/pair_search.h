@@ -23,16 +23,24 @@ struct NearPair {
 class PairList {
  public:
   void make_room(std::size_t n) { pairs_.reserve(n); }
+  /// For sort_by_mass(), too. @param n_masses  of both bodies, at most
+  void make_room(std::size_t n, std::size_t n_masses) {
+    make_room(n), by_mass_.reserve(n), begin_.reserve(n_masses + 1);
+  }
   void clear() noexcept { pairs_.clear(); }
   void add(PairEnd mass, PairEnd other) noexcept;
   void sort() noexcept;
+  /// The same of pairs that were added in the order of what is not the mass: a pass to count, and one to put in place.
+  /// @param a, n_a  the smaller body, and its masses; @param n  masses of both
+  void sort_by_mass(std::uint32_t a, std::size_t n_a, std::size_t n) noexcept;
 
   std::vector<NearPair>& pairs() { return pairs_; }
   const std::vector<NearPair>& pairs() const { return pairs_; }
   std::int64_t overflows() const { return overflows_; }
 
  private:
-  std::vector<NearPair> pairs_;
+  std::vector<NearPair> pairs_, by_mass_;
+  std::vector<std::uint32_t> begin_;  // of each mass, in order
   std::int64_t overflows_ = 0;
 };
 

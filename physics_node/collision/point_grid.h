@@ -18,13 +18,13 @@ class PointGrid {
   /// Puts what was inserted in order, points of a cell beside each other; before anything is visited.
   void arrange() noexcept;
 
-  /// Calls visit(id) for every point in the box [lo, hi], in a fixed order.
+  /// Calls visit(id, p) for every point in the box [lo, hi], in a fixed order.
   template <class Visit>
   void visit_box(const Eigen::Vector3d& lo, const Eigen::Vector3d& hi, const Visit& visit) const {
     const Eigen::Vector3i a = cell_of(lo), b = cell_of(hi);
     if ((b - a + Eigen::Vector3i::Ones()).cast<double>().prod() > static_cast<double>(n_)) {
       for (std::size_t n = 0; n < n_; ++n)
-        if (is_between(arranged_[n].p, lo, hi)) visit(arranged_[n].id);
+        if (is_between(arranged_[n].p, lo, hi)) visit(arranged_[n].id, arranged_[n].p);
       return;
     }
     for (int z = a.z(); z <= b.z(); ++z)
@@ -34,7 +34,7 @@ class PointGrid {
           for (std::uint32_t n = first_[bucket]; n < first_[bucket + 1]; ++n) {
             const Entry& e = arranged_[n];
             // A bucket may hold points of other cells, which are visited from there.
-            if (is_between(e.p, lo, hi) && e.cell == Eigen::Vector3i(x, y, z)) visit(e.id);
+            if (is_between(e.p, lo, hi) && e.cell == Eigen::Vector3i(x, y, z)) visit(e.id, e.p);
           }
         }
   }
