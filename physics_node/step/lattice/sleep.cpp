@@ -12,6 +12,8 @@ constexpr double slow = 5e-5;       // [m/s]
 constexpr double balanced = 0.02;   // [m/s^2]
 constexpr double disturbed = 0.08;  // [m/s^2]
 constexpr float patience = 0.2F;    // [s]
+// Of viscosity over modulus. Why: what creeps to its place at `slow` is by this times that short of it, 25 um.
+constexpr double longest_creep = 0.5;  // [s]
 
 std::vector<Index> rows_beside(const Lattice& lattice, const RowSegment& row) {
   std::vector<Index> beside;
@@ -48,11 +50,20 @@ std::vector<std::vector<Index>> rows_beside_by_cells(const Body& body) {
   return beside;
 }
 
+/// As slow as to be taken for at rest far from there?
+bool creeps(const Body& body) {
+  if (body.solid) return !body.solid->relaxation.empty() || body.solid->beta > longest_creep;
+  return std::ranges::any_of(body.laws, [](const ElementLaw& law) {
+    for (std::size_t h = 0; h < law.c.size(); ++h)
+      if (law.c[h] > longest_creep * law.k1[h]) return true;
+    return false;
+  });
+}
+
 }  // namespace
 
 Sleep::Sleep(const Body& body)
-    : may_sleep_(body.n_held > 0 &&
-                 !(body.solid && (!body.solid->relaxation.empty() || body.solid->awake_radius > 0)) &&
+    : may_sleep_(body.n_held > 0 && !creeps(body) && !(body.solid && body.solid->awake_radius > 0) &&
                  body.cell_net() == nullptr),
       quiet_s_(body.lattice.rows.size()),
       masses_of_(body.lattice.rows.size(), 0),

@@ -13,8 +13,8 @@ namespace palpate::physics {
 /// A sleeping row stands still. Where it borders on awake rows its elements go on acting on them, and it is woken, with
 /// the rows beside it, when the forces on one of its masses are out of balance by 0.08 m/s^2; so the error of a mass in a
 /// mode of f hertz stays below 0.08 / (2 pi f)^2 metres, 20 um at 10 Hz. Whoever pushes a row wakes it.
-/// Only bodies that something holds sleep: a free one must keep its momentum. What relaxes does not: it creeps slower than any
-/// threshold. A body that is awake in parts (awake_region.h) has rows of its own kind.
+/// Only bodies that something holds sleep: a free one must keep its momentum. What relaxes does not, nor what takes more than half a
+/// second (viscosity over modulus) to come to its place: they creep slower than any threshold. A body that is awake in parts (awake_region.h) has rows of its own kind.
 class Sleep {
  public:
   explicit Sleep(const Body& body);

@@ -118,6 +118,23 @@ TEST_F(SleepingBlock, WakesAsAWhole) {
 }
 
 /// A free body must keep its momentum, however slow it is.
+/// Slower than 0.05 mm/s it may still be far from its place: by that times viscosity over modulus.
+TEST(Sleep, NeverTakesHoldOfWhatCreeps) {
+  for (const char* model : {"springs", "fem"})
+    for (const int viscosity : {400, 600}) {  // over 1 kPa: 0.4 and 0.6 s
+      test::Recipe recipe;
+      recipe.lattice = "voxel";
+      recipe.material =
+          "density_kg_per_m3 = 1000\nmodulus_kPa = 1\nviscosity_Pa_s = " + std::to_string(viscosity);
+      recipe.body = "fixed = [\"-z\"]\nmodel = \"" + std::string(model) + "\"";
+      const Body body = test::body_of(recipe);
+      LatticeState<double> state{body};
+      Sleep sleep{body};
+      for (int n = 0; n < 100; ++n) sleep.look(body, state, frame);
+      EXPECT_EQ(sleep.any_asleep(), viscosity < 500) << model;
+    }
+}
+
 TEST_F(SleepingBlock, NeverSleepsWhereNothingHoldsIt) {
   body = block("");
   state = LatticeState<double>(body);
