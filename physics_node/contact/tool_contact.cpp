@@ -110,6 +110,7 @@ const ToolContact::Facet* ToolContact::nearest(const Vec3& p) const noexcept {
   const Facet* best = nullptr;
   double least = 0;
   for (const Facet& facet : facets_) {
+    if (facet.looks <= 0) continue;
     const double d = (facet.centroid - p).squaredNorm();
     if (best == nullptr || d < least) best = &facet, least = d;
   }
@@ -122,12 +123,13 @@ double ToolContact::nearest_distance(const Vec3& p) const noexcept {
 }
 
 ToolContact::Nearest ToolContact::nearest_to(const RigidShape& shape, const Vec3& origin,
-                                             const Eigen::Matrix3d& axes) const noexcept {
+                                             const Eigen::Matrix3d& axes) noexcept {
   Nearest best{std::numeric_limits<double>::infinity()};
-  for (const Facet& facet : facets_) {
+  for (Facet& facet : facets_) {
     const RigidShape::Distance d = shape.distance(axes.transpose() * (facet.centroid - origin));
     const Vec3 out = axes * d.outward;
-    if (d.distance >= best.distance || facet.normal.dot(out) >= 0) continue;
+    facet.looks = std::max(0.0, -facet.normal.dot(out));
+    if (d.distance >= best.distance || facet.looks <= 0) continue;
     best = {d.distance, facet.centroid, facet.centroid - d.distance * out};
   }
   return best;
@@ -144,7 +146,7 @@ double ToolContact::weight(const Facet& facet, const Vec3& q, const Vec3& facing
   const double r2 = (facet.centroid - q).squaredNorm() / (radius_ * radius_);
   if (r2 >= 1) return 0;
   if (facet.normal.dot(facing) < facing_limit) return 0;
-  return facet.area * (1 - r2) * (1 - r2);
+  return facet.looks * facet.area * (1 - r2) * (1 - r2);
 }
 
 LocalPlane ToolContact::plane_at(const Vec3& q, const Vec3& facing) const noexcept {

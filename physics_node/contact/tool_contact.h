@@ -31,9 +31,9 @@ class ToolContact {
   void look(const Vec3& p, double t) noexcept;
 
   /// The plane under p:
-  ///   w_f = A_f (1 - |c_f - q|^2 / R^2)^2,   point = sum w c / sum w,   normal = sum w n / |sum w n|
+  ///   w_f = A_f l_f (1 - |c_f - q|^2 / R^2)^2,   point = sum w c / sum w,   normal = sum w n / |sum w n|
   /// q begins at the facet nearest to p and follows the projection of p onto the plane. Facets that face away from
-  /// the nearest one do not count. Source: Adamson & Alexa 2003 (point set surfaces from weighted averages);
+  /// the nearest one do not count; l_f is 1, or what nearest_to() says. Source: Adamson & Alexa 2003 (point set surfaces from weighted averages);
   /// R is twice the tip's radius, so the plane is smooth although voxel facets are steps.
   LocalPlane plane_under(const Vec3& p) const noexcept;
 
@@ -51,8 +51,10 @@ class ToolContact {
     Vec3 point = Vec3::Zero();     // centroid of the facet [m]
     Vec3 on_shape = Vec3::Zero();  // nearest to that [m]
   };
-  /// The facet that is nearest to a shape, of those that look at it. @param origin, axes  of the shape
-  Nearest nearest_to(const RigidShape& shape, const Vec3& origin, const Eigen::Matrix3d& axes) const noexcept;
+  /// The facet that is nearest to a shape, of those that look at it. Until the next look() each facet counts in planes and shares as
+  /// far as it looks at the shape: the sides of a block do not lean the plane under a plate that is wider than the block.
+  /// @param origin, axes  of the shape
+  Nearest nearest_to(const RigidShape& shape, const Vec3& origin, const Eigen::Matrix3d& axes) noexcept;
   /// Appends the facets of the last look whose centroid lies within `radius` of p, up to the room that `out` has.
   void facets_within(const Vec3& p, double radius, std::vector<std::uint32_t>& out) const noexcept;
 
@@ -72,6 +74,7 @@ class ToolContact {
     Vec3 rest, rest_normal;  // the same before any force
     double area;
     std::array<std::uint32_t, 4> corner;  // of corners_
+    double looks = 1;                     // cosine between it and what it looks at
   };
   /// One that the last search found.
   struct Near {

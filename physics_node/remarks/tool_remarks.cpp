@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "common/scene/body_spec.h"
 #include "common/scene/device_spec.h"
@@ -12,6 +13,7 @@
 #include "common/scene/physics_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
+#include "physics_node/contact/held_shape.h"
 #include "physics_node/remarks/enclosure.h"
 #include "physics_node/remarks/remarks.h"
 #include "physics_node/remarks/tool_points.h"
@@ -22,14 +24,15 @@ namespace {
 constexpr double fastest_hand = 3;  // [m/s]: a throw; pressing and cutting stay below 1
 constexpr double far_away = 10;     // times the size of the bodies
 constexpr double touch = 0.8;       // of the spacing: from anywhere on a facet a vertex is within 0.71 of it
-constexpr std::size_t most_samples = 4000;
+constexpr std::size_t most_samples = 4000,
+                      most_of_shape = 200;  // of a path; the latter cost a pass over all vertices each
 
-std::vector<Vec3> samples_of(const DeviceSpec& device, double apart) {
+std::vector<Vec3> samples_of(const DeviceSpec& device, double apart, std::size_t most = most_samples) {
   std::vector<Vec3> samples;
   double length = 0;
   for (std::size_t n = 1; n < device.waypoints.size(); ++n)
     length += (device.waypoints[n].p - device.waypoints[n - 1].p).norm();
-  apart = std::max(apart, length / static_cast<double>(most_samples));
+  apart = std::max(apart, length / static_cast<double>(most));
   for (std::size_t n = 1; n < device.waypoints.size(); ++n) {
     const Vec3 &from = device.waypoints[n - 1].p, &to = device.waypoints[n].p;
     const int parts = std::max(1, static_cast<int>(std::ceil((to - from).norm() / apart)));
@@ -59,6 +62,7 @@ class ToolLook {
   Remarks remarks() {
     if (others_.empty() || device_.waypoints.empty() || device_.driver != "simulated") return {};
     shape_ = tool_points(tool_, scene_, bodies_, 0.5 * finest_);
+    if (is_solid_tip(tool_.shape)) held_ = held_shape(tool_);
     Remarks found;
     const Vec3 start = device_.waypoints.front().p;
     const bool inside = tool_.shape != ToolShape::body && begins_inside(start);
@@ -94,7 +98,23 @@ class ToolLook {
       for (const Enclosure& other : others_)
         for (const Vec3& p : shape_)
           if (touches_at(other, at + p)) return true;
-    return false;
+    if (!held_) return false;
+    return std::ranges::any_of(samples_of(device_, 0.5 * finest_, most_of_shape), [&](const Vec3& at) {
+      return std::ranges::any_of(others_, [&](const Enclosure& other) {
+        return from_shape(other, at, reach_of(tool_, other.spacing())) <= reach_of(tool_, other.spacing());
+      });
+    });
+  }
+  /// Of the vertex that is nearest to a rigid shape, which may be far from all corners of that; infinite beyond `reach`. [m]
+  double from_shape(const Enclosure& other, const Vec3& at, double reach) const {
+    const Eigen::Matrix3d axes = held_->axes(Eigen::Quaterniond::Identity());
+    const Vec3 origin = held_->origin(at, axes);
+    double least = std::numeric_limits<double>::infinity();
+    const Vec3 middle = origin + axes * held_->shape.bounds().center();
+    if (other.box().exteriorDistance(middle) > held_->half_diagonal() + reach) return least;
+    for (const Vec3& vertex : other.vertices())
+      least = std::min(least, held_->shape.distance(axes.transpose() * (vertex - origin)).distance);
+    return least;
   }
   bool touches_at(const Enclosure& other, const Vec3& p) const {
     // A stick thicker than a cell: the nearest vertex may be further than the bins reach.
@@ -111,6 +131,9 @@ class ToolLook {
       for (const Enclosure& other : others_)
         for (std::size_t n = 0; n < shape_.size(); n += stride)
           least = std::min(least, other.distance(at + shape_[n]));
+    if (!held_) return least;
+    for (const Vec3& at : samples_of(device_, 4 * finest_, most_of_shape))
+      for (const Enclosure& other : others_) least = std::min(least, from_shape(other, at, least));
     return least;
   }
 
@@ -137,6 +160,7 @@ class ToolLook {
   const DeviceSpec& device_;
   std::vector<Enclosure> others_;
   std::vector<Vec3> shape_;
+  std::optional<HeldShape> held_;  // of a rigid shape, of which the points are the corners alone
   double finest_ = std::numeric_limits<double>::infinity();
   Eigen::AlignedBox3d box_;
 };

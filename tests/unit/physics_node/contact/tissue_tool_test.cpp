@@ -147,6 +147,30 @@ TEST(TissueTool, PressesWithTheShapeThatAToolHas) {
   }
 }
 
+/// Of a column that is narrower than what presses it nothing but the top counts: neither its sides nor what of the plate hangs over.
+TEST(TissueTool, BearsTheSameUnderAPlateHoweverFarThatReachesBeyondTheBody) {
+  for (const char* words :
+       {"shape = \"box\"\nsize_mm = [22, 22, 10]", "shape = \"box\"\nsize_mm = [60, 60, 10]",
+        "shape = \"box\"\nsize_mm = [54, 300, 10]", "shape = \"cylinder\"\nradius_mm = 29\nlength_mm = 30",
+        "shape = \"cylinder\"\nradius_mm = 100\nlength_mm = 30"})
+    for (const double aside : {0.0, 2e-3}) {
+      Recipe recipe = palpated_by(words);
+      recipe.shape = Recipe::box(20, 20, 40);
+      recipe.spacing_mm = 5;
+      Session session(recipe);
+      const auto held = [&](double t) {
+        return Vec3(aside, 0, 0.0205 - 0.0015 * std::clamp((t - 0.05) / 0.1, 0.0, 1.0));
+      };
+      for (std::uint64_t n = 1; n <= 500; ++n) session.to(n, held);
+      ASSERT_EQ(session.patch.n_tissues, 1u) << words;
+      const TouchedTissue& told = session.patch.tissues[0];
+      const double force = pressed(told), k = 20e3 * 4e-4 / 0.04;  // E A / L
+      EXPECT_GT(vec(told.normal).z(), 0.999) << words << aside;
+      EXPECT_NEAR(force, 1e-3 * k * 500 / (k + 500), 0.02 * force)
+          << words << aside << " of the hand's spring and the column";
+    }
+}
+
 /// A stick that lies on the block and turns about its tip goes deeper at its other end.
 TEST(TissueTool, TurnsWithTheHandle) {
   Session session(palpated_by("shape = \"stick\"\nradius_mm = 3\nlength_mm = 60\ntheta_deg = [0, -90, 0]"));

@@ -56,6 +56,19 @@ std::string all(const Remarks& remarks) {
 
 TEST(Remarks, HaveNothingToSayAboutASoundScene) { EXPECT_EQ(all(remarks_of(sound)), ""); }
 
+/// Whose corners never come near: they hang over.
+TEST(Remarks, SayNothingOfAPlateThatIsWiderThanTheBody) {
+  const std::vector<std::string> plate = {"body.block.model=fem", "tool.tip.shape=box",
+                                          "tool.tip.size_mm=[200,200,10]"};
+  std::string text(sound);
+  text.erase(text.find("radius_mm = 8\n"), 14);
+  EXPECT_EQ(all(remarks_of(text, plate)), "");
+  std::vector<std::string> beside = plate;
+  beside.push_back("device.hand.waypoints=[[0,0,0,45],[1,0,0,25],[2,0,0,45]]");
+  EXPECT_NE(all(remarks_of(text, beside)).find("never touches a body and stays 10 mm"), std::string::npos)
+      << all(remarks_of(text, beside));
+}
+
 /// A box of 10 mm in whole cells of 4 mm is one of 12 mm.
 TEST(Remarks, SayHowMuchLargerCellsMakeABox) {
   const std::vector<std::string> small = {"body.block.size_mm=[10,10,10]", "body.block.spacing_mm=4"};
