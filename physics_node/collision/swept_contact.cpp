@@ -200,10 +200,15 @@ SweptReport SweptContact::step(const std::vector<ContactBody>& bodies, std::span
     break;
   }
   report.overflows = overflows_;
+  const auto any_zoned = [this](const Active& a) {
+    return std::ranges::any_of(a.end, [this](PairEnd at) { return in_zone_[id_of(at)] != 0; });
+  };
   for (int round = 0; round < most_rounds; ++round) {
     bool grown = false;
     for (Active& a : active_) {
-      if (a.together || !would_pass(bodies, a, dt, impulses)) continue;
+      // Where none of its masses is in a zone, all move as they did in the round before.
+      if (a.together || (round > 0 && !any_zoned(a))) continue;
+      if (!would_pass(bodies, a, dt, impulses)) continue;
       a.together = true;  // moves together from now on
       join(a);
       grown = true;
