@@ -11,7 +11,7 @@
 //
 //   n := n + f lean, made unit,    lean = -N_t / F,    f = dt / (tau + dt (1 + k_t / K))
 //
-// Deviation: on a flat a tip goes as in a guide: N across the normal g of the faces around is left out, by less where they
+// Deviation: on a flat a round tip goes as in a guide: N across the normal g of the faces around is left out, by less where they
 // do not face one way. A face between four nodes tilts under a ball beside its middle, by up to 15 degrees, and a hand that
 // slides would feel the lattice.
 //

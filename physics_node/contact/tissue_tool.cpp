@@ -187,7 +187,10 @@ void TissueTool::find_contact(double t) noexcept {
   const LocalPlane plane = body.contact.plane_under(*under);
   const bool at_rest = remembers_rest(body.moving->body()) && !plane.rest_normal.isZero();
   guide_ = at_rest ? plane.rest_normal : plane.normal;
-  flat_ = plane.found ? plane.flat : 0;
+  // Of what has a flat face the pressure lies across that, however flat the tissue is.
+  const RigidShape::Kind kind = held_.shape.kind();
+  const bool round = kind != RigidShape::Kind::box && kind != RigidShape::Kind::cylinder;
+  flat_ = plane.found && round ? plane.flat : 0;
   if (!touched) {
     if (!plane.found) return let_go();
     if (!knew_up) up_ = plane.normal;

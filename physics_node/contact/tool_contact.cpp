@@ -146,19 +146,22 @@ double ToolContact::weight(const Facet& facet, const Vec3& q, const Vec3& facing
   const double r2 = (facet.centroid - q).squaredNorm() / (radius_ * radius_);
   if (r2 >= 1) return 0;
   if (facet.normal.dot(facing) < facing_limit) return 0;
-  return facet.looks * facet.area * (1 - r2) * (1 - r2);
+  return facet.area * (1 - r2) * (1 - r2);
 }
 
 LocalPlane ToolContact::plane_at(const Vec3& q, const Vec3& facing) const noexcept {
   LocalPlane plane;
-  double sum = 0;
+  double sum = 0, around = 0;
+  Vec3 all_ways = Vec3::Zero();
   Vec3 point = Vec3::Zero();
   Vec3 normal = Vec3::Zero();
   Vec3 rest = Vec3::Zero();
   Vec3 rest_normal = Vec3::Zero();
   for (const Facet& facet : facets_) {
-    const double w = weight(facet, q, facing);
-    if (w <= 0) continue;
+    const double near = weight(facet, q, facing), w = facet.looks * near;
+    if (near <= 0) continue;
+    around += near;
+    all_ways += near * facet.rest_normal;
     sum += w;
     point += w * facet.centroid;
     normal += w * facet.normal;
@@ -170,7 +173,7 @@ LocalPlane ToolContact::plane_at(const Vec3& q, const Vec3& facing) const noexce
   plane.point = point / sum;
   plane.normal = normal.normalized();
   plane.rest = rest / sum;
-  plane.flat = rest_normal.norm() / sum;
+  plane.flat = all_ways.norm() / around;
   if (rest_normal.norm() >= 0.1 * sum) plane.rest_normal = rest_normal.normalized();
   return plane;
 }
@@ -195,12 +198,12 @@ void ToolContact::find_shares(const Vec3& q) noexcept {
   if (!plane.found) return;
   const Vec3 foot = q - plane.normal.dot(q - plane.point) * plane.normal;
   double sum = 0;
-  for (const Facet& facet : facets_) sum += weight(facet, foot, plane.normal);
+  for (const Facet& facet : facets_) sum += facet.looks * weight(facet, foot, plane.normal);
   if (sum <= 0) return;
   // By corners first: several facets have each, and several corners each mass.
   for (Corner& corner : corners_) corner.weight = 0;
   for (const Facet& facet : facets_) {
-    const double w = weight(facet, foot, plane.normal);
+    const double w = facet.looks * weight(facet, foot, plane.normal);
     if (w <= 0) continue;
     for (const std::uint32_t corner : facet.corner) corners_[corner].weight += w / (4 * sum);
   }

@@ -18,7 +18,7 @@ struct LocalPlane {
   // The same weights over the facets where they were before any force (Boundary's settled ones):
   Vec3 rest = Vec3::Zero();         // point [m]
   Vec3 rest_normal = Vec3::Zero();  // unit, or 0 where they face all ways
-  double flat = 0;                  // |sum w n| / sum w at rest: 1 where all face one way
+  double flat = 0;  // |sum w n| / sum w at rest, of all facets, l_f left out: 1 where all face one way
 };
 
 class ToolContact {

@@ -172,6 +172,35 @@ TEST(TissueTool, BearsTheSameUnderAPlateHoweverFarThatReachesBeyondTheBody) {
     }
 }
 
+/// However flat the tissue is: a wedge without friction is pushed aside, or it would move tissue aside for nothing.
+TEST(TissueTool, IsPushedAsideWhereItsFaceIsTilted) {
+  for (const double angle : {0.0, 10.0}) {
+    Session session(palpated_by("shape = \"box\"\nsize_mm = [24, 24, 10]\ntheta_deg = [0, " +
+                                std::to_string(-angle) + ", 0]"));
+    const double slope = std::tan(angle * M_PI / 180);
+    const auto slides = [&](double t) {  // the tip is in the middle of the face, its edge is lower
+      const double aside = 2e-3 * std::clamp((t - 0.4) / 0.2, 0.0, 1.0);
+      return Vec3(palpation(std::min(t, 0.15)) + Vec3(aside, 0, 0.012 * slope));
+    };
+    double given = 0;  // by the hand [J]
+    Vec3 before = Vec3::Zero();
+    for (std::uint64_t n = 1; n <= 700; ++n) {
+      session.to(n, slides);
+      const double t = 1e-3 * static_cast<double>(n);
+      given -= 0.5 * (before + session.borne()).dot(slides(t) - slides(t - 1e-3));
+      before = session.borne();
+      if (n != 400) continue;
+      const double aside = before.head<2>().norm() / before.z();
+      EXPECT_GE(aside, 0.4 * slope) << angle;
+      EXPECT_LE(aside, 1.1 * slope + 2e-3) << angle;
+    }
+    EXPECT_GT(before.z(), 0.2);
+    const double spring = 0.5 / 500 * before.squaredNorm();
+    EXPECT_GE(given - spring, 0.97 * session.world.tool(0).book().tissue_work())
+        << angle << " is what tissue got";
+  }
+}
+
 /// A stick that lies on the block and turns about its tip goes deeper at its other end.
 TEST(TissueTool, TurnsWithTheHandle) {
   Session session(palpated_by("shape = \"stick\"\nradius_mm = 3\nlength_mm = 60\ntheta_deg = [0, -90, 0]"));
