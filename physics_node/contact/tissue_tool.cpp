@@ -19,6 +19,9 @@ namespace {
 
 // A touch begins outside: what is deeper in the tissue without bearing has got there otherwise, and would be thrown out.
 constexpr double begins_within = 0.5e-3;  // [m]
+// Of the shape's size: how deep a corner of the tissue may be in it before a sample of its faces is, where it has come from outside. Why:
+// samples lie up to a twentieth of the size beside a corner, and in a hollow the shape is as steep as four to one.
+constexpr double corner_before_sample = 0.2;
 // Of what holds modes where their force does not: weight, what a body lies on, other tools, a law that is curved. Why: slower than a hand palpates.
 constexpr double offset_smoothing = 0.1;   // [s]
 constexpr int looks_around = 12;           // a frame; the next one goes on
@@ -81,7 +84,7 @@ void TissueTool::let_go() noexcept {
 void TissueTool::reset() noexcept {
   let_go();
   play_.reset();
-  engaged_ = found_ = knows_up_ = comes_over_ = false;
+  engaged_ = found_ = knows_up_ = comes_over_ = outside_ = false;
   left_for_ = comes_over_within;
   keep_ = 1;
   told_at_ = 0;
@@ -169,7 +172,8 @@ std::optional<Vec3> TissueTool::look(const Vec3& tip, double t) noexcept {
 }
 
 void TissueTool::find_contact(double t) noexcept {
-  const bool knew_up = std::exchange(knows_up_, false);
+  const bool knew_up = std::exchange(knows_up_, false), was_outside = std::exchange(outside_, false);
+  const std::size_t before = touched_;
   left_for_ = force_ > 0 ? 0.0 : left_for_ + frame_dt_;
   if (left_for_ >= comes_over_within) comes_over_ = false;
   found_ = false;
@@ -201,10 +205,16 @@ void TissueTool::find_contact(double t) noexcept {
   place(0);
   if (force_ <= 0) body.contact.find_shares(*under);
   body.faces.list(pose_, candidates_, way);
-  if (force_ > 0) return;
+  if (force_ > 0) {
+    outside_ = true;  // it comes from there
+    return;
+  }
   depth_ = body.faces.depth();
-  if (!std::isfinite(depth_) || (!touched && !comes_over_ && -depth_ > begins_within))
-    let_go(), found_ = false;
+  const bool comes_in = was_outside && touched_ == before;
+  const double deepest =
+      comes_in ? std::max(begins_within, corner_before_sample * held_.shape.size()) : begins_within;
+  if (!std::isfinite(depth_) || (!touched && !comes_over_ && -depth_ > deepest)) let_go(), found_ = false;
+  outside_ = found_ && engaged_ && (comes_in || depth_ >= 0);
 }
 
 void TissueTool::begin_step() noexcept {

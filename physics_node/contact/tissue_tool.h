@@ -113,6 +113,7 @@ class TissueTool final : public PressingTool {
   bool found_ = false;       // a surface, in this frame
   bool knows_up_ = false;    // up_ is of the frame before
   bool comes_over_ = false;  // from another body, not from outside
+  bool outside_ = false;     // it touches, or has been outside in each frame since it was
   double left_for_ = 1;      // since it touched any [s]
   ShapePose pose_;
   Vec3 guide_ = Vec3::UnitZ();  // normal of the faces around

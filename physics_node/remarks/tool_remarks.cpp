@@ -62,7 +62,8 @@ class ToolLook {
   Remarks remarks() {
     if (others_.empty() || device_.waypoints.empty() || device_.driver != "simulated") return {};
     shape_ = tool_points(tool_, scene_, bodies_, 0.5 * finest_);
-    if (is_solid_tip(tool_.shape)) held_ = held_shape(tool_);
+    if (is_solid_tip(tool_.shape) || (tool_.shape == ToolShape::point && presses_faces()))
+      held_ = held_shape(tool_);
     Remarks found;
     const Vec3 start = device_.waypoints.front().p;
     const bool inside = tool_.shape != ToolShape::body && begins_inside(start);
@@ -86,6 +87,11 @@ class ToolLook {
  private:
   std::string who() const { return fmt::format("{}: tool \"{}\"", tool_.place.text(), tool_.name); }
 
+  bool presses_faces() const {
+    return std::ranges::any_of(bodies_, [this](const auto& body) {
+      return asks_for_faces(tool_, is_of_finite_elements(body->body()));
+    });
+  }
   bool begins_inside(const Vec3& start) const {
     return std::any_of(shape_.begin(), shape_.end(), [&](const Vec3& p) {
       return std::any_of(others_.begin(), others_.end(),

@@ -10,34 +10,10 @@
 #include "common/scene/load_scene.h"
 #include "common/scene/scene.h"
 #include "tests/support/physics/palpated_slab.h"
-#include "tests/support/physics/recorded_hand.h"
+#include "tests/support/physics/palpation.h"
 
 namespace palpate::physics::test {
 namespace {
-
-/// In the air for 50 ms, then down to 2 mm, and 0.5 mm to and fro at 5 Hz until 0.65 s; then away.
-Vec3 palpation(double t) {
-  const double in = 1e-3 * (-1 + 3 * std::clamp((t - 0.05) / 0.1, 0.0, 1.0));
-  const double swing = t > 0.15 ? 0.5e-3 * std::sin(2 * M_PI * 5 * (t - 0.15)) : 0;
-  return {0.0005, 0.0005, slab_top - in - swing + (t > 0.65 ? 0.2 * (t - 0.65) : 0)};
-}
-
-struct Session {
-  explicit Session(const Recipe& recipe) : world(scene_of(recipe)) {}
-  /// A frame at whose end this sample of the hand is played.
-  const TouchedTissue& to(std::uint64_t sample, const std::function<Vec3(double)>& path = palpation) {
-    std::optional<ToolState> hand = recorded_hand(path, sample);
-    world.frame(std::span(&hand, 1));
-    world.tool(0).write_patch(patch, 1, 0);
-    return patch.tissues[0];
-  }
-  Vec3 borne() const { return world.tool(0).borne(); }
-
-  World world;
-  ContactPatch patch;
-};
-
-double pressed(const TouchedTissue& told) { return -vec(told.normal).dot(vec(told.force)); }
 
 /// Where the told surface is.
 Vec3 surface_told(const TouchedTissue& told) {
@@ -144,60 +120,6 @@ TEST(TissueTool, PressesWithTheShapeThatAToolHas) {
     EXPECT_GE(std::hypot(told.arm[0], told.arm[1]), shape.arm) << shape.words;
     EXPECT_NEAR(force, 500 * vec(told.normal).dot(lies - held(1)), 0.01 * force) << "K (x - z)";
     EXPECT_TRUE(tip.allFinite());
-  }
-}
-
-/// Of a column that is narrower than what presses it nothing but the top counts: neither its sides nor what of the plate hangs over.
-TEST(TissueTool, BearsTheSameUnderAPlateHoweverFarThatReachesBeyondTheBody) {
-  for (const char* words :
-       {"shape = \"box\"\nsize_mm = [22, 22, 10]", "shape = \"box\"\nsize_mm = [60, 60, 10]",
-        "shape = \"box\"\nsize_mm = [54, 300, 10]", "shape = \"cylinder\"\nradius_mm = 29\nlength_mm = 30",
-        "shape = \"cylinder\"\nradius_mm = 100\nlength_mm = 30"})
-    for (const double aside : {0.0, 2e-3}) {
-      Recipe recipe = palpated_by(words);
-      recipe.shape = Recipe::box(20, 20, 40);
-      recipe.spacing_mm = 5;
-      recipe.material = "density_kg_per_m3 = 1000\nmodulus_kPa = 20\npoisson_ratio = 0\nviscosity_Pa_s = 10";
-      Session session(recipe);
-      const auto held = [&](double t) {
-        return Vec3(aside, 0, 0.0205 - 0.0015 * std::clamp((t - 0.05) / 0.1, 0.0, 1.0));
-      };
-      for (std::uint64_t n = 1; n <= 500; ++n) session.to(n, held);
-      ASSERT_EQ(session.patch.n_tissues, 1u) << words;
-      const TouchedTissue& told = session.patch.tissues[0];
-      const double force = pressed(told), k = 20e3 * 4e-4 / 0.04;  // E A / L
-      EXPECT_GT(vec(told.normal).z(), 0.999) << words << aside;
-      EXPECT_NEAR(force, 1e-3 * k * 500 / (k + 500), 0.01 * force)
-          << words << aside << " of the hand's spring and the column";
-    }
-}
-
-/// However flat the tissue is: a wedge without friction is pushed aside, or it would move tissue aside for nothing.
-TEST(TissueTool, IsPushedAsideWhereItsFaceIsTilted) {
-  for (const double angle : {0.0, 10.0}) {
-    Session session(palpated_by("shape = \"box\"\nsize_mm = [24, 24, 10]\ntheta_deg = [0, " +
-                                std::to_string(-angle) + ", 0]"));
-    const double slope = std::tan(angle * M_PI / 180);
-    const auto slides = [&](double t) {  // the tip is in the middle of the face, its edge is lower
-      const double aside = 2e-3 * std::clamp((t - 0.4) / 0.2, 0.0, 1.0);
-      return Vec3(palpation(std::min(t, 0.15)) + Vec3(aside, 0, 0.012 * slope));
-    };
-    double given = 0;  // by the hand [J]
-    Vec3 before = Vec3::Zero();
-    for (std::uint64_t n = 1; n <= 700; ++n) {
-      session.to(n, slides);
-      const double t = 1e-3 * static_cast<double>(n);
-      given -= 0.5 * (before + session.borne()).dot(slides(t) - slides(t - 1e-3));
-      before = session.borne();
-      if (n != 400) continue;
-      const double aside = before.head<2>().norm() / before.z();
-      EXPECT_GE(aside, 0.4 * slope) << angle;
-      EXPECT_LE(aside, 1.1 * slope + 2e-3) << angle;
-    }
-    EXPECT_GT(before.z(), 0.2);
-    const double spring = 0.5 / 500 * before.squaredNorm();
-    EXPECT_GE(given - spring, 0.97 * session.world.tool(0).book().tissue_work())
-        << angle << " is what tissue got";
   }
 }
 

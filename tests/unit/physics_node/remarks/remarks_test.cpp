@@ -69,6 +69,15 @@ TEST(Remarks, SayNothingOfAPlateThatIsWiderThanTheBody) {
       << all(remarks_of(text, beside));
 }
 
+TEST(Remarks, KnowTheBallRoundATip) {
+  const std::string by_the_edge = "device.hand.waypoints=[[0,35,0,25],[1,35,0,12],[2,35,0,25]]";
+  for (const int radius : {1, 20}) {
+    const std::string said = all(remarks_of(
+        sound, {"body.block.model=fem", by_the_edge, "tool.tip.radius_mm=" + std::to_string(radius)}));
+    EXPECT_EQ(said.find("never touches") != std::string::npos, radius == 1) << said;
+  }
+}
+
 /// A box of 10 mm in whole cells of 4 mm is one of 12 mm.
 TEST(Remarks, SayHowMuchLargerCellsMakeABox) {
   const std::vector<std::string> small = {"body.block.size_mm=[10,10,10]", "body.block.spacing_mm=4"};
