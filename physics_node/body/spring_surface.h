@@ -34,6 +34,11 @@ struct Membrane {
   double content_modulus = 0;  // K; 0: the pressure stays [Pa]
 };
 
+/// Else the pressure in it is that outside, whatever it encloses.
+inline bool is_filled(const Membrane& membrane) noexcept {
+  return membrane.pressure != 0 || membrane.content_modulus != 0;
+}
+
 struct SpringSurface {
   TriangleMesh mesh;
   Membrane membrane;

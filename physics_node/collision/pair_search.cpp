@@ -163,8 +163,7 @@ void PairSearch::seek_masses_near(const std::vector<ContactBody>& bodies, PairEn
   for (const Vec3& corner : now.corner) out = std::max(out, (corner - middle).squaredNorm());
   const double around = (std::sqrt(out) + within) * (1 + 1e-12);
   side.grid.visit_box(box.min(), box.max(), [&](std::uint32_t m, const Vec3& p) {
-    if ((p - middle).squaredNorm() > around * around)
-      return;  // most of a box, and far quicker told than the rest
+    if ((p - middle).squaredNorm() > around * around) return;  // most of a box, and quickly told
     if (!seeks && side.seeks[m] == 0) return;
     if (same && (m == k[0] || m == k[1] || m == k[2])) return;
     // A loose mass that meets a facet is found by that facet; two loose ones find each other once.

@@ -17,7 +17,8 @@ struct Tear {
       0;  // between its ends, for what that lacks of its toughness: J r - w J^2 / 2 of what moves them apart at r [N s]
   double by_impulse = 0;  // [J]
 };
-/// @param k  of what is left of it [N/m]  @param apart  r, its rate [m/s]  @param w  inverse mass between its ends [1/kg]
+/// @param k  of what is left of it [N/m]  @param apart  r, its rate [m/s]
+/// @param w  inverse mass between its ends [1/kg]
 Tear tear_of(const Strand& strand, double k, double longer, double apart, double w,
              double dt_before) noexcept {
   Tear tear;

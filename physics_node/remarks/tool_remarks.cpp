@@ -111,7 +111,8 @@ class ToolLook {
       });
     });
   }
-  /// Of the vertex that is nearest to a rigid shape, which may be far from all corners of that; infinite beyond `reach`. [m]
+  /// Of the vertex that is nearest to a rigid shape, which may be far from all corners of that [m].
+  /// @param reach  infinite where the body as a whole is farther
   double from_shape(const Enclosure& other, const Vec3& at, double reach) const {
     const Eigen::Matrix3d axes = held_->axes(Eigen::Quaterniond::Identity());
     const Vec3 origin = held_->origin(at, axes);

@@ -12,8 +12,8 @@ namespace {
 
 /// M^-1/2 K M^-1/2 at rest, held nodes left out:
 ///   K = sum of k u u^T of springs  -  p_0 H  +  K_c / V_0 g g^T
-/// g = dV/dx, a third of the area vectors around each node; H = d2V/dx2: of a triangle (x_b, x_c moved by d_b, d_c) node a
-/// gets (d_b x x_c + x_b x d_c) / 6. K_c is the modulus of what the surface is filled with.
+/// g = dV/dx, a third of the area vectors around each node; H = d2V/dx2: of a triangle (x_b, x_c moved by d_b, d_c)
+/// node a gets (d_b x x_c + x_b x d_c) / 6. K_c is the modulus of what the surface is filled with.
 class ScaledSurface {
  public:
   ScaledSurface(const SpringSurface& surface, const std::vector<double>& inverse_mass, bool is_filled)
@@ -78,10 +78,12 @@ StiffestMode stiffest_mode_of_surface(const SpringSurface& surface, const std::v
   const Membrane& membrane = surface.membrane;
   StiffestMode mode{springs.omega2(), springs.gamma()};
   if (mode.omega2 <= 0) return mode;  // nothing of it moves
-  mode.omega2 = std::min(mode.omega2, largest(surface, inverse_mass, true));
-  if (membrane.beta > 0)
-    mode.gamma = std::min(mode.gamma, membrane.beta * largest(surface, inverse_mass, false) +
-                                          membrane.drag * std::ranges::max(inverse_mass));
+  const double found = largest(surface, inverse_mass, is_filled(membrane));
+  mode.omega2 = std::min(mode.omega2, found);
+  if (membrane.beta <= 0) return mode;
+  const double of_springs = is_filled(membrane) ? largest(surface, inverse_mass, false) : found;
+  mode.gamma =
+      std::min(mode.gamma, membrane.beta * of_springs + membrane.drag * std::ranges::max(inverse_mass));
   return mode;
 }
 

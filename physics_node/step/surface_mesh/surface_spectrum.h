@@ -11,7 +11,7 @@ namespace palpate::physics {
 /// Largest squared frequency and damping rate near rest: the smaller of the bounds of SurfaceSprings and what Lanczos
 /// finds. Of triangles that differ in size a bound by node takes the neighbours of the smallest for as light: of a
 /// surface cut from an image it is 1.6 times too large.
-/// Cost: at most 60 sweeps over springs and triangles, in double; twice that where it is damped.
+/// Cost: at most 60 sweeps over springs and triangles, in double; twice that where it is filled and damped.
 /// @param inverse_mass  of each node, 0: held [1/kg]
 StiffestMode stiffest_mode_of_surface(const SpringSurface& surface, const std::vector<double>& inverse_mass);
 

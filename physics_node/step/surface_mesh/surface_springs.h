@@ -111,7 +111,7 @@ class SurfaceSprings {
     double kinetic = 0, between = 0, fallen = 0, fallen_before = 0, speed2 = 0, of_damper = 0, numerical = 0;
     Fastest fastest;
   };
-  bool is_filled() const noexcept { return membrane_.pressure != 0 || membrane_.content_modulus != 0; }
+  bool is_filled() const noexcept { return physics::is_filled(membrane_); }
   template <class Work>
   static void each(const ExplicitStep& step, std::size_t n, const Work& work) noexcept;
   void look_at_springs(const ExplicitStep& step) noexcept;

@@ -43,9 +43,8 @@ TEST(TissueShapes, IsBorneByTheRimOfAHollowNarrowerThanItself) {
   recipe.spacing_mm = 2.5;
   recipe.body += "\n[[body.cavity]]\ncenter_mm = [0, 0, 10]\nradius_mm = 8";
   Session session(recipe);
-  const double met =
-      0.01 -
-      std::sqrt(1e-4 - 5e-5);  // depth of the tip below the rim's nearest corners, 5 mm aside each way [m]
+  // Depth of the tip at which the ball meets the rim's nearest corners, 5 mm aside each way [m].
+  const double met = 0.01 - std::sqrt(1e-4 - 5e-5);
   bool bore = false;
   for (std::uint64_t n = 1; n <= 500; ++n) {
     const auto path = [](double t) {

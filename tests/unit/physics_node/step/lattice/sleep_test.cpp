@@ -117,7 +117,6 @@ TEST_F(SleepingBlock, WakesAsAWhole) {
   for (const RowState row : state.row_state) EXPECT_EQ(row, RowState::awake);
 }
 
-/// A free body must keep its momentum, however slow it is.
 /// Slower than 0.05 mm/s it may still be far from its place: by that times viscosity over modulus.
 TEST(Sleep, NeverTakesHoldOfWhatCreeps) {
   for (const char* model : {"springs", "fem"})
@@ -135,6 +134,7 @@ TEST(Sleep, NeverTakesHoldOfWhatCreeps) {
     }
 }
 
+/// A free body must keep its momentum, however slow it is.
 TEST_F(SleepingBlock, NeverSleepsWhereNothingHoldsIt) {
   body = block("");
   state = LatticeState<double>(body);
