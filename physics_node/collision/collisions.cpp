@@ -1,6 +1,7 @@
 #include "physics_node/collision/collisions.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "common/scene/surroundings_spec.h"
@@ -41,9 +42,11 @@ Collisions::Collisions(const BodyModels& bodies, const std::vector<std::unique_p
       moving_(pointers(bodies)),
       pushes_(bodies.size()),
       bodies_(contact_bodies(bodies, fragments, swept_ || spec.count_passages, swept_)),
-      near_(bodies_, swept_                ? PairKind::facets
-                     : spec.count_passages ? PairKind::both
-                                           : PairKind::masses),
+      near_(bodies_,
+            swept_                ? PairKind::facets
+            : spec.count_passages ? PairKind::both
+                                  : PairKind::masses,
+            bodies.front()->pending() != nullptr),
       impulses_(bodies_),
       apart_(bodies.size() * bodies.size(), 0.0),
       stays_near_(bodies.size() * bodies.size(), 0),
@@ -63,12 +66,22 @@ std::size_t Collisions::n_candidates() const noexcept {
 
 /// No mass of it moves faster in the coming frame.
 double Collisions::fastest(std::uint32_t b) const noexcept {
-  return speed_margin * std::max(bodies_[b].speed() + common_.norm(), moving_[b]->watch().speed);
+  return speed_margin *
+         std::max(bodies_[b].speed() + bodies_[b].common_velocity().norm(), moving_[b]->watch().speed);
 }
 
-/// The same against the common velocity, as candidates were when all were read last.
+/// The same against what bodies do as wholes, with what that is of two against each other, as candidates were when all were read last.
 double Collisions::fastest_apart(std::uint32_t b) const noexcept {
-  return go_together() ? speed_margin * bodies_[b].speed() : fastest(b);
+  return go_together() ? speed_margin * (bodies_[b].speed() + closing()) : fastest(b);
+}
+
+/// How fast any two bodies that are near move against each other as wholes. [m/s]
+double Collisions::closing() const noexcept {
+  double most = 0;
+  for (const Link& link : near_.links())
+    if (link.near)
+      most = std::max(most, (bodies_[link.a].common_velocity() - bodies_[link.b].common_velocity()).norm());
+  return most;
 }
 
 bool Collisions::are_near(std::uint32_t a, std::uint32_t b, double frame_seconds) noexcept {
@@ -102,7 +115,7 @@ bool Collisions::begin_frame(double frame_seconds) noexcept {
       fastest_ = std::max({fastest_, fastest_apart(a), fastest_apart(b)});
     }
   if (!any_near)
-    go_with(Vec3::Zero());
+    go_with_common(std::numeric_limits<double>::infinity());
   else if (fastest_ * frame_seconds > quarter * smallest_L_)
     read_all(0, frame_seconds);
   plan_for(fastest_);
@@ -116,21 +129,26 @@ void Collisions::plan_for(double speed) noexcept {
       swept_ && speed > 0 ? quarter * smallest_L_ / speed : std::numeric_limits<double>::infinity();
 }
 
-void Collisions::go_with(const Vec3& velocity) noexcept {
-  if (velocity.isZero(0) && !go_together()) return;
-  common_ = velocity;
-  fastest_ = 0;
+/// @param least  what is slower does not count as a motion of the whole [m/s]
+void Collisions::go_with_common(double least) noexcept {
+  bool any = false;
   for (auto& body : bodies_) {
-    body.go_with(common_);
-    fastest_ = std::max(fastest_, speed_margin * body.speed());
+    const Vec3 velocity = std::isinf(least) ? Vec3::Zero() : common_velocity(body, least);
+    any = any || !velocity.isZero(0);
+    if (velocity != body.common_velocity()) body.go_with(velocity);
   }
+  if (!any && !go_together()) return;
+  go_together_ = any;
+  fastest_ = 0;
+  for (const auto& body : bodies_) fastest_ = std::max(fastest_, speed_margin * body.speed());
+  fastest_ += speed_margin * closing();
 }
 
-/// And finds what they have in common, if that is worth it in a time. @return false: some number is not finite
+/// And finds what each body does as a whole, if that is worth it in a time. @return false: some number is not finite
 bool Collisions::read_all(double dt, double seconds) noexcept {
   bool finite = true;
   for (auto& body : bodies_) finite = body.refresh(dt) && finite;
-  if (finite) go_with(common_velocity(bodies_, hardly * smallest_L_ / seconds));
+  if (finite) go_with_common(hardly * smallest_L_ / seconds);
   return finite;
 }
 
@@ -144,7 +162,7 @@ bool Collisions::read_where_they_are(double dt) noexcept {
   for (std::uint32_t b = 0; b < bodies_.size(); ++b)
     fastest_ = std::max(fastest_, speed_margin * bodies_[b].speed());
   for (const Link& link : near_.links()) {
-    const double speed = std::max(bodies_[link.a].speed(), bodies_[link.b].speed());
+    const double speed = std::max(bodies_[link.a].speed(), bodies_[link.b].speed()) + link.closing;
     if (link.near && speed > planned_for_) plan_for(speed_margin * speed);
   }
   // Why all where they go together: what stops for something outside leaves the others at once.
@@ -171,7 +189,7 @@ CollisionWork Collisions::step(double dt) noexcept {
   if (near_.size() == 0) return work;
   impulses_.begin_step();
   if (swept_) {
-    const SweptReport report = swept_contact_->step(bodies_, near_.links(), spec_.restitution, dt, impulses_);
+    const SweptReport report = swept_contact_->step(bodies_, near_, spec_.restitution, dt, impulses_);
     tally_.collisions += report.collisions;
     tally_.stopped += report.stopped;
     active_overflows_ += report.overflows;
@@ -228,7 +246,7 @@ void Collisions::give_impulses(double dt) noexcept {
 void Collisions::restart() noexcept {
   for (auto& body : bodies_) body.restart();
   near_.restart();
-  go_with(Vec3::Zero());
+  go_with_common(std::numeric_limits<double>::infinity());
   if (joint_contact_) joint_contact_->restart();
   if (swept_contact_) swept_contact_->restart();
   std::fill(apart_.begin(), apart_.end(), 0.0);

@@ -78,8 +78,9 @@ class Collisions {
   double fastest_apart(std::uint32_t b) const noexcept;
   void plan_for(double speed) noexcept;
   bool read_all(double dt, double seconds) noexcept;
-  bool go_together() const noexcept { return !common_.isZero(0); }
-  void go_with(const Vec3& velocity) noexcept;
+  bool go_together() const noexcept { return go_together_; }
+  void go_with_common(double least) noexcept;
+  double closing() const noexcept;
   void end_step(double dt) noexcept;
   bool read_where_they_are(double dt) noexcept;
   void give_impulses(double dt) noexcept;
@@ -102,8 +103,9 @@ class Collisions {
   double wanted_step_ = 0;
   double planned_for_ = 0;  // this speed [m/s]
   bool bodies_near_ = false;
-  double fastest_ = 0;  // no mass of what is near moves faster in this frame, against what is common [m/s]
-  Vec3 common_ = Vec3::Zero();  // velocity (common_motion.h) [m/s]
+  double fastest_ =
+      0;  // no mass of what is near moves faster in this frame, against what its body does as a whole [m/s]
+  bool go_together_ = false;  // some body moves as a whole (common_motion.h)
 };
 
 }  // namespace palpate::physics

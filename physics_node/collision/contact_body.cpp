@@ -11,6 +11,7 @@ ContactBody::ContactBody(const BodyModel& moving, bool with_facets, bool with_fr
   if (with_facets) facets_ = std::make_unique<Facets>(candidates_);
   listed_.reserve(candidates_.most());
   is_listed_.assign(candidates_.most(), 0);
+  speeds_.assign(candidates_.most(), 0.0);
   find_main_piece();
 }
 
@@ -32,6 +33,7 @@ void ContactBody::restart() noexcept {
   changed_ = true;
   moved_ = speed_ = 0;
   shift_.setZero();
+  shifted_.setZero();
 }
 
 void ContactBody::find_main_piece() noexcept {
@@ -48,6 +50,7 @@ bool ContactBody::may_meet_itself(std::size_t candidate) const noexcept {
 
 bool ContactBody::read(double dt, std::span<const std::uint32_t> which) noexcept {
   const bool finite = candidates_.refresh(dt, which, shift_);
+  shifted_ += shift_;
   shift_.setZero();
   measure_speed(which);
   moved_ += candidates_.moved();
@@ -55,10 +58,11 @@ bool ContactBody::read(double dt, std::span<const std::uint32_t> which) noexcept
 }
 
 void ContactBody::measure_speed(std::span<const std::uint32_t> which) noexcept {
-  double most = 0;
-  for (const std::uint32_t n : which)
-    most = std::max(most, (candidates_.v_move()[n] - common_).squaredNorm());
-  speed_ = std::sqrt(most);
+  speed_ = 0;
+  for (const std::uint32_t n : which) {
+    speeds_[n] = (candidates_.v_move()[n] - common_).norm();
+    speed_ = std::max(speed_, speeds_[n]);
+  }
 }
 
 void ContactBody::go_with(const Vec3& velocity) noexcept {

@@ -27,19 +27,23 @@ class ContactBody {
   bool refresh_listed(double dt) noexcept { return read(dt, listed_); }
   void clear_listed() noexcept;
   void list(std::uint32_t candidate) noexcept;
-  /// Of the fastest candidate when last refreshed, against the common velocity [m/s].
+  std::span<const std::uint32_t> listed() const { return listed_; }
+  /// Of a candidate when last refreshed, against the common velocity [m/s].
+  double speed_of(std::size_t candidate) const { return speeds_[candidate]; }
+  /// Of the fastest of those that were.
   double speed() const { return speed_; }
-  /// All were read, and this is what all bodies have in common (common_motion.h): speed() is against it, as it is now and from now on.
+  /// All were read, and this is what the body does as a whole (common_motion.h): speeds are against it, as it is now and from now on.
   void go_with(const Vec3& velocity) noexcept;
   const Vec3& common_velocity() const { return common_; }
   /// A step of dt ends: moved() leaves out what is common in it.
   void end_step(double dt) noexcept { shift_ = dt * common_; }
 
   /// Since forget_changes(): are candidates or facets not what they were, and how far did a candidate move at most, apart from what all
-  /// did together [m]?
+  /// did together [m], and that [m]?
   bool has_changed() const { return changed_; }
   double moved() const { return moved_; }
-  void forget_changes() noexcept { changed_ = false, moved_ = 0; }
+  const Vec3& shifted() const { return shifted_; }
+  void forget_changes() noexcept { changed_ = false, moved_ = 0, shifted_.setZero(); }
 
   /// Round all candidates, where they were when last refreshed.
   Eigen::AlignedBox3d box() const noexcept;
@@ -68,8 +72,10 @@ class ContactBody {
   std::unique_ptr<Facets> facets_;
   std::vector<std::uint32_t> listed_;
   std::vector<std::uint8_t> is_listed_;  // of each candidate
+  std::vector<double> speeds_;           // of each candidate [m/s]
   Vec3 common_ = Vec3::Zero();           // velocity [m/s]
   Vec3 shift_ = Vec3::Zero();            // by it since the last reading [m]
+  Vec3 shifted_ = Vec3::Zero();
   double speed_ = 0;
   double moved_ = 0;
   bool changed_ = true;

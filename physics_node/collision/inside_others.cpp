@@ -73,14 +73,14 @@ void InsideOthers::take_points(const Other& of, const Eigen::AlignedBox3d& box,
   point_.clear(), piece_.clear();
   near_.setEmpty();
   if (box.isEmpty()) return;
-  grid_.clear(cell_);
+  grid_.clear(cell_, cell_);
   const auto masses = of.moving->body().nodes();
   for (std::size_t n = 0; n < masses.size() && point_.size() < room_; ++n) {
     const Vec3 p = of.rest[n] + of.moving->displacement(masses[n]);
     if (of.moving->body().is_beyond(masses[n])) continue;
     if (!box.contains(p)) continue;  // nor does it where it is not finite
     const Vec3 looked_for = p + cell_ * (inwards * (of.box.center() - p).stableNormalized() + off_planes);
-    grid_.insert(static_cast<std::uint32_t>(point_.size()), looked_for);
+    grid_.insert(static_cast<std::uint32_t>(point_.size()), 0, looked_for);
     point_.push_back(looked_for);
     piece_.push_back(apart != nullptr ? apart->label(masses[n]) : 0);
     near_.extend(looked_for);
@@ -107,7 +107,7 @@ void InsideOthers::mark_in_tetrahedron(const std::array<Vec3, 4>& x, Index piece
   const double volume = a.dot(b.cross(c));
   if (volume == 0) return;
   const Vec3 u = b.cross(c) / volume, v = c.cross(a) / volume, w = a.cross(b) / volume;
-  grid_.visit_box(box.min(), box.max(), [&](std::uint32_t n, const Vec3&) {
+  grid_.visit_box(0, box.min(), box.max(), [&](std::uint32_t n, const Vec3&) {
     if (piece_[n] == piece) return;
     const Vec3 p = point_[n] - x[0];
     const double i = u.dot(p), j = v.dot(p), k = w.dot(p);

@@ -52,7 +52,7 @@ void JointContact::add(Row row, double distance, double h, double reach) noexcep
 }
 
 void JointContact::find(const std::vector<ContactBody>& bodies, const Link& link, double dt) noexcept {
-  const double speed = bodies[link.a].speed() + bodies[link.b].speed();
+  const double speed = bodies[link.a].speed() + bodies[link.b].speed() + link.closing;
   const double L = std::max(bodies[link.a].candidates().length(), bodies[link.b].candidates().length());
   const double reach = 2 * dt * speed + farther * L;
   for (const NearPair& pair : link.facets.pairs()) {

@@ -5,27 +5,31 @@
 namespace palpate::physics {
 namespace {
 
-constexpr double skin_over_L = 0.4;  // at least; more where one step moves masses by as much
+constexpr double skin_over_L = 0.4;
 // Room for pairs, touched only where there are any. Tissue beaten into a heap lists some hundreds for each candidate.
 constexpr std::size_t pairs_per_candidate = 96, pairs_per_candidate_of_few = 768,
                       few_pairs = std::size_t{1} << 22;
-// A mass and a facet move towards each other, and the distance at which they touch grows with the edges: by 2 / (2 sqrt(3))
-// of what the corners move.
-constexpr double travel_per_motion = 1.6;
+// For how many steps more than one a fast mass is given its way. Of steps that are solved, in which all are as fast as the fastest, for
+// less: there are few, and their lists are long.
+constexpr double steps_ahead = 4, solved_steps_ahead = 0.5;
+
+/// By which a mass may have come nearer to a facet since changes were forgotten [m]
+double travelled(const std::vector<ContactBody>& bodies, const Link& link) noexcept {
+  const ContactBody &a = bodies[link.a], &b = bodies[link.b];
+  return travel_per_motion * (a.moved() + b.moved()) + (a.shifted() - b.shifted()).norm();
+}
 
 }  // namespace
 
-double most_motion(double dt, double speed) noexcept { return 5 * dt * speed; }
-
-NearPairs::NearPairs(const std::vector<ContactBody>& bodies, PairKind kind)
-    : n_bodies_(bodies.size()), kind_(kind), search_(bodies) {
+NearPairs::NearPairs(const std::vector<ContactBody>& bodies, PairKind kind, bool solved)
+    : n_bodies_(bodies.size()), kind_(kind), solved_(solved), search_(bodies) {
   for (std::uint32_t a = 0; a < n_bodies_; ++a)
     for (std::uint32_t b = a; b < n_bodies_; ++b) {
       const std::size_t of_a = bodies[a].candidates().most(), of_b = bodies[b].candidates().most();
       const std::size_t n = a == b ? of_a : of_a + of_b;
       const std::size_t room =
           std::max(pairs_per_candidate * n, std::min(few_pairs, pairs_per_candidate_of_few * n));
-      Link link{a, b, false, false, MotionMark(of_a), MotionMark(a == b ? 0 : of_b), 0, 0, 0, 0, {}, {}};
+      Link link{a, b, false, false, MotionMark(of_a), MotionMark(a == b ? 0 : of_b), 0, 0, 0, 0, 0, {}, {}};
       if (kind != PairKind::facets) link.masses.make_room(room);
       if (kind != PairKind::masses) link.facets.make_room(room, n), most_facets_ += room;
       links_.push_back(std::move(link));
@@ -42,60 +46,74 @@ void NearPairs::allow(std::uint32_t a, std::uint32_t b, bool near) noexcept {
 }
 
 double NearPairs::skin(const std::vector<ContactBody>& bodies, const Link& link) const noexcept {
-  return std::max(
-      0.5 * skin_over_L * (bodies[link.a].candidates().length() + bodies[link.b].candidates().length()),
-      link.least_skin);
+  return 0.5 * skin_over_L * (bodies[link.a].candidates().length() + bodies[link.b].candidates().length());
 }
 
 void NearPairs::restart() noexcept {
   for (Link& link : links_) {
     link.near = link.fresh = false;
-    link.least_skin = link.slack = link.unseen = link.travel = 0;
+    link.closing = link.between = link.slack = link.unseen = link.travel = 0;
     link.masses.clear(), link.facets.clear();
   }
 }
 
 /// Masses that touch do so where the step begins; with facets what they do to each other within it counts, too.
-double NearPairs::needed_skin(double fastest, double dt) const noexcept {
-  return kind_ == PairKind::masses ? 0 : most_motion(dt, fastest);
-}
-
 bool NearPairs::needs_all(const std::vector<ContactBody>& bodies, double fastest, double dt) noexcept {
   bool any = false;
+  // Any two may have moved as the fastest, and one that it hits may leave at twice its speed.
+  const double may_need = 2 * speed_gain * needed() * fastest * dt;
   for (Link& link : links_) {
     if (!link.near) continue;
-    link.unseen += 2 * fastest * dt;
-    any = any || !link.fresh || link.unseen >= link.slack || bodies[link.a].has_changed() ||
-          bodies[link.b].has_changed() || needed_skin(fastest, dt) > skin(bodies, link);
+    link.unseen += 2 * travel_per_motion * fastest * dt;
+    any = any || !link.fresh || link.unseen + may_need >= link.slack || bodies[link.a].has_changed() ||
+          bodies[link.b].has_changed();
   }
   return any;
 }
 
 /// Two bodies may drift together as they like: what counts is how they move against each other.
-double NearPairs::measure_slack(const std::vector<ContactBody>& bodies, Link& link) const noexcept {
-  link.of_a.measure(bodies[link.a].candidates());
-  if (link.a == link.b) return skin(bodies, link) - 2 * link.of_a.stray();
-  link.of_b.measure(bodies[link.b].candidates());
-  return skin(bodies, link) - (link.of_a.drift() - link.of_b.drift()).norm() - link.of_a.stray() -
-         link.of_b.stray();
+double NearPairs::measure_slack(const std::vector<ContactBody>& bodies, Link& link,
+                                double dt) const noexcept {
+  link.of_a.measure(bodies[link.a], needed(), dt, solved_);
+  if (link.a == link.b) return skin(bodies, link) - 2 * link.of_a.excess();
+  link.of_b.measure(bodies[link.b], needed(), dt, solved_);
+  const double apart =
+      (link.of_a.drift() - link.of_b.drift()).norm() + closing_gain() * dt * link.closing - link.between;
+  return skin(bodies, link) - std::max(0.0, apart) - link.of_a.excess() - link.of_b.excess();
+}
+
+bool NearPairs::hold(const std::vector<ContactBody>& bodies, PairEnd at, double speed,
+                     double dt) const noexcept {
+  return std::ranges::all_of(links_, [&](const Link& link) {
+    if (!link.near || (link.a != at.body && link.b != at.body)) return true;
+    // The other one of a pair may need as much.
+    const MotionMark& of = link.a == at.body ? link.of_a : link.of_b;
+    return of.excess_of(bodies[at.body], at.n, dt * speed) <= of.excess() + 0.5 * link.slack;
+  });
+}
+
+bool NearPairs::widen(std::vector<ContactBody>& bodies, std::span<const std::span<const double>> speeds,
+                      double dt) noexcept {
+  if (!all_read_) return false;
+  for (Link& link : links_)
+    if (link.near) rebuild(bodies, link, dt, speeds);
+  list_all_ends(bodies);
+  return true;
 }
 
 void NearPairs::update(std::vector<ContactBody>& bodies, double dt) noexcept {
-  double speed = 0;
-  for (const auto& body : bodies) speed = std::max(speed, body.speed());
-  const double needed = needed_skin(speed, dt);
+  all_read_ = true;
   bool any = false;
   for (Link& link : links_) {
     if (!link.near) continue;
-    link.travel += travel_per_motion * (bodies[link.a].moved() + bodies[link.b].moved());
+    link.travel += travelled(bodies, link);
+    link.closing = (bodies[link.a].common_velocity() - bodies[link.b].common_velocity()).norm();
     link.unseen = 0;
-    if (link.fresh && !bodies[link.a].has_changed() && !bodies[link.b].has_changed() &&
-        needed <= skin(bodies, link)) {
-      link.slack = measure_slack(bodies, link);
+    if (link.fresh && !bodies[link.a].has_changed() && !bodies[link.b].has_changed()) {
+      link.slack = measure_slack(bodies, link, dt);
       if (link.slack > 0) continue;
     }
-    link.least_skin = needed;
-    rebuild(bodies, link);
+    rebuild(bodies, link, dt, {});
     any = true;
   }
   for (auto& body : bodies) body.forget_changes();
@@ -103,8 +121,9 @@ void NearPairs::update(std::vector<ContactBody>& bodies, double dt) noexcept {
 }
 
 void NearPairs::follow(std::vector<ContactBody>& bodies) noexcept {
+  all_read_ = false;
   for (Link& link : links_)
-    if (link.near) link.travel += travel_per_motion * (bodies[link.a].moved() + bodies[link.b].moved());
+    if (link.near) link.travel += travelled(bodies, link);
   for (auto& body : bodies) body.forget_changes();
 }
 
@@ -123,12 +142,21 @@ void NearPairs::list_all_ends(std::vector<ContactBody>& bodies) const noexcept {
   }
 }
 
-void NearPairs::rebuild(const std::vector<ContactBody>& bodies, Link& link) noexcept {
+void NearPairs::rebuild(const std::vector<ContactBody>& bodies, Link& link, double dt,
+                        std::span<const std::span<const double>> expected) noexcept {
+  const double ahead = solved_ ? solved_steps_ahead : steps_ahead;
+  const double given = kind_ == PairKind::masses ? 0 : needed() + travel_per_motion * ahead;
+  const auto mark = [&](MotionMark& of, std::uint32_t b) {
+    of.mark(bodies[b], given, dt, solved_, expected.empty() ? std::span<const double>() : expected[b]);
+  };
+  mark(link.of_a, link.a);
+  if (link.a != link.b) mark(link.of_b, link.b);
+  link.between = kind_ == PairKind::masses ? 0 : (closing_gain() + ahead) * dt * link.closing;
   link.slack = skin(bodies, link);
-  if (kind_ != PairKind::facets) search_.find_masses(bodies, link.a, link.b, link.slack, link.masses);
-  if (kind_ != PairKind::masses) search_.find_facets(bodies, link.a, link.b, link.slack, link.facets);
-  link.of_a.mark(bodies[link.a].candidates());
-  if (link.a != link.b) link.of_b.mark(bodies[link.b].candidates());
+  const ListReach reach{link.slack, link.between, link.of_a.extra(),
+                        link.a == link.b ? link.of_a.extra() : link.of_b.extra()};
+  if (kind_ != PairKind::facets) search_.find_masses(bodies, link.a, link.b, reach, link.masses);
+  if (kind_ != PairKind::masses) search_.find_facets(bodies, link.a, link.b, reach, link.facets);
   link.travel = 0;
   link.fresh = true;
   ++rebuilds_;

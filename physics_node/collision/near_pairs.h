@@ -1,7 +1,8 @@
 #pragma once
 // What could touch soon: for each two bodies that are near, and for each body with its own fragments, a list of pairs within
-// reach plus a skin, made anew only when something there moved by half the skin or broke. Until then a step looks at these
-// pairs and at nothing else, and at each of them only when enough has been travelled for it to touch.
+// reach plus a skin, made anew only when something there has used up its skin or broke. Until then a step looks at these
+// pairs and at nothing else, and at each of them only when enough has been travelled for it to touch. A mass that is fast
+// against the others of its body is given a wider skin, and it alone.
 // Source: Verlet 1967 (neighbour lists with a skin).
 
 #include "physics_node/collision/motion_mark.h"
@@ -17,7 +18,8 @@ struct Link {
   bool near = false;           // they may touch in this frame
   bool fresh = false;          // the lists are what they should be
   MotionMark of_a, of_b;       // since the lists were made
-  double least_skin = 0;       // for what one step moves masses by [m]
+  double closing = 0;          // speed of the two bodies as wholes against each other [m/s]
+  double between = 0;          // given to the two as wholes [m]
   double slack = 0;   // when all were read last, how far they could still move until the list is too old [m]
   double unseen = 0;  // what they may have moved since [m]
   double travel = 0;  // by which a mass may have come nearer to a facet since the lists were made [m]
@@ -26,7 +28,8 @@ struct Link {
 
 class NearPairs {
  public:
-  NearPairs(const std::vector<ContactBody>& bodies, PairKind kind);
+  /// @param solved  steps are solved: any mass may take the speed of the fastest of its body
+  NearPairs(const std::vector<ContactBody>& bodies, PairKind kind, bool solved = false);
 
   /// Which bodies may touch which, this frame; a body beside itself: its fragments.
   void allow(std::uint32_t a, std::uint32_t b, bool near) noexcept;
@@ -42,6 +45,12 @@ class NearPairs {
   /// After those in the lists were read: takes note of how far they moved.
   void follow(std::vector<ContactBody>& bodies) noexcept;
 
+  /// Do the lists hold whatever a candidate could touch in this step, if it has this speed?
+  bool hold(const std::vector<ContactBody>& bodies, PairEnd at, double speed, double dt) const noexcept;
+  /// Makes them anew for candidates with these speeds, by body; only where all were read in this step, else false and nothing.
+  bool widen(std::vector<ContactBody>& bodies, std::span<const std::span<const double>> speeds,
+             double dt) noexcept;
+
   std::vector<Link>& links() { return links_; }
   const std::vector<Link>& links() const { return links_; }
   std::size_t size() const noexcept;  // of all lists
@@ -52,21 +61,24 @@ class NearPairs {
 
  private:
   double skin(const std::vector<ContactBody>& bodies, const Link& link) const noexcept;  // [m]
-  double needed_skin(double fastest, double dt) const noexcept;                          // for a step [m]
-  double measure_slack(const std::vector<ContactBody>& bodies, Link& link) const noexcept;
+  double needed() const noexcept { return kind_ == PairKind::masses ? 0 : speed_gain; }
+  double measure_slack(const std::vector<ContactBody>& bodies, Link& link, double dt) const noexcept;
   void list_all_ends(std::vector<ContactBody>& bodies) const noexcept;
-  void rebuild(const std::vector<ContactBody>& bodies, Link& link) noexcept;
+  double closing_gain() const noexcept { return solved_ ? speed_gain : 1; }
+  void rebuild(const std::vector<ContactBody>& bodies, Link& link, double dt,
+               std::span<const std::span<const double>> expected) noexcept;
+
+  // Why: a light mass that a heavy one hits goes on at twice its speed.
+  static constexpr double speed_gain = 2;
 
   std::size_t n_bodies_;
   PairKind kind_;
+  bool solved_;
+  bool all_read_ = false;  // in this step
   PairSearch search_;
   std::vector<Link> links_;  // (0, 0), (0, 1) ... (1, 1) ...
   std::size_t most_facets_ = 0;
   std::int64_t rebuilds_ = 0;
 };
-
-/// What two masses may move towards each other in a step at most, where the fastest has this speed: a light one that a heavy
-/// one hits goes on at twice its speed, and a little more is allowed for [m].
-double most_motion(double dt, double speed) noexcept;
 
 }  // namespace palpate::physics

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "physics_node/collision/facet_now.h"
+#include "physics_node/collision/usual_motion.h"
 
 namespace palpate::physics {
 namespace {
@@ -53,22 +54,20 @@ void PairList::sort_by_mass(std::uint32_t a, std::size_t n_a, std::size_t n) noe
 PairSearch::PairSearch(const std::vector<ContactBody>& bodies) {
   for (const auto& body : bodies) {
     const std::size_t most = body.candidates().most();
-    sides_.push_back({std::vector<std::uint8_t>(most, 0), {}, PointGrid(most)});
+    sides_.push_back({std::vector<std::uint8_t>(most, 0), {}, PointGrid(most), {}, 0, {}});
   }
 }
 
 void PairSearch::choose_movers(const ContactBody& body, std::uint32_t b) noexcept {
   const Candidates& c = body.candidates();
   Side& side = sides_[b];
-  Vec3 drift = Vec3::Zero();
-  for (std::size_t n = 0; n < c.size(); ++n) drift += c.x()[n] - c.rest()[n];
-  drift /= static_cast<double>(c.size());
+  const Vec3 drift = usual_motion(c.size(), [&](std::size_t n) { return Vec3(c.x()[n] - c.rest()[n]); });
   const double still = still_over_L * c.length();
   for (std::size_t n = 0; n < c.size(); ++n) {
     const bool moved = (c.x()[n] - c.rest()[n] - drift).squaredNorm() > still * still;
     side.seeks[n] = moved && body.may_meet_itself(n) ? 1 : 0;
     if (side.seeks[n] != 0) side.box.extend(c.x()[n]);
-    side.grid.insert(static_cast<std::uint32_t>(n), c.x()[n]);  // what rests can be met
+    side.grid.insert(static_cast<std::uint32_t>(n), side.level_of(n), c.x()[n]);  // what rests can be met
   }
   side.grid.arrange();
 }
@@ -81,21 +80,34 @@ void PairSearch::choose_inside(const ContactBody& body, std::uint32_t b,
     side.seeks[n] = box.contains(c.x()[n]) ? 1 : 0;
     if (side.seeks[n] == 0) continue;
     side.box.extend(c.x()[n]);
-    side.grid.insert(static_cast<std::uint32_t>(n), c.x()[n]);
+    side.grid.insert(static_cast<std::uint32_t>(n), side.level_of(n), c.x()[n]);
   }
   side.grid.arrange();
 }
 
+/// @param touch  farthest at which any two of them touch [m]
 void PairSearch::choose(const std::vector<ContactBody>& bodies, std::uint32_t a, std::uint32_t b,
-                        double reach) noexcept {
+                        double touch, const ListReach& reach) noexcept {
+  const double all = touch + reach.skin + reach.between;
+  double farthest = all;
   for (const std::uint32_t n : {a, b}) {
-    sides_[n].box.setEmpty();
-    sides_[n].grid.clear(std::max(least_cell_over_L * bodies[n].candidates().length(), reach));
+    Side& side = sides_[n];
+    side.given = n == a ? reach.of_a : reach.of_b;
+    side.much = reach.skin;
+    side.most = {0, 0};
+    for (std::size_t c = 0; c < side.given.size(); ++c) {
+      double& most = side.most[side.level_of(c)];
+      most = std::max(most, side.given[c]);
+    }
+    farthest += std::max(side.most[0], side.most[1]);
+    side.box.setEmpty();
+    const double least = least_cell_over_L * bodies[n].candidates().length();
+    side.grid.clear(std::max(least, all + side.most[0]), std::max(least, all + side.most[1]));
   }
   if (a == b) return choose_movers(bodies[a], a);
   const auto widened = [&](const ContactBody& body) {
     Eigen::AlignedBox3d box = body.box();
-    box.min().array() -= reach, box.max().array() += reach;
+    box.min().array() -= farthest, box.max().array() += farthest;
     return box;
   };
   choose_inside(bodies[a], a, widened(bodies[b]));
@@ -103,34 +115,40 @@ void PairSearch::choose(const std::vector<ContactBody>& bodies, std::uint32_t a,
 }
 
 void PairSearch::find_masses(const std::vector<ContactBody>& bodies, std::uint32_t a, std::uint32_t b,
-                             double skin, PairList& list) noexcept {
+                             const ListReach& reach, PairList& list) noexcept {
   const Candidates& c = bodies[a].candidates();
   const Candidates& d = bodies[b].candidates();
-  const double within = paper_distance(c, d) + skin;
-  choose(bodies, a, b, within);
-  const Vec3 reach = Vec3::Constant(within);
+  const double touch = paper_distance(c, d);
+  choose(bodies, a, b, touch, reach);
+  const Side& other = sides_[b];
   const auto& seeks = sides_[a].seeks;
   list.clear();
   for (std::uint32_t n = 0; n < c.size(); ++n) {
     if (seeks[n] == 0) continue;
     const Vec3& p = c.x()[n];
-    sides_[b].grid.visit_box(p - reach, p + reach, [&](std::uint32_t m, const Vec3& at) {
-      // Of two that seek each other the first finds the second.
-      if (a == b && (m == n || (m < n && seeks[m] != 0))) return;
-      if ((at - p).squaredNorm() > within * within) return;
-      if (a == b && c.are_joined(n, m)) return;
-      list.add({a, a == b ? std::min(n, m) : n}, {b, a == b ? std::max(n, m) : m});
-    });
+    const double own = touch + reach.skin + reach.between + sides_[a].given_to(n);
+    for (const std::uint32_t level : {0U, 1U}) {
+      const Vec3 around = Vec3::Constant(own + other.most[level]);
+      other.grid.visit_box(level, p - around, p + around, [&](std::uint32_t m, const Vec3& at) {
+        // Of two that seek each other the first finds the second.
+        if (a == b && (m == n || (m < n && seeks[m] != 0))) return;
+        const double within = own + other.given_to(m);
+        if ((at - p).squaredNorm() > within * within) return;
+        if (a == b && c.are_joined(n, m)) return;
+        list.add({a, a == b ? std::min(n, m) : n}, {b, a == b ? std::max(n, m) : m});
+      });
+    }
   }
   list.sort();
 }
 
 void PairSearch::find_facets(const std::vector<ContactBody>& bodies, std::uint32_t a, std::uint32_t b,
-                             double skin, PairList& list) noexcept {
-  // As far as any pair is listed at: the facets that are stretched most feel farthest.
+                             const ListReach& reach, PairList& list) noexcept {
+  // As far as any pair touches at: the facets that are stretched most feel farthest.
   const double L = std::max(bodies[a].candidates().length(), bodies[b].candidates().length());
-  choose(bodies, a, b, (most_felt_stretch + 1) * L * (0.5 / std::numbers::sqrt3) + skin);
+  choose(bodies, a, b, (most_felt_stretch + 1) * L * (0.5 / std::numbers::sqrt3), reach);
   list.clear();
+  const double skin = reach.skin + reach.between;
   const auto seek = [&](std::uint32_t of, std::uint32_t other) {
     const auto n = static_cast<std::uint32_t>(bodies[of].facets()->all().size());
     for (std::uint32_t f = 0; f < n; ++f) seek_masses_near(bodies, {of, f}, other, skin, list);
@@ -150,28 +168,35 @@ void PairSearch::seek_masses_near(const std::vector<ContactBody>& bodies, PairEn
   const Candidates& d = bodies[other].candidates();
   const Facets::Corners& k = bodies[b].facets()->all()[facet.n];
   const FacetNow now = facet_now(c, k);
-  const double within = swept_distance(now.edge, d) + skin;
-  const Vec3 reach = Vec3::Constant(within);
-  const Eigen::AlignedBox3d box(now.corner[0].cwiseMin(now.corner[1]).cwiseMin(now.corner[2]) - reach,
-                                now.corner[0].cwiseMax(now.corner[1]).cwiseMax(now.corner[2]) + reach);
+  const Side& mine = sides_[b];
+  const double own = swept_distance(now.edge, d) + skin +
+                     std::max({mine.given_to(k[0]), mine.given_to(k[1]), mine.given_to(k[2])});
+  const Vec3 lo = now.corner[0].cwiseMin(now.corner[1]).cwiseMin(now.corner[2]);
+  const Vec3 hi = now.corner[0].cwiseMax(now.corner[1]).cwiseMax(now.corner[2]);
   // A facet whose corners are all far away may still reach over what is near: stretched tissue round a small tool.
   const bool seeks = same && (side.seeks[k[0]] | side.seeks[k[1]] | side.seeks[k[2]]) != 0;
-  if (!seeks && !side.box.intersects(box)) return;
+  const Vec3 farthest = Vec3::Constant(own + std::max(side.most[0], side.most[1]));
+  if (!seeks && !side.box.intersects(Eigen::AlignedBox3d(lo - farthest, hi + farthest))) return;
   const bool loose = k[0] == k[1];
   const Vec3 middle = (now.corner[0] + now.corner[1] + now.corner[2]) / 3;
   double out = 0;  // of the corners from there
   for (const Vec3& corner : now.corner) out = std::max(out, (corner - middle).squaredNorm());
-  const double around = (std::sqrt(out) + within) * (1 + 1e-12);
-  side.grid.visit_box(box.min(), box.max(), [&](std::uint32_t m, const Vec3& p) {
-    if ((p - middle).squaredNorm() > around * around) return;  // most of a box, and quickly told
-    if (!seeks && side.seeks[m] == 0) return;
-    if (same && (m == k[0] || m == k[1] || m == k[2])) return;
-    // A loose mass that meets a facet is found by that facet; two loose ones find each other once.
-    if (loose && (!bodies[other].facets()->is_loose(m) || other > b || (same && m > k[0]))) return;
-    if (closest_point(p, now.corner).distance > within) return;
-    if (same && (c.are_joined(m, k[0]) || c.are_joined(m, k[1]) || c.are_joined(m, k[2]))) return;
-    list.add({other, m}, facet);
-  });
+  out = std::sqrt(out);
+  for (const std::uint32_t level : {0U, 1U}) {
+    const Vec3 reach = Vec3::Constant(own + side.most[level]);
+    side.grid.visit_box(level, lo - reach, hi + reach, [&](std::uint32_t m, const Vec3& p) {
+      const double within = own + side.given_to(m);
+      const double around = (out + within) * (1 + 1e-12);
+      if ((p - middle).squaredNorm() > around * around) return;  // most of a box, and quickly told
+      if (!seeks && side.seeks[m] == 0) return;
+      if (same && (m == k[0] || m == k[1] || m == k[2])) return;
+      // A loose mass that meets a facet is found by that facet; two loose ones find each other once.
+      if (loose && (!bodies[other].facets()->is_loose(m) || other > b || (same && m > k[0]))) return;
+      if (closest_point(p, now.corner).distance > within) return;
+      if (same && (c.are_joined(m, k[0]) || c.are_joined(m, k[1]) || c.are_joined(m, k[2]))) return;
+      list.add({other, m}, facet);
+    });
+  }
 }
 
 }  // namespace palpate::physics

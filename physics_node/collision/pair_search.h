@@ -2,7 +2,9 @@
 // Finds the masses and facets of two bodies, or of one, that are within reach of each other. Skips what lies outside the
 // box of the other body; of a body with itself, what has not moved from its place and what is neither torn nor come off.
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "physics_node/collision/contact_body.h"
@@ -17,6 +19,13 @@ struct PairEnd {
 struct NearPair {
   PairEnd mass, other;  // other: a mass or a facet
   double look_at = 0;   // when so much has been travelled that they could touch [m]
+};
+
+/// How much farther apart than where they touch pairs are listed: skin + between + what the mass and the other have been given; of a
+/// facet, its corner that has most [m].
+struct ListReach {
+  double skin = 0, between = 0;
+  std::span<const double> of_a, of_b;  // by candidate of the two bodies; empty: nothing
 };
 
 /// With room made once; what finds none is counted.
@@ -50,16 +59,15 @@ class PairSearch {
 
   /// Lists (mass, mass) pairs, each once, sorted. Joined masses are no pair.
   /// @param a, b  a <= b; a == b: a body with itself
-  /// @param skin  how much farther than where they touch [m]
-  void find_masses(const std::vector<ContactBody>& bodies, std::uint32_t a, std::uint32_t b, double skin,
-                   PairList& list) noexcept;
+  void find_masses(const std::vector<ContactBody>& bodies, std::uint32_t a, std::uint32_t b,
+                   const ListReach& reach, PairList& list) noexcept;
   /// Lists (mass, facet) pairs either way, each once, sorted. A mass is no pair with a facet that it is joined to.
-  void find_facets(const std::vector<ContactBody>& bodies, std::uint32_t a, std::uint32_t b, double skin,
-                   PairList& list) noexcept;
+  void find_facets(const std::vector<ContactBody>& bodies, std::uint32_t a, std::uint32_t b,
+                   const ListReach& reach, PairList& list) noexcept;
 
  private:
-  void choose(const std::vector<ContactBody>& bodies, std::uint32_t a, std::uint32_t b,
-              double reach) noexcept;
+  void choose(const std::vector<ContactBody>& bodies, std::uint32_t a, std::uint32_t b, double touch,
+              const ListReach& reach) noexcept;
   void choose_movers(const ContactBody& body, std::uint32_t b) noexcept;
   void choose_inside(const ContactBody& body, std::uint32_t b, const Eigen::AlignedBox3d& box) noexcept;
   void seek_masses_near(const std::vector<ContactBody>& bodies, PairEnd facet, std::uint32_t other,
@@ -69,7 +77,13 @@ class PairSearch {
   struct Side {
     std::vector<std::uint8_t> seeks;  // of each candidate: may it meet the other?
     Eigen::AlignedBox3d box;          // round those that do
-    PointGrid grid;                   // of those that may be met
+    PointGrid grid;                   // of those that may be met; level 1: those that were given much
+    std::span<const double> given;    // to each [m]
+    double much = 0;                  // more than this [m]
+    std::array<double, 2> most{};     // given to any on a level [m]
+
+    double given_to(std::size_t n) const noexcept { return n < given.size() ? given[n] : 0; }
+    std::uint32_t level_of(std::size_t n) const noexcept { return given_to(n) > much ? 1 : 0; }
   };
   std::vector<Side> sides_;
 };

@@ -15,14 +15,16 @@ std::uint32_t buckets_for(std::size_t points) {
 PointGrid::PointGrid(std::size_t most)
     : inserted_(most), arranged_(most), first_(buckets_for(most) + std::size_t{1}, 0) {}
 
-void PointGrid::clear(double size) noexcept {
+void PointGrid::clear(double near, double far) noexcept {
   n_ = 0;
-  inverse_size_ = 1 / size;
+  of_level_ = {0, 0};
+  inverse_size_ = {1 / near, 1 / far};
 }
 
-void PointGrid::insert(std::uint32_t id, const Eigen::Vector3d& p) noexcept {
+void PointGrid::insert(std::uint32_t id, std::uint32_t level, const Eigen::Vector3d& p) noexcept {
   if (n_ == inserted_.size()) return;
-  inserted_[n_++] = {p, cell_of(p), id};
+  ++of_level_[level];
+  inserted_[n_++] = {p, cell_of(level, p), id & 0x7fffffffU, level & 1U};
 }
 
 void PointGrid::arrange() noexcept {
@@ -30,11 +32,12 @@ void PointGrid::arrange() noexcept {
   const std::uint32_t buckets = buckets_for(n_);
   last_bucket_ = buckets - 1;
   std::fill_n(first_.begin(), buckets + std::size_t{1}, 0U);
-  for (std::size_t n = 0; n < n_; ++n) ++first_[bucket_of(inserted_[n].cell)];
+  for (std::size_t n = 0; n < n_; ++n) ++first_[bucket_of(inserted_[n].level, inserted_[n].cell)];
   std::uint32_t sum = 0;
   for (std::size_t b = 0; b <= buckets; ++b) first_[b] = sum += b < buckets ? first_[b] : 0;
   // From the last to the first, so that first_ ends at the beginning of each bucket.
-  for (std::size_t n = n_; n-- > 0;) arranged_[--first_[bucket_of(inserted_[n].cell)]] = inserted_[n];
+  for (std::size_t n = n_; n-- > 0;)
+    arranged_[--first_[bucket_of(inserted_[n].level, inserted_[n].cell)]] = inserted_[n];
 }
 
 }  // namespace palpate::physics

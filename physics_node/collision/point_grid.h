@@ -1,7 +1,9 @@
 #pragma once
-// Points hashed by the cell of space that they are in, to find those near a place.
+// Points hashed by the cell of space that they are in, to find those near a place. On two levels, each with cells of its own
+// size: many that are looked for nearby, and a few that are looked for far around.
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -12,29 +14,34 @@ class PointGrid {
   /// @param most  points that will ever be in it; memory is taken here and never again
   explicit PointGrid(std::size_t most);
 
-  /// Forgets all points. @param size  of a cell [m]
-  void clear(double size) noexcept;
-  void insert(std::uint32_t id, const Eigen::Vector3d& p) noexcept;
+  /// Forgets all points. @param near, far  sizes of cells of level 0 and 1 [m]
+  void clear(double near, double far) noexcept;
+  /// @param id  less than 2^31; @param level  0 or 1
+  void insert(std::uint32_t id, std::uint32_t level, const Eigen::Vector3d& p) noexcept;
   /// Puts what was inserted in order, points of a cell beside each other; before anything is visited.
   void arrange() noexcept;
 
-  /// Calls visit(id, p) for every point in the box [lo, hi], in a fixed order.
+  /// Calls visit(id, p) for every point of a level in the box [lo, hi], in a fixed order.
   template <class Visit>
-  void visit_box(const Eigen::Vector3d& lo, const Eigen::Vector3d& hi, const Visit& visit) const {
-    const Eigen::Vector3i a = cell_of(lo), b = cell_of(hi);
+  void visit_box(std::uint32_t level, const Eigen::Vector3d& lo, const Eigen::Vector3d& hi,
+                 const Visit& visit) const {
+    if (of_level_[level] == 0) return;
+    const Eigen::Vector3i a = cell_of(level, lo), b = cell_of(level, hi);
     if ((b - a + Eigen::Vector3i::Ones()).cast<double>().prod() > static_cast<double>(n_)) {
       for (std::size_t n = 0; n < n_; ++n)
-        if (is_between(arranged_[n].p, lo, hi)) visit(arranged_[n].id, arranged_[n].p);
+        if (arranged_[n].level == level && is_between(arranged_[n].p, lo, hi))
+          visit(arranged_[n].id, arranged_[n].p);
       return;
     }
     for (int z = a.z(); z <= b.z(); ++z)
       for (int y = a.y(); y <= b.y(); ++y)
         for (int x = a.x(); x <= b.x(); ++x) {
-          const std::uint32_t bucket = bucket_of({x, y, z});
+          const std::uint32_t bucket = bucket_of(level, {x, y, z});
           for (std::uint32_t n = first_[bucket]; n < first_[bucket + 1]; ++n) {
             const Entry& e = arranged_[n];
             // A bucket may hold points of other cells, which are visited from there.
-            if (is_between(e.p, lo, hi) && e.cell == Eigen::Vector3i(x, y, z)) visit(e.id, e.p);
+            if (is_between(e.p, lo, hi) && e.level == level && e.cell == Eigen::Vector3i(x, y, z))
+              visit(e.id, e.p);
           }
         }
   }
@@ -43,23 +50,25 @@ class PointGrid {
   struct Entry {
     Eigen::Vector3d p;
     Eigen::Vector3i cell;
-    std::uint32_t id;
+    std::uint32_t id : 31;
+    std::uint32_t level : 1;
   };
   static bool is_between(const Eigen::Vector3d& p, const Eigen::Vector3d& lo, const Eigen::Vector3d& hi) {
     return p.x() >= lo.x() && p.x() <= hi.x() && p.y() >= lo.y() && p.y() <= hi.y() && p.z() >= lo.z() &&
            p.z() <= hi.z();
   }
-  Eigen::Vector3i cell_of(const Eigen::Vector3d& p) const {
-    return (p * inverse_size_).array().floor().max(-1e9).min(1e9).cast<int>();
+  Eigen::Vector3i cell_of(std::uint32_t level, const Eigen::Vector3d& p) const {
+    return (p * inverse_size_[level]).array().floor().max(-1e9).min(1e9).cast<int>();
   }
-  std::uint32_t bucket_of(const Eigen::Vector3i& c) const {
-    const auto mix = static_cast<std::uint32_t>(c.x()) * 73856093U ^
+  std::uint32_t bucket_of(std::uint32_t level, const Eigen::Vector3i& c) const {
+    const auto mix = level * 2654435769U ^ static_cast<std::uint32_t>(c.x()) * 73856093U ^
                      static_cast<std::uint32_t>(c.y()) * 19349663U ^
                      static_cast<std::uint32_t>(c.z()) * 83492791U;
     return mix & last_bucket_;
   }
 
-  double inverse_size_ = 1;
+  std::array<double, 2> inverse_size_{1, 1};
+  std::array<std::size_t, 2> of_level_{0, 0};  // points
   std::uint32_t last_bucket_ = 0;
   std::size_t n_ = 0;
   std::vector<Entry> inserted_, arranged_;  // (n_)

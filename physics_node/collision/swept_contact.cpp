@@ -30,8 +30,10 @@ double least_distance(double distance, double h) {
 }  // namespace
 
 SweptContact::SweptContact(const std::vector<ContactBody>& bodies, std::size_t most_pairs)
-    : first_(first_candidates(bodies)), speed_(bodies.size(), 0.0) {
+    : first_(first_candidates(bodies)), speed_(first_.back(), 0.0) {
   const std::uint32_t n = first_.back();
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    speeds_.emplace_back(speed_.data() + first_[b], first_[b + 1] - first_[b]);
   parent_.resize(n);
   for (std::uint32_t i = 0; i < n; ++i) parent_[i] = i;
   in_zone_.assign(n, 0);
@@ -43,30 +45,75 @@ SweptContact::SweptContact(const std::vector<ContactBody>& bodies, std::size_t m
 void SweptContact::find_active(const std::vector<ContactBody>& bodies, std::span<Link> links,
                                double dt) noexcept {
   active_.clear();
-  for (Link& link : links) {
-    const double reach = dt * (speed_[link.a] + speed_[link.b]);
-    for (NearPair& pair : link.facets.pairs())
-      if (pair.look_at <= link.travel + reach) look_at(bodies, pair, link.travel, reach);
-  }
+  for (Link& link : links)
+    for (NearPair& pair : link.facets.pairs()) look_at(bodies, pair, link.travel, link.closing, dt);
 }
 
-/// Has an impulse made a mass faster than the pairs were looked for with?
-bool SweptContact::outran(const std::vector<ContactBody>& bodies, const ContactImpulses& impulses) noexcept {
+/// Twice what they have: what a heavy mass hits leaves at twice its speed.
+void SweptContact::expect_speeds(const std::vector<ContactBody>& bodies) noexcept {
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    for (const std::uint32_t n : bodies[b].listed()) {
+      double& speed = speed_[first_[b] + n];
+      speed = std::max(speed, 2 * bodies[b].speed_of(n));
+    }
+}
+
+/// What a fast one may hit may leave as fast: that is looked for at once where the lists tell, else when it is hit (outran).
+/// @return any may that was not expected to
+bool SweptContact::expect_hits(const std::vector<ContactBody>& bodies, const NearPairs& near,
+                               double dt) noexcept {
   bool any = false;
-  impulses.for_each([&](PairEnd at, const Vec3&) {
-    const double speed = (impulses.v_move(bodies, at) - bodies[at.body].common_velocity()).norm();
-    if (!(speed > speed_[at.body])) return;
-    speed_[at.body] = 2 * speed;
-    any = true;
-  });
+  for (const Active& a : active_) {
+    double most = 0;
+    for (const PairEnd& at : a.end) most = std::max(most, speed_[id_of(at)]);
+    for (const PairEnd& at : a.end) {
+      double& speed = speed_[id_of(at)];
+      if (!(speed < most) || !near.hold(bodies, at, most, dt)) continue;
+      any = true;
+      speed = most;
+    }
+  }
   return any;
 }
 
+void SweptContact::forget_speeds(const std::vector<ContactBody>& bodies) noexcept {
+  if (widened_) std::fill(speed_.begin(), speed_.end(), 0.0);  // some may be in no list any more
+  widened_ = false;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    for (const std::uint32_t n : bodies[b].listed()) speed_[first_[b] + n] = 0;
+}
+
+/// Has an impulse made a mass faster than the pairs were looked for with? Then the pairs are there that it may meet.
+bool SweptContact::outran(std::vector<ContactBody>& bodies, NearPairs& near, const ContactImpulses& impulses,
+                          double dt) noexcept {
+  bool any = false, listed = true;
+  impulses.for_each([&](PairEnd at, const Vec3&) {
+    const double speed = (impulses.v_move(bodies, at) - bodies[at.body].common_velocity()).norm();
+    double& expected = speed_[id_of(at)];
+    if (!(speed > expected)) return;
+    expected = 2 * speed;
+    any = true;
+    listed = listed && near.hold(bodies, at, expected, dt);
+  });
+  if (listed) return any;
+  widened_ = true;
+  if (!near.widen(bodies, speeds_, dt)) ++overflows_;
+  expect_speeds(bodies);  // of those that are new in the lists
+  return true;
+}
+
+double SweptContact::expected_of(PairEnd mass, PairEnd facet, const Facets::Corners& k) const noexcept {
+  const std::uint32_t first = first_[facet.body];
+  return speed_[id_of(mass)] + std::max({speed_[first + k[0]], speed_[first + k[1]], speed_[first + k[2]]});
+}
+
 void SweptContact::look_at(const std::vector<ContactBody>& bodies, NearPair& pair, double travel,
-                           double reach) noexcept {
-  const Candidates& c = bodies[pair.mass.body].candidates();
+                           double closing, double dt) noexcept {
   const ContactBody& other = bodies[pair.other.body];
   const Facets::Corners& k = other.facets()->all()[pair.other.n];
+  const double reach = dt * (closing + expected_of(pair.mass, pair.other, k));
+  if (pair.look_at > travel + reach) return;
+  const Candidates& c = bodies[pair.mass.body].candidates();
   const Candidates& d = other.candidates();
   const FacetNow facet = facet_now(d, k);
   const double h = swept_distance(facet.edge, c);
@@ -180,26 +227,27 @@ void SweptContact::move_zones_together(const std::vector<ContactBody>& bodies,
   }
 }
 
-SweptReport SweptContact::step(const std::vector<ContactBody>& bodies, std::span<Link> links, double e,
-                               double dt, ContactImpulses& impulses) noexcept {
+SweptReport SweptContact::step(std::vector<ContactBody>& bodies, NearPairs& near, double e, double dt,
+                               ContactImpulses& impulses) noexcept {
   SweptReport report;
   backwards_ = !backwards_;
   overflows_ = 0;
-  // Twice: what a heavy mass hits leaves at twice its speed.
-  for (std::size_t b = 0; b < bodies.size(); ++b) speed_[b] = 2 * bodies[b].speed();
+  expect_speeds(bodies);
   for (int search = 0;; ++search) {
-    find_active(bodies, links, dt);
+    const std::size_t before = active_.size();
+    find_active(bodies, near.links(), dt);
+    if (search == 0 && expect_hits(bodies, near, dt)) find_active(bodies, near.links(), dt);
+    if (search > 0 && active_.size() == before) break;  // nobody whom they had not met
     for (int n = 0; n < most_sweeps; ++n) {
       const std::int64_t collisions = push_apart(bodies, e, dt, impulses, report.lost);
       report.collisions += collisions;
       if (collisions == 0) break;
     }
-    if (!outran(bodies, impulses)) break;
+    if (!outran(bodies, near, impulses, dt)) break;
     if (search + 1 < most_searches) continue;
     ++overflows_;
     break;
   }
-  report.overflows = overflows_;
   const auto any_zoned = [this](const Active& a) {
     return std::ranges::any_of(a.end, [this](PairEnd at) { return in_zone_[id_of(at)] != 0; });
   };
@@ -224,8 +272,11 @@ SweptReport SweptContact::step(const std::vector<ContactBody>& bodies, std::span
     };
     const double before = kinetic() - impulses.driven_work();
     move_zones_together(bodies, impulses);
+    if (outran(bodies, near, impulses, dt)) find_active(bodies, near.links(), dt);
     report.lost += before - (kinetic() - impulses.driven_work());  // what hands gave to it, too
   }
+  report.overflows = overflows_;
+  forget_speeds(bodies);
   report.stopped = static_cast<std::int64_t>(zoned_.size());
   for (const PairEnd& at : zoned_) {
     parent_[id_of(at)] = id_of(at);

@@ -32,7 +32,8 @@ struct SweptReport {
 class SweptContact {
  public:
   explicit SweptContact(const std::vector<ContactBody>& bodies, std::size_t most_pairs);
-  SweptReport step(const std::vector<ContactBody>& bodies, std::span<Link> links, double e, double dt,
+  /// @param near  made anew where a mass becomes so fast that the lists do not tell all that it may touch
+  SweptReport step(std::vector<ContactBody>& bodies, NearPairs& near, double e, double dt,
                    ContactImpulses& impulses) noexcept;
   void restart() noexcept { backwards_ = false; }
 
@@ -48,8 +49,14 @@ class SweptContact {
     bool together = false;  // in a zone: keeps its distance from now on
   };
   void find_active(const std::vector<ContactBody>& bodies, std::span<Link> links, double dt) noexcept;
-  bool outran(const std::vector<ContactBody>& bodies, const ContactImpulses& impulses) noexcept;
-  void look_at(const std::vector<ContactBody>& bodies, NearPair& pair, double travel, double reach) noexcept;
+  void expect_speeds(const std::vector<ContactBody>& bodies) noexcept;
+  bool expect_hits(const std::vector<ContactBody>& bodies, const NearPairs& near, double dt) noexcept;
+  void forget_speeds(const std::vector<ContactBody>& bodies) noexcept;
+  bool outran(std::vector<ContactBody>& bodies, NearPairs& near, const ContactImpulses& impulses,
+              double dt) noexcept;
+  double expected_of(PairEnd mass, PairEnd facet, const Facets::Corners& k) const noexcept;
+  void look_at(const std::vector<ContactBody>& bodies, NearPair& pair, double travel, double closing,
+               double dt) noexcept;
   std::int64_t push_apart(const std::vector<ContactBody>& bodies, double e, double dt,
                           ContactImpulses& impulses, double& lost) noexcept;
   bool would_pass(const std::vector<ContactBody>& bodies, const Active& pair, double dt,
@@ -60,7 +67,11 @@ class SweptContact {
   void move_zones_together(const std::vector<ContactBody>& bodies, ContactImpulses& impulses) noexcept;
 
   std::vector<std::uint32_t> first_;
-  std::vector<double> speed_;  // by body: pairs are looked for as if no mass were faster [m/s]
+  // Of each candidate, against its body: pairs are looked for as if it were not faster; 0 of those that are in no list, and between
+  // steps [m/s]
+  std::vector<double> speed_;
+  std::vector<std::span<const double>> speeds_;  // the same by body
+  bool widened_ = false;                         // lists were made anew in this step
   std::vector<Active> active_;
   bool backwards_ = false;  // goes over the pairs in the last step
   std::int64_t overflows_ = 0;

@@ -1,5 +1,6 @@
 #include "physics_node/collision/near_pairs.h"
 #include "physics_node/collision/facet_now.h"
+#include "physics_node/collision/swept_contact.h"
 #include "physics_node/step/body_model.h"
 
 #include <gtest/gtest.h>
@@ -161,6 +162,108 @@ TEST(NearPairs, OfABodyAtRestAreNone) {
   near.allow(0, 0, true);
   near.update(bodies, 0);
   EXPECT_EQ(near.size(), 0);
+}
+
+/// Closer than this a pair may touch within a step in which each goes on at up to twice its speed.
+double may_touch_at(const ContactBody& a, std::uint32_t mass, const ContactBody& b, const Facets::Corners& k,
+                    double edge, double dt) {
+  const double corner = std::max({b.speed_of(k[0]), b.speed_of(k[1]), b.speed_of(k[2])});
+  return swept_distance(edge, a.candidates()) + 2 * dt * (a.speed_of(mass) + corner);
+}
+
+TEST(NearPairs, GiveAFastMassAWideReachAndNoOther) {
+  constexpr double dt = 1e-3;
+  Heap heap(1, 0.012);
+  const auto fly = [&](std::size_t every) {
+    for (auto& body : heap.moving) {
+      const auto& masses = body->body().lattice.masses;
+      for (std::size_t n = 0; n < masses.size(); n += every)
+        body->place(masses[n], body->displacement(masses[n]), Vec3(8, 0, 0));  // 8 mm in a step
+    }
+    for (auto& body : heap.bodies) body.refresh(0);
+    NearPairs near(heap.bodies, PairKind::facets);
+    near.allow(0, 1, true);
+    near.update(heap.bodies, dt);
+    std::set<Key> listed;
+    for (const NearPair& pair : near.links()[1].facets.pairs()) listed.insert(key(pair));
+    EXPECT_EQ(near.overflows(), 0);
+    for (std::uint32_t b = 0; b < 2; ++b) {
+      const ContactBody &other = heap.bodies[b], &body = heap.bodies[1 - b];
+      for (std::uint32_t f = 0; f < other.facets()->all().size(); ++f) {
+        const auto& k = other.facets()->all()[f];
+        if (k[0] == k[1]) continue;
+        const auto [t, edge] = facet_now(other.candidates(), k);
+        for (std::uint32_t i = 0; i < body.candidates().size(); ++i)
+          if (closest_point(body.candidates().x()[i], t).distance <
+              may_touch_at(body, i, other, k, edge, dt)) {
+            EXPECT_TRUE(listed.count({1 - b, i, b, f})) << "mass " << i << " facet " << f;
+          }
+      }
+    }
+    return listed.size();
+  };
+  const std::size_t rest = fly(1000000), few = fly(29), all = fly(1);
+  EXPECT_GT(few, rest);
+  EXPECT_LT(few, rest + (all - rest) / 3);
+}
+
+/// Three balls in a row, a large one that flies, one of a few masses, and a large one.
+struct Row {
+  std::vector<std::unique_ptr<BodyModel>> moving;
+  std::vector<ContactBody> bodies;
+
+  Row(double speed, const std::array<double, 3>& at) {
+    for (std::size_t b = 0; b < 3; ++b) {
+      moving.push_back(make_body_model(
+          test::body_of({.shape = Recipe::sphere(b == 1 ? 5 : 20), .spacing_mm = 5}), Precision::double_));
+      const Lattice& lattice = moving[b]->body().lattice;
+      Vec3 middle = Vec3::Zero();
+      for (const Index cell : lattice.masses) middle += lattice.rest_position(cell);
+      middle /= static_cast<double>(lattice.masses.size());
+      for (const Index cell : lattice.masses)
+        moving[b]->place(cell, Vec3(at[b], 0, 0) - middle, Vec3(b == 0 ? speed : 0, 0, 0));
+    }
+    bodies.reserve(3);
+    for (auto& body : moving) bodies.emplace_back(*body, true, false);
+    for (auto& body : bodies) body.refresh(0);
+  }
+};
+
+// What the first hits would be through the third by the end of the step, which no list of the beginning holds.
+TEST(NearPairs, AreMadeAnewWithinAStepForWhatIsHit) {
+  constexpr double dt = 1e-3;
+  Row row(20, {0, 0.0275, 0.0645});
+  NearPairs near(row.bodies, PairKind::facets);
+  for (std::uint32_t a = 0; a < 3; ++a)
+    for (std::uint32_t b = a + 1; b < 3; ++b) near.allow(a, b, true);
+  near.update(row.bodies, dt);
+  const auto second_with_third = [&] {
+    for (const Link& link : near.links())
+      if (link.a == 1 && link.b == 2) return link.facets.pairs().size();
+    return std::size_t{0};
+  };
+  ASSERT_EQ(second_with_third(), 0);
+  SweptContact contact(row.bodies, near.most_facets());
+  ContactImpulses impulses(row.bodies);
+  impulses.begin_step();
+  const SweptReport report = contact.step(row.bodies, near, 1, dt, impulses);
+  EXPECT_EQ(report.overflows, 0);
+  EXPECT_GT(second_with_third(), 0);
+  const Candidates& c = row.bodies[1].candidates();
+  double fastest = 0;
+  for (std::uint32_t i = 0; i < c.size(); ++i) {
+    const Vec3 by = dt * impulses.v_move(row.bodies, {1, i});
+    fastest = std::max(fastest, by.norm());
+    for (std::uint32_t f = 0; f < row.bodies[2].facets()->all().size(); ++f) {
+      const auto& k = row.bodies[2].facets()->all()[f];
+      const Triangle t = facet_now(row.bodies[2].candidates(), k).corner;
+      const Triangle dt_by{dt * impulses.v_move(row.bodies, {2, k[0]}),
+                           dt * impulses.v_move(row.bodies, {2, k[1]}),
+                           dt * impulses.v_move(row.bodies, {2, k[2]})};
+      EXPECT_FALSE(passes_through(c.x()[i], by, t, dt_by)) << "mass " << i << " facet " << f;
+    }
+  }
+  EXPECT_GT(fastest, 0.012) << "as far as the third is away";
 }
 
 }  // namespace
