@@ -132,8 +132,9 @@ void Collisions::plan_for(double speed) noexcept {
 /// @param least  what is slower does not count as a motion of the whole [m/s]
 void Collisions::go_with_common(double least) noexcept {
   bool any = false;
+  const Vec3 usual = std::isinf(least) ? Vec3::Zero() : usual_velocity(bodies_, least);
   for (auto& body : bodies_) {
-    const Vec3 velocity = std::isinf(least) ? Vec3::Zero() : common_velocity(body, least);
+    const Vec3 velocity = std::isinf(least) ? Vec3::Zero() : common_velocity(body, usual, least);
     any = any || !velocity.isZero(0);
     if (velocity != body.common_velocity()) body.go_with(velocity);
   }

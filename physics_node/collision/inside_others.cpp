@@ -73,7 +73,7 @@ void InsideOthers::take_points(const Other& of, const Eigen::AlignedBox3d& box,
   point_.clear(), piece_.clear();
   near_.setEmpty();
   if (box.isEmpty()) return;
-  grid_.clear(cell_, cell_);
+  grid_.clear({cell_, cell_, cell_, cell_});
   const auto masses = of.moving->body().nodes();
   for (std::size_t n = 0; n < masses.size() && point_.size() < room_; ++n) {
     const Vec3 p = of.rest[n] + of.moving->displacement(masses[n]);

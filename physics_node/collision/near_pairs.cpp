@@ -29,7 +29,8 @@ NearPairs::NearPairs(const std::vector<ContactBody>& bodies, PairKind kind, bool
       const std::size_t n = a == b ? of_a : of_a + of_b;
       const std::size_t room =
           std::max(pairs_per_candidate * n, std::min(few_pairs, pairs_per_candidate_of_few * n));
-      Link link{a, b, false, false, MotionMark(of_a), MotionMark(a == b ? 0 : of_b), 0, 0, 0, 0, 0, {}, {}};
+      Link link{a, b, false, false, MotionMark(of_a), MotionMark(a == b ? 0 : of_b), 0, 0, 0, 0,
+                0, 0, {},    {}};
       if (kind != PairKind::facets) link.masses.make_room(room);
       if (kind != PairKind::masses) link.facets.make_room(room, n), most_facets_ += room;
       links_.push_back(std::move(link));
@@ -109,10 +110,13 @@ void NearPairs::update(std::vector<ContactBody>& bodies, double dt) noexcept {
     link.travel += travelled(bodies, link);
     link.closing = (bodies[link.a].common_velocity() - bodies[link.b].common_velocity()).norm();
     link.unseen = 0;
-    if (link.fresh && !bodies[link.a].has_changed() && !bodies[link.b].has_changed()) {
+    const bool changed = bodies[link.a].has_changed() || bodies[link.b].has_changed();
+    if (link.fresh && !changed) {
       link.slack = measure_slack(bodies, link, dt);
       if (link.slack > 0) continue;
     }
+    // Why: what breaks in one step breaks in the next, too.
+    link.steps_ahead = changed ? 0 : solved_ ? solved_steps_ahead : steps_ahead;
     rebuild(bodies, link, dt, {});
     any = true;
   }
@@ -144,14 +148,13 @@ void NearPairs::list_all_ends(std::vector<ContactBody>& bodies) const noexcept {
 
 void NearPairs::rebuild(const std::vector<ContactBody>& bodies, Link& link, double dt,
                         std::span<const std::span<const double>> expected) noexcept {
-  const double ahead = solved_ ? solved_steps_ahead : steps_ahead;
-  const double given = kind_ == PairKind::masses ? 0 : needed() + travel_per_motion * ahead;
+  const double given = kind_ == PairKind::masses ? 0 : needed() + travel_per_motion * link.steps_ahead;
   const auto mark = [&](MotionMark& of, std::uint32_t b) {
     of.mark(bodies[b], given, dt, solved_, expected.empty() ? std::span<const double>() : expected[b]);
   };
   mark(link.of_a, link.a);
   if (link.a != link.b) mark(link.of_b, link.b);
-  link.between = kind_ == PairKind::masses ? 0 : (closing_gain() + ahead) * dt * link.closing;
+  link.between = kind_ == PairKind::masses ? 0 : (closing_gain() + link.steps_ahead) * dt * link.closing;
   link.slack = skin(bodies, link);
   const ListReach reach{link.slack, link.between, link.of_a.extra(),
                         link.a == link.b ? link.of_a.extra() : link.of_b.extra()};

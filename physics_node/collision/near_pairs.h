@@ -18,6 +18,7 @@ struct Link {
   bool near = false;           // they may touch in this frame
   bool fresh = false;          // the lists are what they should be
   MotionMark of_a, of_b;       // since the lists were made
+  double steps_ahead = 0;      // for which the lists give fast masses their way, besides one
   double closing = 0;          // speed of the two bodies as wholes against each other [m/s]
   double between = 0;          // given to the two as wholes [m]
   double slack = 0;   // when all were read last, how far they could still move until the list is too old [m]

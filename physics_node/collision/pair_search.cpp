@@ -54,7 +54,7 @@ void PairList::sort_by_mass(std::uint32_t a, std::size_t n_a, std::size_t n) noe
 PairSearch::PairSearch(const std::vector<ContactBody>& bodies) {
   for (const auto& body : bodies) {
     const std::size_t most = body.candidates().most();
-    sides_.push_back({std::vector<std::uint8_t>(most, 0), {}, PointGrid(most), {}, 0, {}});
+    sides_.push_back({std::vector<std::uint8_t>(most, 0), {}, PointGrid(most), {}, 0, {}, 0});
   }
 }
 
@@ -93,16 +93,20 @@ void PairSearch::choose(const std::vector<ContactBody>& bodies, std::uint32_t a,
   for (const std::uint32_t n : {a, b}) {
     Side& side = sides_[n];
     side.given = n == a ? reach.of_a : reach.of_b;
-    side.much = reach.skin;
-    side.most = {0, 0};
+    side.little = reach.skin;
+    side.most = {};
     for (std::size_t c = 0; c < side.given.size(); ++c) {
       double& most = side.most[side.level_of(c)];
       most = std::max(most, side.given[c]);
     }
-    farthest += std::max(side.most[0], side.most[1]);
+    side.most_of_all = *std::ranges::max_element(side.most);
+    farthest += side.most_of_all;
     side.box.setEmpty();
     const double least = least_cell_over_L * bodies[n].candidates().length();
-    side.grid.clear(std::max(least, all + side.most[0]), std::max(least, all + side.most[1]));
+    std::array<double, PointGrid::levels> size{};
+    for (std::size_t level = 0; level < size.size(); ++level)
+      size[level] = std::max(least, all + side.most[level]);
+    side.grid.clear(size);
   }
   if (a == b) return choose_movers(bodies[a], a);
   const auto widened = [&](const ContactBody& body) {
@@ -127,7 +131,7 @@ void PairSearch::find_masses(const std::vector<ContactBody>& bodies, std::uint32
     if (seeks[n] == 0) continue;
     const Vec3& p = c.x()[n];
     const double own = touch + reach.skin + reach.between + sides_[a].given_to(n);
-    for (const std::uint32_t level : {0U, 1U}) {
+    for (std::uint32_t level = 0; level < PointGrid::levels; ++level) {
       const Vec3 around = Vec3::Constant(own + other.most[level]);
       other.grid.visit_box(level, p - around, p + around, [&](std::uint32_t m, const Vec3& at) {
         // Of two that seek each other the first finds the second.
@@ -175,14 +179,14 @@ void PairSearch::seek_masses_near(const std::vector<ContactBody>& bodies, PairEn
   const Vec3 hi = now.corner[0].cwiseMax(now.corner[1]).cwiseMax(now.corner[2]);
   // A facet whose corners are all far away may still reach over what is near: stretched tissue round a small tool.
   const bool seeks = same && (side.seeks[k[0]] | side.seeks[k[1]] | side.seeks[k[2]]) != 0;
-  const Vec3 farthest = Vec3::Constant(own + std::max(side.most[0], side.most[1]));
+  const Vec3 farthest = Vec3::Constant(own + side.most_of_all);
   if (!seeks && !side.box.intersects(Eigen::AlignedBox3d(lo - farthest, hi + farthest))) return;
   const bool loose = k[0] == k[1];
   const Vec3 middle = (now.corner[0] + now.corner[1] + now.corner[2]) / 3;
   double out = 0;  // of the corners from there
   for (const Vec3& corner : now.corner) out = std::max(out, (corner - middle).squaredNorm());
   out = std::sqrt(out);
-  for (const std::uint32_t level : {0U, 1U}) {
+  for (std::uint32_t level = 0; level < PointGrid::levels; ++level) {
     const Vec3 reach = Vec3::Constant(own + side.most[level]);
     side.grid.visit_box(level, lo - reach, hi + reach, [&](std::uint32_t m, const Vec3& p) {
       const double within = own + side.given_to(m);

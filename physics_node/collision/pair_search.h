@@ -77,13 +77,18 @@ class PairSearch {
   struct Side {
     std::vector<std::uint8_t> seeks;  // of each candidate: may it meet the other?
     Eigen::AlignedBox3d box;          // round those that do
-    PointGrid grid;                   // of those that may be met; level 1: those that were given much
+    PointGrid grid;                   // of those that may be met, on levels by what they were given
     std::span<const double> given;    // to each [m]
-    double much = 0;                  // more than this [m]
-    std::array<double, 2> most{};     // given to any on a level [m]
+    double little = 0;                // to those on level 0, at most; on each further one twice as much [m]
+    std::array<double, PointGrid::levels> most{};  // given to any on a level [m]
+    double most_of_all = 0;
 
     double given_to(std::size_t n) const noexcept { return n < given.size() ? given[n] : 0; }
-    std::uint32_t level_of(std::size_t n) const noexcept { return given_to(n) > much ? 1 : 0; }
+    std::uint32_t level_of(std::size_t n) const noexcept {
+      std::uint32_t level = 0;
+      for (double up_to = little; level + 1 < PointGrid::levels && given_to(n) > up_to; up_to *= 2) ++level;
+      return level;
+    }
   };
   std::vector<Side> sides_;
 };

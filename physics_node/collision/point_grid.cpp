@@ -15,16 +15,16 @@ std::uint32_t buckets_for(std::size_t points) {
 PointGrid::PointGrid(std::size_t most)
     : inserted_(most), arranged_(most), first_(buckets_for(most) + std::size_t{1}, 0) {}
 
-void PointGrid::clear(double near, double far) noexcept {
+void PointGrid::clear(const std::array<double, levels>& size) noexcept {
   n_ = 0;
-  of_level_ = {0, 0};
-  inverse_size_ = {1 / near, 1 / far};
+  of_level_ = {};
+  for (std::size_t level = 0; level < levels; ++level) inverse_size_[level] = 1 / size[level];
 }
 
 void PointGrid::insert(std::uint32_t id, std::uint32_t level, const Eigen::Vector3d& p) noexcept {
   if (n_ == inserted_.size()) return;
   ++of_level_[level];
-  inserted_[n_++] = {p, cell_of(level, p), id & 0x7fffffffU, level & 1U};
+  inserted_[n_++] = {p, cell_of(level, p), id & 0x3fffffffU, level & 3U};
 }
 
 void PointGrid::arrange() noexcept {

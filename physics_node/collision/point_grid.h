@@ -1,6 +1,7 @@
 #pragma once
-// Points hashed by the cell of space that they are in, to find those near a place. On two levels, each with cells of its own
-// size: many that are looked for nearby, and a few that are looked for far around.
+// Points hashed by the cell of space that they are in, to find those near a place. On some levels, each with cells of its own
+// size: those that are looked for nearby do not pay for the few that are looked for far around.
+// Source: Ericson, Real-Time Collision Detection, 7.2 (hierarchical grids).
 
 #include <Eigen/Core>
 #include <array>
@@ -11,12 +12,14 @@ namespace palpate::physics {
 
 class PointGrid {
  public:
+  static constexpr std::uint32_t levels = 4;
+
   /// @param most  points that will ever be in it; memory is taken here and never again
   explicit PointGrid(std::size_t most);
 
-  /// Forgets all points. @param near, far  sizes of cells of level 0 and 1 [m]
-  void clear(double near, double far) noexcept;
-  /// @param id  less than 2^31; @param level  0 or 1
+  /// Forgets all points. @param size  of cells, by level [m]
+  void clear(const std::array<double, levels>& size) noexcept;
+  /// @param id  less than 2^30; @param level  less than `levels`
   void insert(std::uint32_t id, std::uint32_t level, const Eigen::Vector3d& p) noexcept;
   /// Puts what was inserted in order, points of a cell beside each other; before anything is visited.
   void arrange() noexcept;
@@ -50,8 +53,8 @@ class PointGrid {
   struct Entry {
     Eigen::Vector3d p;
     Eigen::Vector3i cell;
-    std::uint32_t id : 31;
-    std::uint32_t level : 1;
+    std::uint32_t id : 30;
+    std::uint32_t level : 2;
   };
   static bool is_between(const Eigen::Vector3d& p, const Eigen::Vector3d& lo, const Eigen::Vector3d& hi) {
     return p.x() >= lo.x() && p.x() <= hi.x() && p.y() >= lo.y() && p.y() <= hi.y() && p.z() >= lo.z() &&
@@ -67,8 +70,8 @@ class PointGrid {
     return mix & last_bucket_;
   }
 
-  std::array<double, 2> inverse_size_{1, 1};
-  std::array<std::size_t, 2> of_level_{0, 0};  // points
+  std::array<double, levels> inverse_size_{1, 1, 1, 1};
+  std::array<std::size_t, levels> of_level_{};  // points
   std::uint32_t last_bucket_ = 0;
   std::size_t n_ = 0;
   std::vector<Entry> inserted_, arranged_;  // (n_)

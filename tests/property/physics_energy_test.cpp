@@ -69,6 +69,17 @@ TEST_P(Ledger, ClosesWithTheStep) {
   }
 }
 
+TEST(Ledger, HoldsWhereWhatNeverYieldsLiesBesideWhatDoes) {
+  for (const char* lattice : {"fcc", "voxel"}) {
+    Recipe recipe = ball({laws[6], "symplectic_euler", lattice}, 0.2, true);
+    recipe.world = "[material.other]\nmass_g = 2\nk1_N_per_m = 100";
+    World world(scene_of(recipe));
+    for (int n = 0; n < 100; ++n) world.frame({});
+    EXPECT_GT(world.ledger().plastic, 0) << lattice;
+    EXPECT_LT(world.ledger().balance_error(), 0.02) << lattice;
+  }
+}
+
 std::vector<Case> all_cases() {
   std::vector<Case> cases;
   for (const Law& law : laws)

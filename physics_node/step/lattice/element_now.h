@@ -82,6 +82,8 @@ double goes_on_by(const LatticeState<Real>& state) {
 template <class Real>
 Losses due_of_yield(const LatticeState<Real>& state, const ElementNow& now) {
   Losses due;
+  // Why: of one that never yields, beside those that do, the force there is infinite.
+  if (!(now.beyond > 0)) return due;
   due.plastic = 0.5 * (now.f_y + now.f_s) * (1 - now.k2 / now.k1) * now.beyond;
   const double before = std::max(0.0, state.dt_before * now.along(before_the_kick(state)) - now.beyond);
   due.numerical = -0.5 * (now.k1 - now.k2) * before * now.beyond;

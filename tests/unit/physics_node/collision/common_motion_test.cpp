@@ -64,9 +64,9 @@ struct Lumps {
 
 TEST(CommonMotion, IsThatOfEachBody) {
   const Lumps lumps({100, 0, 0}, {104, 0, 2});
-  EXPECT_EQ(common_velocity(lumps.bodies[0], 1), Vec3(100, 0, 0));
-  EXPECT_EQ(common_velocity(lumps.bodies[1], 1), Vec3(104, 0, 2));
-  EXPECT_EQ(common_velocity(lumps.bodies[1], 200), Vec3::Zero());
+  EXPECT_EQ(common_velocity(lumps.bodies[0], Vec3::Zero(), 1), Vec3(100, 0, 0));
+  EXPECT_EQ(common_velocity(lumps.bodies[1], Vec3::Zero(), 1), Vec3(104, 0, 2));
+  EXPECT_EQ(common_velocity(lumps.bodies[1], Vec3::Zero(), 200), Vec3::Zero());
 }
 
 TEST(CommonMotion, IsThatOfMostAndNoneOfAHalf) {
@@ -76,10 +76,26 @@ TEST(CommonMotion, IsThatOfMostAndNoneOfAHalf) {
   const auto rest_every = [&](std::size_t nth) {
     for (std::size_t n = 0; n < masses.size(); n += nth) body.place(masses[n], Vec3::Zero(), Vec3::Zero());
     lumps.bodies[0].refresh(0);
-    return common_velocity(lumps.bodies[0], 1);
+    return common_velocity(lumps.bodies[0], Vec3::Zero(), 1);
   };
   EXPECT_EQ(rest_every(7), Vec3(100, 0, 0));
   EXPECT_EQ(rest_every(2), Vec3::Zero());
+}
+
+// As fast as the bodies fly together, each goes by the same against that.
+TEST(CommonMotion, IsTheSameHoweverFastAllFly) {
+  for (const double speed : {0.0, 10.0, 1000.0}) {
+    Lumps lumps(Vec3(speed, 0, 0), Vec3(speed - 6, 0, 0));
+    BodyModel& body = *lumps.moving[1];
+    const auto& masses = body.body().lattice.masses;
+    for (std::size_t n = 0; n < masses.size(); n += 3)  // a third of the second has been stopped
+      body.place(masses[n], Vec3::Zero(), Vec3(speed, 0, 0));
+    lumps.bodies[1].refresh(0);
+    const Vec3 usual = usual_velocity(lumps.bodies, 1);
+    EXPECT_EQ(usual, Vec3(speed, 0, 0));
+    EXPECT_EQ(common_velocity(lumps.bodies[0], usual, 1), usual);
+    EXPECT_EQ(common_velocity(lumps.bodies[1], usual, 1), usual) << "too many are slower";
+  }
 }
 
 TEST(CommonMotion, IsNoMotionOfACandidate) {
