@@ -70,7 +70,8 @@ double Collisions::fastest(std::uint32_t b) const noexcept {
          std::max(bodies_[b].speed() + bodies_[b].common_velocity().norm(), moving_[b]->watch().speed);
 }
 
-/// The same against what bodies do as wholes, with what that is of two against each other, as candidates were when all were read last.
+/// The same against what bodies do as wholes, with what that is of two against each other, as candidates
+/// were when all were read last.
 double Collisions::fastest_apart(std::uint32_t b) const noexcept {
   return go_together() ? speed_margin * (bodies_[b].speed() + closing()) : fastest(b);
 }
@@ -145,7 +146,8 @@ void Collisions::go_with_common(double least) noexcept {
   fastest_ += speed_margin * closing();
 }
 
-/// And finds what each body does as a whole, if that is worth it in a time. @return false: some number is not finite
+/// And finds what each body does as a whole, if that is worth it in a time. @return false: some number is
+/// not finite
 bool Collisions::read_all(double dt, double seconds) noexcept {
   bool finite = true;
   for (auto& body : bodies_) finite = body.refresh(dt) && finite;

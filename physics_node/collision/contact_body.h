@@ -32,7 +32,8 @@ class ContactBody {
   double speed_of(std::size_t candidate) const { return speeds_[candidate]; }
   /// Of the fastest of those that were.
   double speed() const { return speed_; }
-  /// All were read, and this is what the body does as a whole (common_motion.h): speeds are against it, as it is now and from now on.
+  /// All were read, and this is what the body does as a whole (common_motion.h): speeds are against it, as
+  /// it is now and from now on.
   void go_with(const Vec3& velocity) noexcept;
   const Vec3& common_velocity() const { return common_; }
   /// A step of dt ends: moved() leaves out what is common in it.

@@ -9,8 +9,8 @@ constexpr double skin_over_L = 0.4;
 // Room for pairs, touched only where there are any. Tissue beaten into a heap lists some hundreds for each candidate.
 constexpr std::size_t pairs_per_candidate = 96, pairs_per_candidate_of_few = 768,
                       few_pairs = std::size_t{1} << 22;
-// For how many steps more than one a fast mass is given its way. Of steps that are solved, in which all are as fast as the fastest, for
-// less: there are few, and their lists are long.
+// For how many steps more than one a fast mass is given its way. Of steps that are solved, in which all are
+// as fast as the fastest, for less: there are few, and their lists are long.
 constexpr double steps_ahead = 4, solved_steps_ahead = 0.5;
 
 /// By which a mass may have come nearer to a facet since changes were forgotten [m]

@@ -1,8 +1,8 @@
 #pragma once
 // What could touch soon: for each two bodies that are near, and for each body with its own fragments, a list of pairs within
-// reach plus a skin, made anew only when something there has used up its skin or broke. Until then a step looks at these
-// pairs and at nothing else, and at each of them only when enough has been travelled for it to touch. A mass that is fast
-// against the others of its body is given a wider skin, and it alone.
+// reach plus a skin, made anew only when something there has used up its skin or broke. Until then a step
+// looks at these pairs and at nothing else, and at each of them only when enough has been travelled for it
+// to touch. A mass that is fast against the others of its body is given a wider skin, and it alone.
 // Source: Verlet 1967 (neighbour lists with a skin).
 
 #include "physics_node/collision/motion_mark.h"
@@ -48,7 +48,8 @@ class NearPairs {
 
   /// Do the lists hold whatever a candidate could touch in this step, if it has this speed?
   bool hold(const std::vector<ContactBody>& bodies, PairEnd at, double speed, double dt) const noexcept;
-  /// Makes them anew for candidates with these speeds, by body; only where all were read in this step, else false and nothing.
+  /// Makes them anew for candidates with these speeds, by body; only where all were read in this step, else
+  /// false and nothing.
   bool widen(std::vector<ContactBody>& bodies, std::span<const std::span<const double>> speeds,
              double dt) noexcept;
 

@@ -21,8 +21,8 @@ struct NearPair {
   double look_at = 0;   // when so much has been travelled that they could touch [m]
 };
 
-/// How much farther apart than where they touch pairs are listed: skin + between + what the mass and the other have been given; of a
-/// facet, its corner that has most [m].
+/// How much farther apart than where they touch pairs are listed: skin + between + what the mass and the
+/// other have been given; of a facet, its corner that has most [m].
 struct ListReach {
   double skin = 0, between = 0;
   std::span<const double> of_a, of_b;  // by candidate of the two bodies; empty: nothing

@@ -1,7 +1,7 @@
 #pragma once
-// Points hashed by the cell of space that they are in, to find those near a place. On some levels, each with cells of its own
-// size: those that are looked for nearby do not pay for the few that are looked for far around.
-// Source: Ericson, Real-Time Collision Detection, 7.2 (hierarchical grids).
+// Points hashed by the cell of space that they are in, to find those near a place. On some levels, each with
+// cells of its own size: those that are looked for nearby do not pay for the few that are looked for far
+// around. Source: Ericson, Real-Time Collision Detection, 7.2 (hierarchical grids).
 
 #include <Eigen/Core>
 #include <array>

@@ -58,7 +58,8 @@ void SweptContact::expect_speeds(const std::vector<ContactBody>& bodies) noexcep
     }
 }
 
-/// What a fast one may hit may leave as fast: that is looked for at once where the lists tell, else when it is hit (outran).
+/// What a fast one may hit may leave as fast: that is looked for at once where the lists tell, else when it
+/// is hit (outran).
 /// @return any may that was not expected to
 bool SweptContact::expect_hits(const std::vector<ContactBody>& bodies, const NearPairs& near,
                                double dt) noexcept {
@@ -83,7 +84,8 @@ void SweptContact::forget_speeds(const std::vector<ContactBody>& bodies) noexcep
     for (const std::uint32_t n : bodies[b].listed()) speed_[first_[b] + n] = 0;
 }
 
-/// Has an impulse made a mass faster than the pairs were looked for with? Then the pairs are there that it may meet.
+/// Has an impulse made a mass faster than the pairs were looked for with? Then the pairs are there that it
+/// may meet.
 bool SweptContact::outran(std::vector<ContactBody>& bodies, NearPairs& near, const ContactImpulses& impulses,
                           double dt) noexcept {
   bool any = false, listed = true;

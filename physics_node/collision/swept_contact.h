@@ -67,8 +67,8 @@ class SweptContact {
   void move_zones_together(const std::vector<ContactBody>& bodies, ContactImpulses& impulses) noexcept;
 
   std::vector<std::uint32_t> first_;
-  // Of each candidate, against its body: pairs are looked for as if it were not faster; 0 of those that are in no list, and between
-  // steps [m/s]
+  // Of each candidate, against its body: pairs are looked for as if it were not faster; 0 of those that are
+  // in no list, and between steps [m/s]
   std::vector<double> speed_;
   std::vector<std::span<const double>> speeds_;  // the same by body
   bool widened_ = false;                         // lists were made anew in this step

@@ -1,5 +1,6 @@
 #pragma once
-// The motion that most of many have: what a frame of reference takes, so that the few that move otherwise do not matter.
+// The motion that most of many have: what a frame of reference takes, so that the few that move otherwise do
+// not matter.
 
 #include <algorithm>
 #include <array>
@@ -8,8 +9,8 @@
 
 namespace palpate::physics {
 
-/// The median of at(0) ... at(n - 1), component by component, from 255 of them at most, evenly spread; of those that are finite, zero of
-/// none.
+/// The median of at(0) ... at(n - 1), component by component, from 255 of them at most, evenly spread; of
+/// those that are finite, zero of none.
 template <class At>
 Vec3 usual_motion(std::size_t n, const At& at) noexcept {
   constexpr std::size_t most = 255;

@@ -189,8 +189,8 @@ class MeshBodyModel final : public BodyModel {
   Vec3 mean_velocity(Index node, const Vec3& v_move) const noexcept {
     return v_before_.empty() ? v_move : Vec3(0.5 * (v_move + v_before_[static_cast<std::size_t>(node)]));
   }
-  /// Where no summary tells of it, it is left out: two roots and a moment for each strand and step, a twentieth of a
-  /// bag's time.
+  /// Where no summary tells of it, it is left out: two roots and a moment for each strand and step, a
+  /// twentieth of a bag's time.
   void book_push(const Vec3& impulse, Index node, double dt) noexcept {
     touched_ = true;
     if (keeps_momentum_) momentum_.push(impulse, position(node) - dt * velocity(node), dt);

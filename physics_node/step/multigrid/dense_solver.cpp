@@ -102,8 +102,8 @@ void DenseSolver::hold(const Supports& supports, std::span<const Plane> planes) 
 void DenseSolver::decompose() noexcept {
   double most = 0;
   for (std::size_t n = 0; n < n_; ++n) most = std::max(most, at(n, n) *= 1 + 1e-6);
-  // The columns of a node, which end alike; a later one takes all three at once, and is read and written a third as
-  // often.
+  // The columns of a node, which end alike; a later one takes all three at once, and is read and written a
+  // third as often.
   for (std::size_t first = 0; first < n_; first += 3) {
     const std::size_t end = end_[first + 2];
     for (std::size_t c = first; c < first + 3; ++c) {

@@ -12,8 +12,8 @@ namespace {
 
 /// M^-1/2 K M^-1/2 at rest, held nodes left out:
 ///   K = sum of k u u^T of springs  -  p_0 H  +  K_c / V_0 g g^T
-/// g = dV/dx, a third of the area vectors around each node; H = d2V/dx2: of a triangle (x_b, x_c moved by d_b, d_c)
-/// node a gets (d_b x x_c + x_b x d_c) / 6. K_c is the modulus of what the surface is filled with.
+/// g = dV/dx, a third of the area vectors around each node; H = d2V/dx2: of a triangle (x_b, x_c moved by
+/// d_b, d_c) node a gets (d_b x x_c + x_b x d_c) / 6. K_c is the modulus of what the surface is filled with.
 class ScaledSurface {
  public:
   ScaledSurface(const SpringSurface& surface, const std::vector<double>& inverse_mass, bool is_filled)

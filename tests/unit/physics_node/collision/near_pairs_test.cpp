@@ -229,7 +229,8 @@ struct Row {
   }
 };
 
-// What the first hits would be through the third by the end of the step, which no list of the beginning holds.
+// What the first hits would be through the third by the end of the step, which no list of the beginning
+// holds.
 TEST(NearPairs, AreMadeAnewWithinAStepForWhatIsHit) {
   constexpr double dt = 1e-3;
   Row row(20, {0, 0.0275, 0.0645});
