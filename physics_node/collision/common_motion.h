@@ -17,8 +17,7 @@ Vec3 usual_velocity(const std::vector<ContactBody>& bodies, double least) noexce
 /// @param against  usual_velocity(): all is told against this, so that it does not matter how fast all fly
 ///   together
 /// @return `against` where it is not faster than `least` against that, and where not three of four are four
-///   times as slow against it as
-///   the fastest is against that
+///   times as slow against it as the fastest is against that
 Vec3 common_velocity(const ContactBody& body, const Vec3& against, double least) noexcept;
 
 }  // namespace palpate::physics
