@@ -162,6 +162,7 @@ int run_headless(const NodeOptions& options, const Scene& scene) {
     // 3. say how it goes
     fare.tell(wire, phase_of(picture.model()), schedule.skipped(), false);
   }
+  wire.take_into(picture.model());  // physics, which is told to end first, may have said its last meanwhile
   frames.settle();
   fare.note_losses(frames);
   fare.tell(wire, NodePhase::stopping, schedule.skipped(), true);

@@ -99,7 +99,7 @@ class Rerun {
   void leave(double wall_s) {
     recorder_->finish(*world_);
     nlohmann::json summary = physics::physics_summary(*world_, recorder_.get(), wall_s);
-    if (eye_) summary["render"] = eye_->summary(wall_s);
+    if (eye_) summary["render"] = eye_->summary(*world_, wall_s);
     const fs::path out = options_.out;
     write_json((out / "summary.json").string(), summary);
     fs::remove(out / "parts");  // the nodes' folder, empty here

@@ -28,7 +28,8 @@ void VirtualEye::draw(physics::World& world, std::int64_t now_ns) {
   if (folder_) folder_->keep(picture_.image());
 }
 
-nlohmann::json VirtualEye::summary(double wall_s) {
+nlohmann::json VirtualEye::summary(physics::World& world, double wall_s) {
+  messages_.write(world, static_cast<std::int64_t>(1e9 * world.t()), picture_);
   nlohmann::json summary = {{"frames", drawn_},
                             {"fps", wall_s > 0 ? drawn_ / wall_s : 0.0},
                             {"facets_visible", picture_.facets_visible()},

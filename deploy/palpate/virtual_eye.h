@@ -26,8 +26,8 @@ class VirtualEye final : public Onlooker {
   /// Draws when a picture is due.
   void frame(physics::World& world, std::int64_t now_ns) override;
 
-  /// The part `render` of summary.json.
-  nlohmann::json summary(double wall_s);
+  /// The part `render` of summary.json. Facets are those of the end, which may be later than the last picture.
+  nlohmann::json summary(physics::World& world, double wall_s);
 
  private:
   void draw(physics::World& world, std::int64_t now_ns);

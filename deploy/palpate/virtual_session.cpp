@@ -119,7 +119,7 @@ nlohmann::json VirtualSession::finish() {
                                                  {"text", haptic::text_of(cause)}});
   }
   add_warnings(summary, hand);
-  if (eye_) summary["render"] = eye_->summary(wall_s_);
+  if (eye_) summary["render"] = eye_->summary(world_, wall_s_);
   add_warnings(summary, hand_warnings(summary, Faults::named));
   count_warnings(summary);
   return summary;

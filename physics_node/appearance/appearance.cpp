@@ -146,6 +146,13 @@ void Appearance::set_inside(const std::optional<double>& from) {
   poll();
 }
 
+bool Appearance::settle(std::chrono::milliseconds at_most) {
+  const auto end = std::chrono::steady_clock::now() + at_most;
+  for (poll(); pending_.valid(); poll())
+    if (pending_.wait_until(end) != std::future_status::ready) return false;
+  return true;
+}
+
 /// Those whose surface is not that of their live elements, the threshold and the section any more; takes note of all.
 std::vector<Appearance::Job> Appearance::outdated() {
   std::vector<Job> jobs;

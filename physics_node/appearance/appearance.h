@@ -2,6 +2,7 @@
 // What physics sends to the eye: the visible surface of every body and the strands between them, then only what
 // changes in it and the blocks of vertices that moved. Free of DDS: the messages go to whoever asks.
 
+#include <chrono>
 #include <functional>
 #include <future>
 #include <memory>
@@ -52,6 +53,9 @@ class Appearance {
   /// elements goes into a new surface. Costs next to nothing where none has. Allocates: not for inside a frame.
   /// @return true if write_surfaces has something new
   bool poll();
+
+  /// Polls until surfaces are those of the state of now, or for so long. @return true: they are
+  bool settle(std::chrono::milliseconds at_most);
 
   /// What is new since the last call: of each body all chunks of its surface, or pages of what changed in it. It is sent whole the
   /// first time, and when the pages since it was last would weigh more than that. Cost: of what is written, not of what exists.

@@ -64,6 +64,13 @@ void EyeSender::post(const VertexBlock& block) {
   something_.notify_one();
 }
 
+bool EyeSender::drain(std::chrono::milliseconds at_most) {
+  std::unique_lock lock(mutex_);
+  return nothing_left_.wait_for(lock, at_most, [this] {
+    return waits_ && surfaces_due_.empty() && changes_due_.empty() && blocks_due_.empty();
+  });
+}
+
 void EyeSender::send() {
   std::unique_lock lock(mutex_);
   auto next_again = std::chrono::steady_clock::now();
@@ -75,7 +82,10 @@ void EyeSender::send() {
     } else if (!blocks_due_.empty()) {
       send_block(blocks_due_.begin()->first, lock);
     } else {
+      waits_ = true;
+      nothing_left_.notify_all();
       something_.wait_for(lock, again_period);
+      waits_ = false;
     }
     if (!repeat_ || std::chrono::steady_clock::now() < next_again) continue;
     send_again(lock);

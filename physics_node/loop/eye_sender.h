@@ -1,6 +1,7 @@
 #pragma once
 // What physics tells the eye leaves through a thread of its own: a slow or broken network never holds up a frame.
 
+#include <chrono>
 #include <condition_variable>
 #include <map>
 #include <memory>
@@ -32,6 +33,9 @@ class EyeSender {
   int watchers() noexcept { return blocks_.matched(); }
   std::uint64_t watchers_ever() noexcept { return blocks_.matched_ever(); }
 
+  /// Waits until all that was posted has been handed to DDS, or for so long. @return true: it has
+  bool drain(std::chrono::milliseconds at_most);
+
   /// Bodies of whose surface a part could not be sent, since the last call: what changed behind it is lost to its readers.
   std::set<std::uint32_t> take_incomplete();
 
@@ -56,7 +60,7 @@ class EyeSender {
   Writer<VertexBlock> blocks_;
   bool repeat_;
   std::mutex mutex_;  // of all below
-  std::condition_variable something_;
+  std::condition_variable something_, nothing_left_;
   Due<BodySurface> surfaces_due_;
   Due<SurfaceChange> changes_due_;
   Due<VertexBlock> blocks_due_;
@@ -66,7 +70,7 @@ class EyeSender {
   std::set<std::uint32_t> incomplete_;
   Key last_again_{0, 0};
   int refusals_ = 0;  // of the chunk or page that is tried now
-  bool end_ = false;
+  bool end_ = false, waits_ = false;
   std::thread thread_;
 };
 
