@@ -285,7 +285,8 @@ void World::plan_strides(int n, double dt) noexcept {
   const double stiffening = std::max(1.0, held_substeps_ / (n_substeps_ * unrounded_));
   strides_.divide(n, dt, std::ldexp(stiffening, guard_.recoveries()));
   for (const PressingTool* tool : toolbox_.pressing)
-    if (!tool->forces().empty()) strides_.act_in_every_step(tool->touched_body());
+    for (std::size_t b = 0; tool->presses() && b < bodies_.size(); ++b)
+      if (!tool->forces_on(b).empty()) strides_.act_in_every_step(b);
 }
 
 /// As many steps as the frame needs when it begins; where elements stiffen meanwhile, what is left of it is divided anew.

@@ -15,15 +15,19 @@ bool World::is_pressed() const noexcept {
 void World::gather() noexcept {
   for (auto& forces : gathered_) forces.clear();
   for (const PressingTool* tool : toolbox_.pressing)
-    if (!tool->follows_steps() && !tool->forces().empty()) {
-      auto& to = gathered_[tool->touched_body()];
-      to.insert(to.end(), tool->forces().begin(), tool->forces().end());
+    if (!tool->follows_steps() && tool->presses()) {
+      for (std::size_t b = 0; b < bodies_.size(); ++b) {
+        const auto forces = tool->forces_on(b);
+        gathered_[b].insert(gathered_[b].end(), forces.begin(), forces.end());
+      }
     }
 }
 
 /// Of the forces of a tool, with velocities now [W].
 double World::power(const PressingTool& tool) const noexcept {
-  double sum = tool.forces().empty() ? 0.0 : bodies_[tool.touched_body()]->power(tool.forces());
+  double sum = 0;
+  for (std::size_t b = 0; tool.presses() && b < bodies_.size(); ++b)
+    if (const auto forces = tool.forces_on(b); !forces.empty()) sum += bodies_[b]->power(forces);
   for (std::size_t c = 0; c < connections_.size(); ++c) sum += connections_[c]->power(tool.pushes(c));
   return sum;
 }
@@ -44,8 +48,9 @@ double World::book_tools(double dt, bool begun) noexcept {
 /// The step has solved for them: a force works along all of the way that the velocities at its end make.
 void World::book_solved(double dt) noexcept {
   for (PressingTool* tool : toolbox_.pressing)
-    if (!tool->forces().empty())
-      tool->book().tissue(dt * bodies_[tool->touched_body()]->power(tool->forces()));
+    for (std::size_t b = 0; tool->presses() && b < bodies_.size(); ++b)
+      if (const auto forces = tool->forces_on(b); !forces.empty())
+        tool->book().tissue(dt * bodies_[b]->power(forces));
 }
 
 /// Once the tool's forces have moved the masses on: the books of what is cut are of where they are.
@@ -76,7 +81,8 @@ double World::press(double dt) noexcept {
     if (!tool->follows_steps()) continue;
     const StageTimer timer(report_, Stage::contact_forces);
     sum += tool->book().tissue(0.5 * dt * tool->press(dt));
-    if (!tool->forces().empty()) bodies_[tool->touched_body()]->kick(tool->forces(), dt);
+    for (std::size_t b = 0; tool->presses() && b < bodies_.size(); ++b)
+      if (const auto forces = tool->forces_on(b); !forces.empty()) bodies_[b]->kick(forces, dt);
     for (std::size_t c = 0; c < connections_.size(); ++c) connections_[c]->kick(tool->pushes(c), dt);
     sum += cut(*tool);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "physics_node/collision/point_triangle.h"
 
@@ -40,13 +41,20 @@ ShapePose pose_along(const Vec3& tip, const Vec3& normal, const Eigen::Matrix3d&
   return pose;
 }
 
-FacePress::FacePress(const Boundary& surface, const NodeMotion& moving, const RigidShape& shape)
-    : surface_(surface),
-      moving_(moving),
+FacePress::FacePress(std::vector<PressedBody> bodies, const RigidShape& shape)
+    : bodies_(std::move(bodies)),
       shape_(shape),
       turns_(shape.kind() != RigidShape::Kind::sphere),
-      k_(stiffness_in_cells * stiffest(moving.body()) / moving.body().spacing()),
-      margin_(0.1 * std::min(moving.body().spacing(), shape.size())) {
+      begins_(bodies_.size() + 1, 0) {
+  double finest = shape.size();
+  for (const PressedBody& pressed : bodies_) {
+    const Body& body = pressed.moving->body();
+    k_.push_back(stiffness_in_cells * stiffest(body) / body.spacing());
+    finest = std::min(finest, body.spacing());
+    widest_ = std::max(widest_, body.spacing());
+  }
+  margin_ = 0.1 * finest;
+  candidates_.reserve(most_facets);
   faces_.reserve(most_facets);
   nodes_.reserve(4 * most_facets);
   vertices_.reserve(4 * most_facets);
@@ -69,7 +77,7 @@ double FacePress::reach() const noexcept {
   // Why twice the spacing: from the middle of a facet to its corners, stretched.
   const Eigen::AlignedBox3d box = shape_.bounds();
   const double size = turns_ ? box.max().cwiseMax(-box.min()).norm() : box.max().head<2>().norm();
-  return size + std::max(0.0, z_) + around() + 2 * moving_.body().spacing();
+  return size + std::max(0.0, z_) + around() + 2 * widest_;
 }
 
 /// What tissue under the tip and the tip may move by in a frame. [m]
@@ -105,21 +113,20 @@ Vec3 FacePress::at(const Face& face, const Weights& w) const noexcept {
 void FacePress::find_depth(const ShapePose& pose) noexcept {
   const auto local = [&](const Vec3& x) { return Vec3(pose.axes.transpose() * (x - pose.tip)); };
   double highest = -far;
-  for (const std::uint32_t facet : candidates_)
-    highest = std::max(highest, local(surface_.centroid(facet, moving_)).z());
-  z_ = -highest - moving_.body().spacing();
+  for (const Facet& facet : candidates_)
+    highest = std::max(highest, local(surface(facet).centroid(facet.number, moving(facet))).z());
+  z_ = -highest - widest_;
   // Why 64: from one shape's size away a sphere is reached within 1 % in some ten.
   for (int n = 0; n < 64; ++n) {
     double nearest = far;
-    for (const std::uint32_t facet : candidates_) {
-      const auto [middle, area] = surface_.centroid_and_area(facet, moving_);
+    for (const Facet& facet : candidates_) {
+      const auto [middle, area] = surface(facet).centroid_and_area(facet.number, moving(facet));
       const Vec3 p = local(middle) + z_ * Vec3::UnitZ();
       const RigidShape::Distance d = distance(p);
       if ((pose.axes.transpose() * area).dot(d.outward) >= 0 || d.outward.z() >= 0) continue;
       nearest = std::min(nearest, d.distance);
       for (std::size_t c = 0; c < 4; ++c)
-        nearest = std::min(
-            nearest, distance(local(surface_.position(facet, c, moving_)) + z_ * Vec3::UnitZ()).distance);
+        nearest = std::min(nearest, distance(local(position(facet, c)) + z_ * Vec3::UnitZ()).distance);
     }
     if (!(nearest < far)) return;
     z_ += nearest;
@@ -127,16 +134,15 @@ void FacePress::find_depth(const ShapePose& pose) noexcept {
   }
 }
 
-FacePress::WayOut FacePress::way_out(const Vec3& from,
-                                     std::span<const std::uint32_t> candidates) const noexcept {
+FacePress::WayOut FacePress::way_out(const Vec3& from) const noexcept {
   WayOut out{far};
-  for (const std::uint32_t facet : candidates) {
-    if (!surface_.exists(facet)) continue;
-    const auto [centroid, area] = surface_.centroid_and_area(facet, moving_);
+  for (const Facet& facet : candidates_) {
+    if (!surface(facet).exists(facet.number)) continue;
+    const auto [centroid, area] = surface(facet).centroid_and_area(facet.number, moving(facet));
     // Why twice the spacing: from the middle of a face to its corners, stretched.
-    if ((centroid - from).norm() > out.distance + 2 * moving_.body().spacing()) continue;
+    if ((centroid - from).norm() > out.distance + 2 * spacing(facet)) continue;
     std::array<Vec3, 4> corner;
-    for (std::size_t c = 0; c < 4; ++c) corner[c] = surface_.position(facet, c, moving_);
+    for (std::size_t c = 0; c < 4; ++c) corner[c] = position(facet, c);
     for (const Triangle& half :
          {Triangle{corner[0], corner[1], corner[2]}, Triangle{corner[0], corner[2], corner[3]}}) {
       const ClosestPoint to = closest_point(from, half);
@@ -147,65 +153,73 @@ FacePress::WayOut FacePress::way_out(const Vec3& from,
   return out;
 }
 
-void FacePress::list(const ShapePose& pose, std::span<const std::uint32_t> candidates, double way) noexcept {
+void FacePress::take_candidates(std::span<const std::vector<std::uint32_t>> facets) noexcept {
+  candidates_.clear();
+  for (std::uint32_t body = 0; body < facets.size(); ++body)
+    for (const std::uint32_t facet : facets[body])
+      if (candidates_.size() < most_facets) candidates_.push_back({body, facet});
+}
+
+void FacePress::list(const ShapePose& pose, double way) noexcept {
   way_ = way;
   attitude_ = pose.attitude;
-  candidates_ = candidates;
   faces_.clear();
   listed_.clear();
   if (!touching_) find_depth(pose);
-  for (const std::uint32_t facet : candidates) {
-    if (!surface_.exists(facet) || faces_.size() == most_facets) continue;
+  for (const Facet& facet : candidates_) {
+    const Boundary& surface = this->surface(facet);
+    if (!surface.exists(facet.number) || faces_.size() == most_facets) continue;
     Face face;
     std::array<Vec3, 4> corner;
-    for (std::size_t c = 0; c < 4; ++c) corner[c] = surface_.position(facet, c, moving_);
+    for (std::size_t c = 0; c < 4; ++c) corner[c] = position(facet, c);
     const Vec3 middle = (corner[0] + corner[1] + corner[2] + corner[3]) / 4;
     const Vec3 p = pose.axes.transpose() * (middle - pose.tip) + z_ * Vec3::UnitZ();
     const double gap = distance(p).distance;
     // Why twice the spacing: from the middle of a face to its corners, stretched.
-    if (gap > 2 * moving_.body().spacing() + around()) continue;
+    if (gap > 2 * spacing(facet) + around()) continue;
     for (const Vec3& of : corner) face.reach = std::max(face.reach, (of - middle).norm());
     if (gap > face.reach + around()) continue;
-    face.area = surface_.rest_area(facet).norm();
+    face.k = k_[facet.body];
+    face.area = surface.rest_area(facet.number).norm();
     if (!(face.area > 0)) continue;
-    face.triangle = surface_.is_triangle(facet);
+    face.triangle = surface.is_triangle(facet.number);
     face.n = static_cast<std::uint8_t>(std::clamp<long>(
         std::lround(std::sqrt(face.area) / sample_spacing(face.area)), fewest_a_side, most_a_side));
     faces_.push_back(face);
     listed_.push_back(facet);
   }
   // A skin torn to pieces may have more nodes than there is room for.
-  for (find_vertices(listed_); !find_nodes(); find_vertices(listed_)) {
+  for (find_vertices(); !find_nodes(); find_vertices()) {
     faces_.resize(faces_.size() / 2, Face{});
-    listed_.resize(faces_.size(), 0);
+    listed_.resize(faces_.size(), Facet{});
   }
 }
 
 /// Equal corners become one vertex, in the order of their numbers.
-void FacePress::find_vertices(std::span<const std::uint32_t> of_faces) noexcept {
+void FacePress::find_vertices() noexcept {
   corners_.clear();
   vertices_.clear();
   bearings_.clear();
-  for (std::uint32_t f = 0; f < of_faces.size(); ++f)
-    for (std::uint32_t c = 0; c < 4; ++c) corners_.push_back({surface_.corner(of_faces[f], c), 4 * f + c});
-  std::sort(corners_.begin(), corners_.end(), [](const Corner& a, const Corner& b) {
-    return a.corner != b.corner ? a.corner < b.corner : a.number < b.number;
-  });
+  for (std::uint32_t f = 0; f < listed_.size(); ++f)
+    for (std::uint32_t c = 0; c < 4; ++c)
+      corners_.push_back({listed_[f].body, surface(listed_[f]).corner(listed_[f].number, c), 4 * f + c});
+  std::sort(corners_.begin(), corners_.end());
   for (std::size_t n = 0; n < corners_.size();) {
-    const std::uint32_t facet = of_faces[corners_[n].number / 4];
-    const std::size_t c = corners_[n].number % 4;
-    const Bearers by = surface_.bearers(facet, c);
-    Vertex vertex{.first = static_cast<std::uint32_t>(bearings_.size()), .n = by.n};
-    vertex.offset = surface_.rest(facet, c);
+    const Corner first = corners_[n];
+    const Facet& facet = listed_[first.number / 4];
+    const std::size_t c = first.number % 4;
+    const Bearers by = surface(facet).bearers(facet.number, c);
+    Vertex vertex{.body = facet.body, .first = static_cast<std::uint32_t>(bearings_.size()), .n = by.n};
+    vertex.offset = surface(facet).rest(facet.number, c);
     // Weights of a cell hold the place itself.
-    if (by.n > 0) vertex.offset -= by.mean([this](Index node) { return moving_.body().rest_position(node); });
+    const Body& body = moving(facet).body();
+    if (by.n > 0) vertex.offset -= by.mean([&body](Index node) { return body.rest_position(node); });
     if (by.n > 1) vertex.offset.setZero();
     for (std::uint32_t b = 0; b < by.n; ++b)
       bearings_.push_back({static_cast<std::uint32_t>(by.node[b]), by.weight[b]});
     const auto number = static_cast<std::uint32_t>(vertices_.size());
     vertices_.push_back(vertex);
-    for (const std::int64_t corner = corners_[n].corner; n < corners_.size() && corners_[n].corner == corner;
-         ++n)
+    for (; n < corners_.size() && corners_[n].body == first.body && corners_[n].corner == first.corner; ++n)
       faces_[corners_[n].number / 4].vertex[corners_[n].number % 4] = number;
   }
 }
@@ -214,31 +228,35 @@ void FacePress::find_vertices(std::span<const std::uint32_t> of_faces) noexcept 
 bool FacePress::find_nodes() noexcept {
   nodes_.clear();
   order_.clear();
-  for (std::uint32_t b = 0; b < bearings_.size(); ++b)
-    order_.emplace_back(static_cast<Index>(bearings_[b].node), b);
+  for (const Vertex& vertex : vertices_)
+    for (std::uint32_t b = vertex.first; b < vertex.first + vertex.n; ++b)
+      order_.push_back({vertex.body, static_cast<Index>(bearings_[b].node), b});
   std::sort(order_.begin(), order_.end());
   for (std::size_t n = 0; n < order_.size();) {
-    const Index cell = order_[n].first;
+    const auto [body, cell, bearing] = order_[n];
     if (nodes_.size() == nodes_.capacity()) return false;
-    for (; n < order_.size() && order_[n].first == cell; ++n)
-      bearings_[order_[n].second].node = static_cast<std::uint32_t>(nodes_.size());
-    nodes_.push_back(
-        {.cell = cell, .inverse_mass = moving_.body().inverse_mass[static_cast<std::size_t>(cell)]});
+    for (; n < order_.size() && order_[n].body == body && order_[n].cell == cell; ++n)
+      bearings_[order_[n].bearing].node = static_cast<std::uint32_t>(nodes_.size());
+    const NodeMotion* moving = bodies_[body].moving;
+    nodes_.push_back({.moving = moving,
+                      .body = body,
+                      .cell = cell,
+                      .inverse_mass = moving->body().inverse_mass[static_cast<std::size_t>(cell)]});
   }
   return true;
 }
 
 void FacePress::note_motion(bool verlet) noexcept {
   for (Node& node : nodes_) {
-    node.began = moving_.position(node.cell);
+    node.began = node.moving->position(node.cell);
     if (!verlet) {
-      node.v = moving_.velocity(node.cell);
+      node.v = node.moving->velocity(node.cell);
       continue;
     }
     // With velocity_verlet what a body shows is half a step ahead.
     for (int a = 0; a < 3; ++a) {
       const NodalForce one{node.cell, Vec3::Unit(a)};
-      node.v[a] = moving_.power({&one, 1});
+      node.v[a] = node.moving->power({&one, 1});
     }
   }
 }
@@ -258,7 +276,7 @@ Vec3 FacePress::way(double dt, const Vec3& force) const noexcept {
   Vec3 sum = Vec3::Zero();
   for (std::size_t n = 0; n < forces_.size(); ++n) {
     const Node& node = nodes_[bears_[n]];
-    const Vec3 at_end = moving_.position(node.cell) + dt * dt * node.inverse_mass * forces_[n].force;
+    const Vec3 at_end = node.moving->position(node.cell) + dt * dt * node.inverse_mass * forces_[n].force;
     sum += forces_[n].force.dot(normal_) / pressed * (at_end - node.began);
   }
   return sum + dt * dt * mobility() * (force - borne_);
@@ -274,12 +292,23 @@ double FacePress::mobility() const noexcept {
   return pressed < 0 ? sum / (pressed * pressed) : 0;
 }
 
+double FacePress::pressed(std::size_t body) const noexcept {
+  double sum = 0;
+  for (const NodalForce& nodal : forces(body)) sum -= nodal.force.dot(normal_);
+  return sum;
+}
+
 void FacePress::release() noexcept {
   touching_ = false;
   z_ = 0;
+  drop_forces();
+}
+
+void FacePress::drop_forces() noexcept {
   area_ = overlap_ = across_ = 0;
   forces_.clear();
   bears_.clear();
+  std::fill(begins_.begin(), begins_.end(), 0);
 }
 
 }  // namespace palpate::physics

@@ -1,5 +1,6 @@
 #pragma once
-// A rigid shape without mass that a given force presses on the faces of a body: how deep it goes, and what each node bears.
+// A rigid shape without mass that a given force presses on the faces of bodies: how deep it goes, and what each node bears.
+// Bodies that it spans bear it together: their faces are samples of one contact.
 //
 // Every face near the shape is divided into samples of an area A_s (at rest), which move with the corners of the face by their bilinear
 // weights, and those with the nodes that carry them (bearers.h); w is the product. d_s is the signed distance of one
@@ -19,6 +20,7 @@
 // nothing is jumped. Source: sampled contact of faces as in Puso & Laursen 2004; projected Jacobi, Mandel 1984; the depth by balance: ours.
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -41,19 +43,34 @@ struct ShapePose {
 ShapePose pose_along(const Vec3& tip, const Vec3& normal) noexcept;
 ShapePose pose_along(const Vec3& tip, const Vec3& normal, const Eigen::Matrix3d& attitude) noexcept;
 
+/// One that a shape presses.
+struct PressedBody {
+  const Boundary* surface = nullptr;
+  const NodeMotion* moving = nullptr;
+};
+
 class FacePress {
  public:
   static constexpr std::size_t most_facets = 4096, most_samples = 65536;
   /// Why: three leave 1 % of what the first leaves, see docs/benchmarks.md.
   static constexpr int sweeps = 3;
 
-  /// @param surface, moving  outlive it
-  FacePress(const Boundary& surface, const NodeMotion& moving, const RigidShape& shape);
+  /// @param bodies  at least one; what they name outlives it
+  FacePress(std::vector<PressedBody> bodies, const RigidShape& shape);
+  FacePress(const Boundary& surface, const NodeMotion& moving, const RigidShape& shape)
+      : FacePress({{&surface, &moving}}, shape) {}
 
-  /// Lists the faces that the shape may meet in the coming frame. Once a frame; allocates nothing.
-  /// @param candidates  all faces near it; valid until the next call
+  /// Takes the faces near the shape in place of those of before; allocates nothing. A place in `facets` for each body.
+  /// What there is no room for is left out: first the rest of the last body.
+  void take_candidates(std::span<const std::vector<std::uint32_t>> facets) noexcept;
+  /// Lists of these what the shape may meet in the coming frame. Once a frame; allocates nothing.
   /// @param way  of the tip in the frame [m]
-  void list(const ShapePose& pose, std::span<const std::uint32_t> candidates, double way = 0) noexcept;
+  void list(const ShapePose& pose, double way = 0) noexcept;
+  /// Of one body.
+  void list(const ShapePose& pose, const std::vector<std::uint32_t>& facets) noexcept {
+    take_candidates({&facets, 1});
+    list(pose);
+  }
 
   /// The shape is pressed along -normal, without friction, in a step of dt whose elements have moved the nodes.
   /// @return false: it meets nothing, and forces() is empty
@@ -78,8 +95,13 @@ class FacePress {
   /// It is out of contact: the next one begins from outside.
   void release() noexcept;
 
-  /// On nodes; scenery bears the rest.
-  std::span<const NodalForce> forces() const noexcept { return forces_; }
+  /// On nodes of a body; scenery bears the rest.
+  std::span<const NodalForce> forces(std::size_t body = 0) const noexcept {
+    return std::span(forces_).subspan(begins_[body], begins_[body + 1] - begins_[body]);
+  }
+  std::size_t n_forces() const noexcept { return forces_.size(); }  // of all bodies
+  /// Of what presses along the pose's normal, the part that the nodes of a body bear [N].
+  double pressed(std::size_t body) const noexcept;
   double depth() const noexcept { return z_; }    // of the tip below the pose's, along -normal [m]
   double area() const noexcept { return area_; }  // of the faces, at rest, that are in contact [m^2]
   /// Where it bears: the middle of the pressure, in the world [m].
@@ -93,8 +115,8 @@ class FacePress {
         0;  // of the nearest point of these faces, of those that look at it; infinite where there is none [m]
     Vec3 direction = Vec3::Zero();  // from there, unit
   };
-  /// From faces to a point outside.
-  WayOut way_out(const Vec3& from, std::span<const std::uint32_t> candidates) const noexcept;
+  /// From the faces near it to a point outside.
+  WayOut way_out(const Vec3& from) const noexcept;
   /// How deep samples are in the shape, weighted by their pressure [m].
   double overlap() const noexcept { return overlap_; }
   /// From the pose's tip to the centroids of all faces that it may meet in a frame, as deep as it is [m].
@@ -103,7 +125,12 @@ class FacePress {
   double sample_spacing(double face_area) const noexcept;
 
  private:
+  struct Facet {
+    std::uint32_t body = 0, number = 0;
+  };
   struct Node {
+    const NodeMotion* moving = nullptr;
+    std::uint32_t body = 0;
     Index cell = -1;
     double inverse_mass = 0;
     Vec3 x = Vec3::Zero(),
@@ -118,6 +145,7 @@ class FacePress {
   };
   /// A corner of faces.
   struct Vertex {
+    std::uint32_t body = 0;
     std::uint32_t first = 0, n = 0;  // of bearings_; none: rigid scenery
     Vec3 offset = Vec3::Zero();      // from the mean of its nodes; of scenery its place, in the world [m]
     Vec3 apart = Vec3::Zero();       // the same in the frame of the pose [m]
@@ -128,6 +156,7 @@ class FacePress {
   };
   struct Face {
     std::array<std::uint32_t, 4> vertex{};
+    double k = 0;        // of an area [N/m^3]
     double area = 0;     // at rest [m^2]
     double reach = 0;    // from its middle to its corners [m]
     std::uint8_t n = 0;  // samples along a side
@@ -153,7 +182,14 @@ class FacePress {
   const Weights& weights(const Face& face, std::uint32_t at) const noexcept;
   Vec3 at(const Face& face, const Weights& w) const noexcept;
   double around() const noexcept;
-  void find_vertices(std::span<const std::uint32_t> of_faces) noexcept;
+  const Boundary& surface(const Facet& facet) const noexcept { return *bodies_[facet.body].surface; }
+  const NodeMotion& moving(const Facet& facet) const noexcept { return *bodies_[facet.body].moving; }
+  double spacing(const Facet& facet) const noexcept { return moving(facet).body().spacing(); }
+  Vec3 position(const Facet& facet, std::size_t corner) const noexcept {
+    return surface(facet).position(facet.number, corner, moving(facet));
+  }
+  void drop_forces() noexcept;
+  void find_vertices() noexcept;
   bool find_nodes() noexcept;
   void move_vertices() noexcept;
   void find_depth(const ShapePose& pose) noexcept;
@@ -175,34 +211,43 @@ class FacePress {
   Found sweep(const PressBy& by, double dt, bool first) noexcept;
   void share_out(const ShapePose& pose) noexcept;
 
-  const Boundary& surface_;
-  const NodeMotion& moving_;
+  std::vector<PressedBody> bodies_;
+  std::vector<double> k_;  // of each, of an area [N/m^3]
   RigidShape shape_;
   bool turns_;  // a shape whose attitude makes a difference
   Eigen::Matrix3d attitude_ = Eigen::Matrix3d::Identity();
-  double k_;       // of an area [N/m^3]
-  double margin_;  // by which the depth may change before samples are collected anew [m]
-  std::span<const std::uint32_t> candidates_;
+  double widest_ = 0;  // spacing of a body [m]
+  double margin_ = 0;  // by which the depth may change before samples are collected anew [m]
+  std::vector<Facet> candidates_;
   static constexpr int fewest_a_side = 2, most_a_side = 8;
   std::array<std::vector<Weights>, most_a_side + 1>
       weights_;  // of the samples of a face, by how many lie along a side
   std::vector<Face> faces_;
-  std::vector<std::uint32_t> listed_;  // the facet of each
+  std::vector<Facet> listed_;  // of each
   std::vector<Vertex> vertices_;
   std::vector<Bearing> bearings_;
   std::vector<Node> nodes_;
   struct Corner {
+    std::uint32_t body = 0;
     std::int64_t corner = 0;  // Boundary::corner()
     std::uint32_t number = 0;
+    auto operator<=>(const Corner&) const = default;
   };
-  std::vector<Corner> corners_;                         // of faces, by vertex
-  std::vector<std::pair<Index, std::uint32_t>> order_;  // of bearings, by node
+  std::vector<Corner> corners_;  // of faces, by vertex
+  struct Carrier {
+    std::uint32_t body = 0;
+    Index cell = -1;
+    std::uint32_t bearing = 0;
+    auto operator<=>(const Carrier&) const = default;
+  };
+  std::vector<Carrier> order_;  // of bearings, by node
   std::vector<Sample> samples_;
   // Of the samples: those that press or are no clearer than near_within_. No vertex has moved by more than moved_by_
   // since all were looked at, at the depth seen_z_. [m]
   std::vector<std::uint32_t> near_;
   double near_within_ = 0, seen_z_ = 0, moved_by_ = 0;
-  std::vector<NodalForce> forces_;
+  std::vector<NodalForce> forces_;                      // by body
+  std::vector<std::size_t> begins_;                     // of forces_, those of each body, and the end
   std::vector<std::uint32_t> bears_;                    // the node of each force
   Vec3 borne_ = Vec3::Zero(), normal_ = Vec3::UnitZ();  // of the last press, scenery's part included
   Vec3 centre_ = Vec3::Zero();

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "physics_node/contact/face_press.h"
 
@@ -21,7 +22,7 @@ Vec3 raised(const Vec3& x, double z) noexcept { return {x.x(), x.y(), x.z() + z}
 
 void FacePress::read_nodes(const ShapePose& pose) noexcept {
   for (Node& node : nodes_) {
-    node.moved = node.x = pose.axes.transpose() * (moving_.position(node.cell) - pose.tip);
+    node.moved = node.x = pose.axes.transpose() * (node.moving->position(node.cell) - pose.tip);
     node.f.setZero();
     node.theta = 0;
   }
@@ -64,7 +65,7 @@ void FacePress::collect() noexcept {
       if (sample.clear > 2 * margin_) continue;
       // The map of a square on a triangle, whose last corners are one.
       const double density = face.triangle ? 2 * (w[0] + w[1]) : 1;
-      sample.k = k_ * density * face.area / n;
+      sample.k = face.k * density * face.area / n;
       samples_.push_back(sample);
     }
   }
@@ -240,14 +241,16 @@ void FacePress::share_out(const ShapePose& pose) noexcept {
     borne_ += f;
     forces_.push_back({node.cell, f});
     bears_.push_back(n);
+    ++begins_[node.body + 1];
   }
+  std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
   double sum = 0;
   Vec3 centre = Vec3::Zero();
   for (const std::uint32_t s : near_) {
     const Sample& sample = samples_[s];
     if (sample.p <= 0) continue;
     centre += sample.p * sample.x;
-    area_ += sample.k / k_;
+    area_ += sample.k / faces_[sample.face].k;
     across_ += 0.5 * sample.part * sample.k * sample.c * sample.o.head<2>().squaredNorm();
     sum += sample.p;
     overlap_ += sample.p * sample.p / (sample.k * sample.c);
@@ -268,9 +271,7 @@ bool FacePress::press(const ShapePose& pose, const PressBy& by, double dt) noexc
     release();
     return false;
   }
-  forces_.clear();
-  bears_.clear();
-  area_ = overlap_ = across_ = 0;
+  drop_forces();
   attitude_ = pose.attitude;
   auto found = Found::elsewhere;
   for (int start = 0; start < most_starts && found == Found::elsewhere; ++start) {

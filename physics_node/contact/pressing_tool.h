@@ -18,9 +18,15 @@ class PressingTool : public Tool {
  public:
   /// Forces on masses of the touched body during the coming frame; none: it touches nothing, or does not press.
   virtual std::span<const NodalForce> forces() const noexcept = 0;
+  /// Of a tool that presses several bodies at once: on masses of any.
+  virtual std::span<const NodalForce> forces_on(std::size_t body) const noexcept {
+    return body == touched_body() ? forces() : std::span<const NodalForce>();
+  }
+  virtual bool presses() const noexcept { return !forces().empty(); }  // any body
   /// May forces() come in the coming frame?
   virtual bool may_press() const noexcept = 0;
-  virtual std::size_t touched_body() const noexcept = 0;  // meaningful while forces() or cuts() are not empty
+  /// Of those that it touches the one that it is at; meaningful while forces() or cuts() are not empty.
+  virtual std::size_t touched_body() const noexcept = 0;
 
   /// Are forces() found in every step anew, from where its elements have moved the masses (explicit integrators), rather than known
   /// before the frame?

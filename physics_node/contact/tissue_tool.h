@@ -6,6 +6,7 @@
 //   copy: nine modes of the body (finite elements on a lattice; else none), the compliance of all else, and the depth that both lie on
 //
 // While physics hears nothing the hand stands, and after Hands::silence the spring lets go, within 200 ms.
+// Bodies that it spans bear it together; the copy is of the one that bears most.
 // It turns as the handle does. It is led by the same spring in all directions and goes where the pressure pushes it
 // (tip_lean.h); it rubs with Coulomb's friction (tip_friction.h). A ball has its middle on the handle a radius from the tip,
 // on the side where it has come to a surface; where it slides that follows the surface.
@@ -38,9 +39,11 @@ class TissueTool final : public PressingTool {
   void find_contact(double t) noexcept override;
   void reset() noexcept override;
 
-  std::span<const NodalForce> forces() const noexcept override {
-    return bodies_.empty() ? std::span<const NodalForce>() : bodies_[touched_]->faces.forces();
+  std::span<const NodalForce> forces() const noexcept override { return forces_on(touched_); }
+  std::span<const NodalForce> forces_on(std::size_t body) const noexcept override {
+    return body < bodies_.size() ? faces_.forces(body) : std::span<const NodalForce>();
   }
+  bool presses() const noexcept override { return faces_.n_forces() > 0; }
   bool may_press() const noexcept override { return found_ && engaged_; }
   std::size_t touched_body() const noexcept override { return touched_; }
   bool follows_steps() const noexcept override { return true; }
@@ -57,8 +60,8 @@ class TissueTool final : public PressingTool {
   Vec3 tip() const noexcept override { return hand_.x; }
   Wrench wrench() const noexcept override { return {borne(), (tip() + arm_ - set_point_).cross(borne())}; }
   Wrench raw_wrench() const noexcept override { return wrench(); }
-  std::uint32_t contacts() const noexcept override { return static_cast<std::uint32_t>(forces().size()); }
-  Vec3 borne() const noexcept override { return forces().empty() ? Vec3(Vec3::Zero()) : Vec3(-on_tissue_); }
+  std::uint32_t contacts() const noexcept override { return static_cast<std::uint32_t>(faces_.n_forces()); }
+  Vec3 borne() const noexcept override { return presses() ? Vec3(-on_tissue_) : Vec3(Vec3::Zero()); }
   bool knows_tissue_work() const noexcept override { return true; }
   /// Of the hand, that borne() belongs to.
   std::uint64_t sample() const noexcept { return play_.sample(); }
@@ -69,8 +72,8 @@ class TissueTool final : public PressingTool {
   struct Touchable {
     const NodeMotion* moving;
     ToolContact contact;
-    FacePress faces;
     BodyModes modes;
+    ToolContact::Nearest nearest{};  // of the last look
   };
   /// At the end of a frame.
   struct Told {
@@ -80,9 +83,12 @@ class TissueTool final : public PressingTool {
   };
   void let_go() noexcept;
   void place(double share) noexcept;
-  void face(const Touchable& body, const Vec3& tip) noexcept;
+  void face(const Vec3& tip) noexcept;
   void roll(double slid) noexcept;
   std::optional<Vec3> look(const Vec3& tip, double t) noexcept;
+  bool looks(std::size_t body) const noexcept;
+  std::size_t bears_most() const noexcept;
+  void find_guide(const LocalPlane& plane) noexcept;
   Vec3 tip_now() const noexcept;
   /// Of the hand, since the last answer [s].
   double since_told() const noexcept {
@@ -98,7 +104,8 @@ class TissueTool final : public PressingTool {
   Integrator integrator_;
   HandPlay play_;
   std::vector<std::unique_ptr<Touchable>> bodies_;
-  std::vector<std::uint32_t> candidates_;
+  FacePress faces_;                               // of all
+  std::vector<std::vector<std::uint32_t>> near_;  // of each body, the facets near the tool
   PressBy spring_;
   bool engaged_ = false;
   double keep_ = 1;                    // of the spring, after silence
@@ -110,11 +117,9 @@ class TissueTool final : public PressingTool {
   TipFriction rubbing_;
   Vec3 arm_ = Vec3::Zero();  // from the tip to where it bears; 0 of a sphere [m]
   std::size_t touched_ = 0;
-  bool found_ = false;       // a surface, in this frame
-  bool knows_up_ = false;    // up_ is of the frame before
-  bool comes_over_ = false;  // from another body, not from outside
-  bool outside_ = false;     // it touches, or has been outside in each frame since it was
-  double left_for_ = 1;      // since it touched any [s]
+  bool found_ = false;     // a surface, in this frame
+  bool knows_up_ = false;  // up_ is of the frame before
+  bool outside_ = false;   // it touches, or has been outside in each frame since it was
   ShapePose pose_;
   Vec3 guide_ = Vec3::UnitZ();  // normal of the faces around
   double flat_ = 0;             // of these: LocalPlane
