@@ -42,10 +42,12 @@ Vec3 stretched_along(const Tensor<double>& h) {
 template <class Real>
 struct HexFailure<Real>::Cell {
   Index cell = -1;
+  Corners<One> w{};           // displacements of its corners [m]
   Tensor<double> h{};         // gradient of the displacement at its centre
   Plastic<double> plastic{};  // all zero where nothing yields
-  double energy = 0;          // as if it were whole [J]
-  double middle = 0;          // the same in the middle of the step that led here [J]
+  // By weigh():
+  double energy = 0;  // as if it were whole [J]
+  double middle = 0;  // the same in the middle of the step that led here [J]
 };
 
 template <class Real>
@@ -132,32 +134,45 @@ void HexFailure<Real>::look(const LatticeState<Real>& state, const HexActing& ac
 }
 
 template <class Real>
-typename HexFailure<Real>::Cell HexFailure<Real>::look_at(const LatticeState<Real>& state,
-                                                          Index cell) const noexcept {
+typename HexFailure<Real>::Cell HexFailure<Real>::strained(const LatticeState<Real>& state,
+                                                           Index cell) const noexcept {
   const auto corner = corners_of_cell(body_.lattice, cell);
-  Corners<One> w;
-  for (std::size_t a = 0; a < 8; ++a)
-    for (std::size_t c = 0; c < 3; ++c)
-      w[c][a] = static_cast<double>(state.u[c][static_cast<std::size_t>(corner[a])]);
-  HexForces<One> out;
-  if (body_.solid->hourglass == HourglassKind::physical)
-    hex_forces<One, StableNeoHookean, true, true>(k_, w, out);
-  else
-    hex_forces<One, StableNeoHookean, false, true>(k_, w, out);
   Cell now;
   now.cell = cell;
   now.plastic = plastic_of(state, cell);
-  if (any_cells_yield(body_)) add_plastic(k_, w, now.plastic, out);
+  for (std::size_t a = 0; a < 8; ++a)
+    for (std::size_t c = 0; c < 3; ++c)
+      now.w[c][a] = static_cast<double>(state.u[c][static_cast<std::size_t>(corner[a])]);
   for (std::size_t i = 0; i < 3; ++i) {
-    const Modes<double> mode = modes_of(w[i]);
+    const Modes<double> mode = modes_of(now.w[i]);
     now.h[i] = {mode.x * k_.per_4h[0], mode.y * k_.per_4h[1], mode.z * k_.per_4h[2]};
   }
+  return now;
+}
+
+/// What it holds: several times the cost of strained().
+template <class Real>
+void HexFailure<Real>::weigh(const LatticeState<Real>& state, Cell& now) const noexcept {
+  const auto corner = corners_of_cell(body_.lattice, now.cell);
+  HexForces<One> out;
+  if (body_.solid->hourglass == HourglassKind::physical)
+    hex_forces<One, StableNeoHookean, true, true>(k_, now.w, out);
+  else
+    hex_forces<One, StableNeoHookean, false, true>(k_, now.w, out);
+  if (any_cells_yield(body_)) add_plastic(k_, now.w, now.plastic, out);
   double power = 0;
   for (std::size_t a = 0; a < 8; ++a)
     power += Vec3(out.f[0][a], out.f[1][a], out.f[2][a]).dot(vector_of(state.v, corner[a]));
-  const auto stiffness = static_cast<double>(body_.solid->stiffness[static_cast<std::size_t>(cell)]);
+  const auto stiffness = static_cast<double>(body_.solid->stiffness[static_cast<std::size_t>(now.cell)]);
   now.energy = stiffness * out.energy;
   now.middle = stiffness * (out.energy + 0.5 * state.dt_before * power);
+}
+
+template <class Real>
+typename HexFailure<Real>::Cell HexFailure<Real>::look_at(const LatticeState<Real>& state,
+                                                          Index cell) const noexcept {
+  Cell now = strained(state, cell);
+  weigh(state, now);
   return now;
 }
 
@@ -198,6 +213,12 @@ void HexFailure<Real>::begin(LatticeState<Real>& state, Index cell, std::size_t 
   breaking_.push_back(cell);
 }
 
+/// Of one that has begun: only what is pulled opens further.
+template <class Real>
+bool HexFailure<Real>::opens(const Cell& now) const noexcept {
+  return is_pulled(now, {.stretch = 0, .tension = limit_of(now.cell).tension});
+}
+
 /// s of a cell that has begun, as it is now.
 template <class Real>
 double HexFailure<Real>::stiffness_left(const LatticeState<Real>& state, const Cell& now) const noexcept {
@@ -206,9 +227,7 @@ double HexFailure<Real>::stiffness_left(const LatticeState<Real>& state, const C
   if (!(state.failed.left[c] > 0)) return 0;
   const auto reached = static_cast<double>(state.failed.reached[c]);
   const double e = std::sqrt(now.energy / reached);
-  // Only what is pulled opens.
-  const TensionLimit<double> pulled{.stretch = 0, .tension = limit_of(now.cell).tension};
-  if (e <= 1 || !is_pulled(now, pulled)) return s;
+  if (e <= 1 || !opens(now)) return s;
   const double r = shares_.left_to(state, now.cell) / (s * reached);
   return r > e ? s * (r - e) / (e * (r - 1)) : 0.0;
 }
@@ -266,7 +285,9 @@ template <class Real>
 void HexFailure<Real>::go_on(LatticeState<Real>& state, ZeroedArray<Real>& stiffness) noexcept {
   losses_.clear();
   for (const Index cell : breaking_) {
-    const Cell now = look_at(state, cell);
+    Cell now = strained(state, cell);
+    if (state.failed.left[static_cast<std::size_t>(cell)] > 0 && !opens(now)) continue;
+    weigh(state, now);
     const double to = stiffness_left(state, now);
     if (to < 1 - static_cast<double>(state.failed.damage[static_cast<std::size_t>(cell)]))
       losses_.push_back({cell, to, now.energy, now.middle});

@@ -71,7 +71,10 @@ class HexFailure {
   void go_on(LatticeState<Real>& state, ZeroedArray<Real>& stiffness) noexcept;
   double lose(LatticeState<Real>& state, const Loss& loss, ZeroedArray<Real>& stiffness) noexcept;
   void take_away(LatticeState<Real>& state, Index cell) noexcept;
+  Cell strained(const LatticeState<Real>& state, Index cell) const noexcept;
+  void weigh(const LatticeState<Real>& state, Cell& now) const noexcept;
   Cell look_at(const LatticeState<Real>& state, Index cell) const noexcept;
+  bool opens(const Cell& now) const noexcept;
   double stiffness_left(const LatticeState<Real>& state, const Cell& now) const noexcept;
   double loss_of(const LatticeState<Real>& state, const Cell& now) const noexcept;
   TensionLimit<double> limit_of(Index cell) const noexcept;
