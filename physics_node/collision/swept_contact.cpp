@@ -180,7 +180,8 @@ bool SweptContact::would_pass(const std::vector<ContactBody>& bodies, const Acti
   const auto moves = [&](PairEnd at) { return Vec3(dt * impulses.v_move(bodies, at)); };
   const Triangle t{start(a.end[1]), start(a.end[2]), start(a.end[3])};
   const Triangle by{moves(a.end[1]), moves(a.end[2]), moves(a.end[3])};
-  return comes_nearer(start(a.end[0]), moves(a.end[0]), t, by, a.distance, least_distance(a.distance, a.h));
+  return comes_nearer(start(a.end[0]), moves(a.end[0]), t, by, a.distance * a.n,
+                      least_distance(a.distance, a.h));
 }
 
 std::uint32_t SweptContact::zone_of(std::uint32_t id) noexcept {
