@@ -6,6 +6,7 @@
 #include "physics_node/boundary/cut_lips.h"
 #include "physics_node/boundary/smooth_skin.h"
 #include "physics_node/boundary/surface.h"
+#include "physics_node/boundary/tissue_below.h"
 #include "physics_node/boundary/voxel_facets.h"
 
 namespace palpate::physics {
@@ -159,6 +160,7 @@ class Builder {
           for (const VoxelFace& face : voxel_faces)
             count_hidden(facets.on_face(cell, face, [&](const FacetCorners& corners, bool) {
               add_facet(cell, corners, coloured_by(cell, face));
+              if (covers()) skin_.push_back(facets_.size() - 1);
             }));
         }
     for (const Vec3i& cell : cut_.cells())
@@ -214,8 +216,13 @@ class Builder {
     add_facet(cell, corners, cell, true);
     surface_.hidden -= 1;  // on_face() counts it
   }
+  bool is_lip(const std::array<std::int64_t, 4>& facet) const {
+    return std::ranges::any_of(facet, [this](std::int64_t v) { return numbering_.is_at_lip(v); });
+  }
   void count_hidden(int facets) { surface_.hidden += static_cast<std::uint64_t>(facets); }
 
+  /// Is a skin drawn in the colour of what it covers?
+  bool covers() const { return numbering_.is_smooth() && !cells_.transfer.empty(); }
   /// A smooth skin cuts through cells that are partly air, and has the colour of the tissue below them.
   Vec3i coloured_by(const Vec3i& cell, const VoxelFace& face) const {
     const Vec3i below = cell - face.outward;
@@ -226,10 +233,8 @@ class Builder {
   void add_facet(const Vec3i& cell, const std::array<Vec3i, 4>& corners, const Vec3i& coloured,
                  bool is_lip = false) {
     auto& facet = facets_.emplace_back();
-    for (std::size_t c = 0; c < 4; ++c) {
-      facet[c] = numbering_.number(corners[c], cell, surface_);
-      is_lip = is_lip || numbering_.is_at_lip(facet[c]);
-    }
+    for (std::size_t c = 0; c < 4; ++c) facet[c] = numbering_.number(corners[c], cell, surface_);
+    is_lip = is_lip || this->is_lip(facet);
     const std::uint32_t rgba =
         cells_.transfer.empty() ? rgba_ : rgba_of(cells_.transfer, intensity(coloured));
     surface_.rgba.push_back(is_lip ? inside_colour(rgba) : rgba);
@@ -247,8 +252,25 @@ class Builder {
         corners[c] = static_cast<std::uint32_t>(facet[c] >= 0 ? facet[c] : n_moving - facet[c] - 1);
       if (numbering_.is_smooth()) turn_to_shorter(corners);
     }
+    colour_skin();
     surface_.hidden /= 2;  // each was met from both sides
     return std::move(surface_);
+  }
+
+  /// By what lies everywhere equally deep below it. Why: a cell is air in part by where the skin goes through
+  /// it or by it, and its colour would be drawn like the grain of wood.
+  void colour_skin() {
+    constexpr double deep = 1;  // in cells. Why: less is air in part; from more, bone shows through thin skin
+    for (const std::size_t n : skin_) {
+      if (is_lip(facets_[n])) continue;
+      std::array<Vec3, 4> at;
+      for (std::size_t c = 0; c < 4; ++c) at[c] = surface_.rest[surface_.facets[n][c]];
+      const Vec3 area = (at[2] - at[0]).cross(at[3] - at[1]);
+      if (!(area.norm() > 0)) continue;
+      const auto below =
+          intensity_below(cells_, (at[0] + at[1] + at[2] + at[3]) / 4, area.normalized(), deep, all_shown());
+      if (below) surface_.rgba[n] = rgba_of(cells_.transfer, *below);
+    }
   }
 
   /// A square that is not flat is drawn and felt as two triangles on either side of its corners 0 and 2: the nearer
@@ -269,6 +291,7 @@ class Builder {
   std::uint32_t rgba_;
   Surface surface_;
   std::vector<std::array<std::int64_t, 4>> facets_;
+  std::vector<std::size_t> skin_;  // of these, those of a smooth skin over an image
 };
 
 }  // namespace

@@ -209,6 +209,21 @@ TEST(SmoothSkin, OfBrighterTissueLiesWhereItBegins) {
   EXPECT_LT(sum / static_cast<double>(surface.rest.size()), 0.05);  // of 6 cells
 }
 
+/// Whatever part of a cell is outside: what the skin covers is equally bright everywhere.
+TEST(SmoothSkin, HasTheColourOfWhatLiesACellBelowIt) {
+  Body body = SmoothImage{}.body();
+  body.cells->transfer = grey_transfer(1000, 1500);
+  const Surface surface = surface_of(body);
+  double least = 1e9, most = 0, sum = 0;
+  for (const std::uint32_t rgba : surface.rgba) {
+    const double brightness = 1000 + 500.0 * (rgba & 0xFFU) / 255;
+    least = std::min(least, brightness), most = std::max(most, brightness), sum += brightness;
+  }
+  EXPECT_NEAR(sum / static_cast<double>(surface.rgba.size()), 1200, 20) << "2 mm below it";
+  EXPECT_GT(least, 1170);
+  EXPECT_LT(most, 1260);
+}
+
 TEST(SmoothSkin, StaysClosedWhereCellsGo) {
   Dice dice(3);
   SmoothImage image;
