@@ -119,9 +119,12 @@ void TissueTool::tell(TouchedTissue& tissue) noexcept {
   tissue.residual_across = across;
   tissue.rest = array(rest_);
   tissue.force = array(force);
-  tissue.n_modes = static_cast<std::uint32_t>(body.modes.size());
-  for (std::size_t i = 0; i < body.modes.size(); ++i)
-    tissue.modes[i] = {array(psi[i]), body.modes.omega2(i), body.modes.damping(i), q[i], now.w[i]};
+  tissue.n_modes = told_modes_;
+  for (std::size_t i = 0; i < told_modes_; ++i) {
+    tissue.modes[i] = {};  // one that nothing moves
+    if (i < body.modes.size())
+      tissue.modes[i] = {array(psi[i]), body.modes.omega2(i), body.modes.damping(i), q[i], now.w[i]};
+  }
   tissue.n_branches = 0;
 }
 

@@ -72,6 +72,7 @@ TissueTool::TissueTool(const ToolSpec& tool, std::uint32_t index, const std::vec
                   ToolContact(*body.surface, *body.moving, size, held_.turns() ? held_.half_diagonal() : 0.0),
                   BodyModes(shape, modes_of(shape), crew)}));
     near_.emplace_back().reserve(FacePress::most_facets);
+    told_modes_ = std::max(told_modes_, static_cast<std::uint32_t>(bodies_.back()->modes.size()));
   }
 }
 

@@ -125,6 +125,8 @@ class TissueTool final : public PressingTool {
   double flat_ = 0;             // of these: LocalPlane
   Vec3 up_ = Vec3::UnitZ();     // of a ball, from its tip to its middle, unit
   std::uint64_t told_at_ = 0;   // the sample of the last answer
+  /// Of every body, whether it has as many or not. Why: a hand that touches takes no other number.
+  std::uint32_t told_modes_ = 0;
   Told told_;
   Modal offsets_{};           // o
   Vec3 rest_ = Vec3::Zero();  // that was told, low-passed [m]

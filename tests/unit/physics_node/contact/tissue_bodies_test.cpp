@@ -18,15 +18,16 @@ struct Pair {
   double other_kPa = 20;  // modulus of the one at x > 0
   double other_z = 0;     // by how much its top is higher [mm]
   std::string tool = "radius_mm = 4";
+  std::string other_model = "fem";
   Scene scene() const {
     Recipe recipe = palpated_by(tool);
     recipe.body += "\nat_mm = [-24.5, 0, 0]";
     recipe.world = fmt::format(
-                       "[[body]]\nname = \"other\"\nlattice = \"voxel\"\nmodel = \"fem\"\nspacing_mm = "
+                       "[[body]]\nname = \"other\"\nlattice = \"voxel\"\nmodel = \"{}\"\nspacing_mm = "
                        "4\nshape = \"box\"\n"
                        "size_mm = [48, 48, 20]\nat_mm = [24.5, 0, {}]\nfixed = [\"-z\"]\nmaterial = \"n\"\n"
                        "[material.n]\ndensity_kg_per_m3 = 1000\nviscosity_Pa_s = 10\nmodulus_kPa = {}\n",
-                       other_z, other_kPa) +
+                       other_model, other_z, other_kPa) +
                    recipe.world;
     return scene_of(recipe);
   }
@@ -132,6 +133,28 @@ TEST(TissueBodies, BearAPlateWithItsMoment) {
       moment += (hand.world.body(body).position(f.cell) - lies).cross(f.force);
   EXPECT_GT(told.arm[0], 3e-3);
   EXPECT_NEAR((moment - vec(told.arm).cross(vec(told.force))).norm(), 0, 1e-3 * force);
+}
+
+/// A hand that touches takes no other number of modes: springs have none of their own.
+TEST(TissueBodies, AreToldWithAsManyModesWhicheverBears) {
+  Hand hand(Pair{.other_model = "springs"});
+  const auto path = [](double t) {
+    const double in = 3e-3 * std::min(1.0, t / 0.1) - 1e-3;
+    return Vec3(-10e-3 + 20e-3 * std::clamp((t - 0.15) / 0.3, 0.0, 1.0), 0.0005, slab_top - in);
+  };
+  double before = 0;
+  for (int n = 1; n <= 600; ++n) {
+    hand.lead(path, 1e-3 * n);
+    const TouchedTissue& told = hand.patch.tissues[0];
+    if (n < 100) continue;
+    ASSERT_EQ(told.n_modes, 9u) << n;
+    const double force = vec(told.force).norm();
+    EXPECT_NEAR(force, hand.world.tool(0).borne().norm(), 1e-9 + 1e-3 * force) << n;
+    EXPECT_LT(std::abs(force - before), n > 100 ? 0.03 : 1) << n;
+    before = force;
+  }
+  EXPECT_LT(hand.on(1).z(), -0.05);
+  for (const ModeOfTissue& mode : hand.patch.tissues[0].modes) EXPECT_EQ(vec(mode.psi).norm(), 0);
 }
 
 /// From one to the other and back, as often as the hand likes: no blow, and no energy out of it.
