@@ -26,7 +26,7 @@ class VirtualEye final : public Onlooker {
   /// Draws when a picture is due.
   void frame(physics::World& world, std::int64_t now_ns) override;
 
-  /// The part `render` of summary.json. Facets are those of the end, which may be later than the last picture.
+  /// The part `render` of summary.json. Facets are of the end, maybe later than the last picture.
   nlohmann::json summary(physics::World& world, double wall_s);
 
  private:

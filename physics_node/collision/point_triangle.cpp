@@ -83,8 +83,8 @@ Roots coplanar_times(const Vec3& p, const Vec3& dp, const Triangle& t, const Tri
   return roots;
 }
 
-// Why: what moves a thousand times its distance within a step takes some ten; what has been thrown off at any speed must not
-// hold up the step.
+// Why: what moves a thousand times its distance within a step takes some ten; what has been thrown off at any
+// speed must not hold up the step.
 constexpr int most_advances = 200;
 
 }  // namespace
@@ -103,7 +103,7 @@ bool comes_nearer(const Vec3& p, const Vec3& dp, const Triangle& t, const Triang
   const double near_enough = least + 0.1 * (away.norm() - least);
   double s = 0;
   for (int advances = 0; advances < most_advances; ++advances) {
-    // No point of the triangle is nearer than its corners are along n, and these come nearer at a steady pace.
+    // No point of the triangle is nearer than its corners are along n, and these close in steadily.
     double until = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec3 pace = dp - dt[i];

@@ -23,8 +23,8 @@ ClosestPoint closest_point(const Eigen::Vector3d& p, const Triangle& t) noexcept
 /// @param dp, dt  what they move by [m]
 /// @param away  at the start, from the closest point of the triangle to p, not 0 [m]
 /// @param least   below the length of that [m]
-/// Source: conservative advancement, Mirtich 1996, by the motion along the line of the closest points; additive as in Li, Kaufman, Jiang 2021,
-/// Codimensional Incremental Potential Contact, algorithm 1.
+/// Source: conservative advancement, Mirtich 1996, by the motion along the line of the closest points;
+/// additive as in Li, Kaufman, Jiang 2021, Codimensional Incremental Potential Contact, algorithm 1.
 bool comes_nearer(const Eigen::Vector3d& p, const Eigen::Vector3d& dp, const Triangle& t, const Triangle& dt,
                   const Eigen::Vector3d& away, double least) noexcept;
 

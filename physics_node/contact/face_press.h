@@ -1,6 +1,6 @@
 #pragma once
-// A rigid shape without mass that a given force presses on the faces of bodies: how deep it goes, and what each node bears.
-// Bodies that it spans bear it together: their faces are samples of one contact.
+// A rigid shape without mass that a given force presses on the faces of bodies: how deep it goes, and what
+// each node bears. Bodies that it spans bear it together: their faces are samples of one contact.
 //
 // Every face near the shape is divided into samples of an area A_s (at rest), which move with the corners of the face by their bilinear
 // weights, and those with the nodes that carry them (bearers.h); w is the product. d_s is the signed distance of one
@@ -60,8 +60,8 @@ class FacePress {
   FacePress(const Boundary& surface, const NodeMotion& moving, const RigidShape& shape)
       : FacePress({{&surface, &moving}}, shape) {}
 
-  /// Takes the faces near the shape in place of those of before; allocates nothing. A place in `facets` for each body.
-  /// What there is no room for is left out: first the rest of the last body.
+  /// Takes the faces near the shape in place of those of before; allocates nothing. A place in `facets` for
+  /// each body. What there is no room for is left out: first the rest of the last body.
   void take_candidates(std::span<const std::vector<std::uint32_t>> facets) noexcept;
   /// Lists of these what the shape may meet in the coming frame. Once a frame; allocates nothing.
   /// @param way  of the tip in the frame [m]

@@ -11,7 +11,8 @@
 namespace palpate::physics {
 namespace {
 
-// Of what holds modes where their force does not: weight, what a body lies on, other tools, a law that is curved. Why: slower than a hand palpates.
+// Of what holds modes where their force does not: weight, what a body lies on, other tools, a law that is
+// curved. Why: slower than a hand palpates.
 constexpr double offset_smoothing = 0.1;  // [s]
 constexpr double rest_smoothing = 5e-3;   // of what modes do not tell [s]
 // Of the shape's size: where a touch begins. A stick lies on more than a ball does, a flat end on all of it.
@@ -21,7 +22,8 @@ constexpr double across_to_along = 1.25;
 
 }  // namespace
 
-/// Along the normal by what the pressure does on a mode, whose forces lean with the sphere; across it by the proportions of the pressure.
+/// Along the normal by what the pressure does on a mode, whose forces lean with the sphere; across it by the
+/// proportions of the pressure.
 TissueTool::Shapes TissueTool::find_shapes(const Touchable& body) const noexcept {
   Shapes psi;
   const Vec3 n = pose_.normal();
@@ -52,8 +54,8 @@ double TissueTool::stiffness_of_patch(const Touchable& body) const noexcept {
   return half_space_stiffness(body.moving->body(), a);
 }
 
-/// What does not follow the modes is learnt along the normal, and while it goes along that rather than across: where it slides, forces change with
-/// the place.
+/// What does not follow the modes is learnt along the normal, and while it goes along that rather than
+/// across: where it slides, forces change with the place.
 void TissueTool::follow_compliance(const Touchable& body, const Shapes& psi, const Told& now) noexcept {
   const Vec3& n = pose_.normal();
   const double k = stiffness_of_patch(body);
@@ -69,8 +71,8 @@ void TissueTool::follow_compliance(const Touchable& body, const Shapes& psi, con
   }
 }
 
-/// A copy that stands must not move: told is how far modes are out from where they would rest without the tool's force, q - o with o the slow
-/// part of q - psi . F / omega^2.
+/// A copy that stands must not move: told is how far modes are out from where they would rest without the
+/// tool's force, q - o with o the slow part of q - psi . F / omega^2.
 void TissueTool::take_offsets(const Touchable& body, const Shapes& psi, Modal& q) noexcept {
   const Vec3& force = on_tissue_;
   const double part = told_at_ > 0 ? -std::expm1(-since_told() / offset_smoothing) : 1.0;

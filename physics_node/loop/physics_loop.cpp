@@ -39,7 +39,7 @@ constexpr std::int64_t later_ns = 20'000;
 constexpr int cores_of_the_hand = 1;                    // that the team leaves, where the scene has a tool
 constexpr std::int64_t eye_period_ns = 33'000'000;      // vertex blocks at 30 Hz
 constexpr std::int64_t status_period_ns = 200'000'000;  // 5 Hz
-// For each of two things to be done before leaving. Why: a hurried session kills after 700 ms what has not left.
+// For each of two things done before leaving. Why: a hurried session kills after 700 ms.
 constexpr auto last_look = std::chrono::milliseconds(100);
 
 }  // namespace
