@@ -6,6 +6,16 @@
 #include "physics_node/world.h"
 
 namespace palpate::physics {
+namespace {
+
+/// visit(body, forces) of each of so many bodies that it presses.
+template <class Visit>
+void each_pressed(const PressingTool& tool, std::size_t n_bodies, const Visit& visit) {
+  for (std::size_t b = 0; tool.presses() && b < n_bodies; ++b)
+    if (const auto forces = tool.forces_on(b); !forces.empty()) visit(b, forces);
+}
+
+}  // namespace
 
 bool World::is_pressed() const noexcept {
   return std::any_of(toolbox_.pressing.begin(), toolbox_.pressing.end(),
@@ -15,19 +25,17 @@ bool World::is_pressed() const noexcept {
 void World::gather() noexcept {
   for (auto& forces : gathered_) forces.clear();
   for (const PressingTool* tool : toolbox_.pressing)
-    if (!tool->follows_steps() && tool->presses()) {
-      for (std::size_t b = 0; b < bodies_.size(); ++b) {
-        const auto forces = tool->forces_on(b);
+    if (!tool->follows_steps())
+      each_pressed(*tool, bodies_.size(), [this](std::size_t b, std::span<const NodalForce> forces) {
         gathered_[b].insert(gathered_[b].end(), forces.begin(), forces.end());
-      }
-    }
+      });
 }
 
 /// Of the forces of a tool, with velocities now [W].
 double World::power(const PressingTool& tool) const noexcept {
   double sum = 0;
-  for (std::size_t b = 0; tool.presses() && b < bodies_.size(); ++b)
-    if (const auto forces = tool.forces_on(b); !forces.empty()) sum += bodies_[b]->power(forces);
+  each_pressed(tool, bodies_.size(),
+               [&](std::size_t b, std::span<const NodalForce> forces) { sum += bodies_[b]->power(forces); });
   for (std::size_t c = 0; c < connections_.size(); ++c) sum += connections_[c]->power(tool.pushes(c));
   return sum;
 }
@@ -48,9 +56,9 @@ double World::book_tools(double dt, bool begun) noexcept {
 /// The step has solved for them: a force works along all of the way that the velocities at its end make.
 void World::book_solved(double dt) noexcept {
   for (PressingTool* tool : toolbox_.pressing)
-    for (std::size_t b = 0; tool->presses() && b < bodies_.size(); ++b)
-      if (const auto forces = tool->forces_on(b); !forces.empty())
-        tool->book().tissue(dt * bodies_[b]->power(forces));
+    each_pressed(*tool, bodies_.size(), [&](std::size_t b, std::span<const NodalForce> forces) {
+      tool->book().tissue(dt * bodies_[b]->power(forces));
+    });
 }
 
 /// Once the tool's forces have moved the masses on: the books of what is cut are of where they are.
@@ -81,8 +89,8 @@ double World::press(double dt) noexcept {
     if (!tool->follows_steps()) continue;
     const StageTimer timer(report_, Stage::contact_forces);
     sum += tool->book().tissue(0.5 * dt * tool->press(dt));
-    for (std::size_t b = 0; tool->presses() && b < bodies_.size(); ++b)
-      if (const auto forces = tool->forces_on(b); !forces.empty()) bodies_[b]->kick(forces, dt);
+    each_pressed(*tool, bodies_.size(),
+                 [&](std::size_t b, std::span<const NodalForce> forces) { bodies_[b]->kick(forces, dt); });
     for (std::size_t c = 0; c < connections_.size(); ++c) connections_[c]->kick(tool->pushes(c), dt);
     sum += cut(*tool);
   }
