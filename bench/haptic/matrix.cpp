@@ -126,10 +126,7 @@ std::vector<CaseResult> run_cases(const std::vector<Case>& cases, int jobs,
                                   const std::function<void(std::size_t)>& done) {
   std::vector<CaseResult> results(cases.size());
   side_by_side(
-      cases.size(), jobs, [&](std::size_t i) { results[i] = run_case(cases[i]); },
-      [&](std::size_t n) {
-        if (done) done(n);
-      });
+      cases.size(), jobs, [&](std::size_t i) { results[i] = run_case(cases[i]); }, done);
   return results;
 }
 

@@ -22,6 +22,11 @@ Row sines_on_elements_are_felt_as_borne(Runs& runs);   // T1
 Row one_mode_of_elements_is_seen_through(Runs& runs);  // T1, negative control
 Row taps_on_elements_are_felt_as_borne(Runs& runs);    // T2
 
+// rows_world_truth.cpp: the same with the real library and controller
+Row world_tissue_swings(Runs& runs);   // T1
+Row world_tissue_taps(Runs& runs);     // T2
+Row world_tissue_relaxes(Runs& runs);  // T3
+
 // rows_touch_matrix.cpp: hands that give
 Row copy_is_stable(Runs& runs);                     // S2 with it
 Row copy_gains_nothing_without_a_hand(Runs& runs);  // S2

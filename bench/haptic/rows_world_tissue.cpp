@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include "bench/haptic/rows.h"
+#include "bench/haptic/same_samples.h"
 #include "bench/haptic/world_cases.h"
-#include "physics_node/contact/tissue_tool.h"
 
 namespace palpate::bench {
 namespace {
@@ -43,35 +42,6 @@ Path slide_path(double speed) {
   };
 }
 
-/// Of a tip whose motion presses a slab, by the number of the sample: forces on the hand and on the tool [N].
-struct SameSamples {
-  std::map<std::uint64_t, Vec3> felt, borne;
-  double step = -1, surplus = 0;
-
-  template <class Each>
-  void visit(const Each& each) const {
-    for (const auto& [sample, force] : borne)
-      if (const auto at = felt.find(sample); at != felt.end()) each(at->second, force);
-  }
-};
-
-SameSamples follow(Case c, const Path& path, double from, double until) {
-  c.feels = ForceModel::tissue;
-  Trial trial(c, path);
-  trial.kinematic = true;
-  SameSamples same;
-  trial.run(until, [&] {
-    const haptic::PointTouch& touch = *trial.controller().tissue();
-    if (trial.t() < from) return;
-    same.felt[touch.history().newest()] = touch.felt();
-    const auto& tool = dynamic_cast<const physics::TissueTool&>(trial.world()->world().tool(0));
-    same.borne[tool.sample()] = tool.borne();
-  });
-  same.step = trial.force_step_beyond_motion();
-  same.surplus = trial.energy().surplus();
-  return same;
-}
-
 /// Root mean square of felt less borne over that of what swings of borne.
 double off_of_swing(const SameSamples& same) {
   double mean = 0, n = 0, off2 = 0, swing2 = 0;
@@ -91,19 +61,6 @@ double off_along(const SameSamples& same, int axis) {
     normal2 += borne.z() * borne.z();
   });
   return std::sqrt(off2 / normal2);
-}
-
-struct Age {
-  const char* name;
-  double rate_Hz;
-  LinkModel link;
-};
-std::vector<Age> ages() {
-  LinkModel near, far;
-  near.delay = 6e-3;
-  far.delay = 25e-3;
-  far.loss = 0.1;
-  return {{"2 ms", 1000, {}}, {"20 ms", 150, near}, {"100 ms", 20, far}};
 }
 
 }  // namespace
@@ -134,15 +91,13 @@ Row world_tissue_is_stable(Runs& runs) {
 Row world_tissue_is_true(Runs& runs) {
   double worst = 0, step = -1, surplus = 0;
   std::string figure;
-  for (const Age& age : ages()) {
+  for (const LinkAge& age : link_ages) {
     figure += fmt::format("{}{}:", figure.empty() ? "" : "; ", age.name);
     for (const double frequency :
          runs.effort == Effort::full ? std::vector<double>{1, 5, 10, 20} : std::vector<double>{5}) {
       double off = 0;
       for (const SlabModel* slab : elastic_slabs) {
-        Case c = case_of(*slab);
-        c.rate_Hz = age.rate_Hz;
-        c.link = age.link;
+        const Case c = slab_case(*slab, age);
         const SameSamples same = follow(c, swing_path(frequency), 1.5, 4.0);
         off = std::max(off, off_of_swing(same));
         step = std::max(step, same.step);
@@ -163,10 +118,8 @@ Row world_tissue_is_true(Runs& runs) {
 Row world_tissue_bears_a_stick(Runs&) {
   double off = 0, surplus = 0, step = -1;
   std::string figure;
-  for (const Age& age : ages()) {
-    Case c = case_of(stick_slab);
-    c.rate_Hz = age.rate_Hz;
-    c.link = age.link;
+  for (const LinkAge& age : link_ages) {
+    const Case c = slab_case(stick_slab, age);
     const SameSamples same = follow(c, slide_path(0), 1.0, 1.2);
     double felt = 0, borne = 0;
     same.visit([&](const Vec3& f, const Vec3& b) { felt += f.norm(), borne += b.norm(); });
@@ -188,12 +141,10 @@ Row world_tissue_slides(Runs& runs) {
     for (const double speed : runs.effort == Effort::full ? std::vector<double>{10e-3, 50e-3, 100e-3}
                                                           : std::vector<double>{50e-3}) {
       double normal = 0, along = 0;
-      for (const Age& age : ages())
+      for (const LinkAge& age : link_ages)
         for (const SlabModel* slab : elastic_slabs) {
           if (runs.effort == Effort::quick && slab != &slab_models[0] && slab != &solid_slabs[1]) continue;
-          Case c = case_of(*slab);
-          c.rate_Hz = age.rate_Hz;
-          c.link = age.link;
+          Case c = slab_case(*slab, age);
           c.friction = friction;
           const SameSamples same = follow(c, slide_path(speed), 0.5, 0.5 + 20e-3 / speed);
           normal = std::max(normal, off_along(same, 2));

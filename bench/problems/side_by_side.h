@@ -13,7 +13,7 @@ namespace palpate::bench {
 /// Calls run(i) for i in [0, n) from `jobs` threads.
 /// @param done  called from one thread at a time with how many are over
 inline void side_by_side(std::size_t n, int jobs, const std::function<void(std::size_t)>& run,
-                         const std::function<void(std::size_t)>& done) {
+                         const std::function<void(std::size_t)>& done = {}) {
   std::atomic<std::size_t> next{0};
   std::size_t over = 0;
   std::mutex saying;
@@ -21,7 +21,8 @@ inline void side_by_side(std::size_t n, int jobs, const std::function<void(std::
     for (std::size_t i = next++; i < n; i = next++) {
       run(i);
       const std::lock_guard lock(saying);
-      done(++over);
+      ++over;
+      if (done) done(over);
     }
   };
   std::vector<std::jthread> team;

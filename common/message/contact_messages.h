@@ -71,9 +71,10 @@ struct BranchOfTissue {
 
 /// What a hand whose motion presses tissue can feel of it: haptic_node/tissue/tissue_model.h.
 struct TouchedTissue {
-  std::uint64_t sample = 0;    // ToolState.sample that the tissue has been pressed by last
-  Array3 normal{0, 0, 1};      // out of the tissue, unit
-  double residual = 0;         // compliance of all that follows at once, along the normal [m/N]
+  std::uint64_t sample = 0;  // ToolState.sample that the tissue has been pressed by last
+  Array3 normal{0, 0, 1};    // out of the tissue, unit
+  double residual = 0;  // compliance of all that follows at once, along the normal, at the first touch [m/N]
+  double growth = 0;    // of the contact: residual / (1 + growth F)^(1/3) at F, see growing_contact.h [1/N]
   double residual_across = 0;  // and across it [m/N]
   Array3 arm{};                // from the hand's tip to where the tool is touched [m]
   Array3 rest{};               // place of the tip that modes and residual lie on [m]
@@ -89,6 +90,7 @@ struct TouchedTissue {
     visit(PALPATE_FIELD(sample), any);
     visit(PALPATE_FIELD(normal), unit);
     visit(PALPATE_FIELD(residual), up_to(most_compliance));
+    visit(PALPATE_FIELD(growth), up_to(most_growth));
     visit(PALPATE_FIELD(residual_across), up_to(most_compliance));
     visit(PALPATE_FIELD(arm), within(farthest_hand));
     visit(PALPATE_FIELD(rest), within(farthest_hand));

@@ -25,7 +25,7 @@ bool same_parameters(const TissueModel& a, const TissueModel& b) noexcept {
     if (a.branches[j].stiffness != b.branches[j].stiffness || a.branches[j].time != b.branches[j].time)
       return false;
   return a.normal == b.normal && a.friction == b.friction && a.residual == b.residual &&
-         a.residual_across == b.residual_across;
+         a.growth == b.growth && a.residual_across == b.residual_across;
 }
 
 TissueModel mixed(const TissueModel& a, const TissueModel& b, double beta) noexcept {
@@ -43,6 +43,7 @@ TissueModel mixed(const TissueModel& a, const TissueModel& b, double beta) noexc
     m.branches[j].time = between(a.branches[j].time, b.branches[j].time, beta);
   }
   m.residual = between(a.residual, b.residual, beta);
+  m.growth = between(a.growth, b.growth, beta);
   m.residual_across = between(a.residual_across, b.residual_across, beta);
   return m;
 }

@@ -28,6 +28,7 @@ TissueAnswer answer_of(const TouchedTissue& told, double friction) noexcept {
     state.p[j] = told.branches[j].place;
   }
   model.residual = told.residual;
+  model.growth = told.growth;
   model.residual_across = told.residual_across;
   state.rest = vec(told.rest) + answer.arm;
   state.force = vec(told.force);
@@ -47,7 +48,7 @@ void PointTouch::take(const ContactPatch& patch) noexcept {
   known_ = true;
   normal_ = answer.model.normal;
   arm_ = answer.arm;
-  surface_ = modal_surface(answer.model, answer.state) + answer.model.compliance() * answer.state.force;
+  surface_ = modal_surface(answer.model, answer.state) + answer.model.residual_way(answer.state.force);
   const Vec3 before = touch_.shadow_copy().state.force;
   if (!touch_.take(answer) || !foretold) return;
   const Vec3& now = touch_.shadow_copy().state.force;

@@ -30,7 +30,8 @@ bool is_sound(const TissueAnswer& answer, std::uint32_t tool) noexcept {
   }
   return within(answer.arm, farthest_hand) && within(m.friction, 0, largest_friction) &&
          within(m.residual, 0, most_compliance) && within(m.residual_across, 0, most_compliance) &&
-         within(s.rest, farthest_hand) && within(s.force, strongest_tissue) && pressed(m, s) >= 0;
+         within(m.growth, 0, most_growth) && within(s.rest, farthest_hand) &&
+         within(s.force, strongest_tissue) && pressed(m, s) >= 0;
 }
 
 }  // namespace palpate::haptic

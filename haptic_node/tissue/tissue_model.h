@@ -4,13 +4,16 @@
 //   q_i'' + c_i q_i' + omega_i^2 q_i = psi_i . (F + F_r n),     y = r + sum psi_i q_i,     S = y + R F
 //   F_r = sum k_j (d - p_j),   p_j' = (d - p_j) / tau_j,   d = -n . (y - r)
 //
+// R F along n: z(F) of a contact that grows (common/math/growing_contact.h).
 // S is where the surface is, n its normal, out of the tissue; the tip rubs there with Coulomb's friction mu. Modes (normalised by mass), the
 // compliance R of all that follows at once, along n and across it, branches that relax along n, and the rest r that they lie on. What slides
 // moves r along the surface. No modes, no compliance: a wall at r.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
+#include "common/math/growing_contact.h"
 #include "common/math/vec3.h"
 #include "common/message/limits.h"
 #include "haptic_node/tissue/friction_contact.h"
@@ -35,13 +38,20 @@ struct TissueModel {
   std::uint32_t n_modes = 0, n_branches = 0;
   std::array<TissueMode, most_modes> modes{};
   std::array<RelaxingBranch, most_branches> branches{};
-  double residual = 0, residual_across = 0;  // R along n and across it [m/N]
+  double residual = 0, residual_across = 0;  // R along n at the first touch, and across it [m/N]
+  double growth = 0;                         // of the contact [1/N]
 
   bool same_counts(const TissueModel& other) const noexcept {
     return n_modes == other.n_modes && n_branches == other.n_branches;
   }
-  Mat3 compliance() const noexcept {  // R
+  GrowingContact contact() const noexcept { return {residual, growth}; }  // along n
+  Mat3 compliance() const noexcept {                                      // R at the first touch
     return residual_across * Mat3::Identity() + (residual - residual_across) * normal * normal.transpose();
+  }
+  /// Where a force moves the surface at once [m].
+  Vec3 residual_way(const Vec3& force) const noexcept {
+    const double in = -normal.dot(force);
+    return residual_across * (force + in * normal) - contact().give(std::max(0.0, in)) * normal;
   }
 };
 

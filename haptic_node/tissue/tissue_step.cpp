@@ -4,6 +4,22 @@
 #include <cmath>
 
 namespace palpate::haptic {
+namespace {
+
+// Why: each squares the error, and two are enough in most ticks; at a first touch they begin far below.
+constexpr int newton_steps = 8;
+constexpr double newton_force = 1e-10;  // that the next one would change F by at most [N]
+
+/// z about F: offset + slope F.
+struct Tangent {
+  double slope, offset, bend;  // slope; z''/ (2 z') up to its sign [1/N]
+  Tangent(const GrowingContact& law, double F) noexcept
+      : slope(law.slope(F)), offset(law.give(F) - slope * F), bend(law.growth / (6 * (1 + law.growth * F))) {}
+  /// Is a root that the tangent has `step` away right? What it leaves is at most that.
+  bool is_enough(double step) const noexcept { return bend * step * step <= newton_force; }
+};
+
+}  // namespace
 
 TissueStep::TissueStep(const TissueModel& model, const ContactSpring& spring, double h) noexcept
     : model_(model), spring_(spring), h_(h) {
@@ -30,10 +46,59 @@ TissueStep::TissueStep(const TissueModel& model, const ContactSpring& spring, do
   E -= held_ * relaxing_ * sped_ * pushed_.transpose();
   const double K = spring.stiffness;
   const Mat3 R = model.compliance(), still = Mat3::Identity() / K + R;
-  residual_by_h_ = R / h;
-  compliance_ = still + D + spring.damping / K * n * (n.transpose() * (residual_by_h_ + E));
+  compliance_ = still + D + spring.damping / K * n * (n.transpose() * (R / h + E));
   inverse_ = compliance_.inverse();
   bound_ = still / (1 + ContactSpring::most_damping) + D;
+}
+
+FrictionContact TissueStep::press(const Loose& loose, double before) const noexcept {
+  const Vec3& n = model_.normal;
+  const double late = loose.late - model_.residual * before / h_;
+  const Vec3 e = loose.stretch + spring_.damping / spring_.stiffness * late * n;
+  FrictionContact contact = solve_contact(compliance_, inverse_, e, n, model_.friction);
+  const double in = -n.dot(contact.force);
+  if (in <= 0) return contact;
+  const Vec3 along = contact.force / in;
+  const double most = n.dot(loose.stretch) / n.dot(bound_ * along);
+  if (most > 0 && most < in) contact.force = most * along;
+  return contact;
+}
+
+FrictionContact TissueStep::press_growing(const Loose& loose, double before) const noexcept {
+  const Vec3& n = model_.normal;
+  const GrowingContact law = model_.contact();
+  const double damper = spring_.damping / spring_.stiffness, twice = 1 + damper / h_;
+  const double late = loose.late - law.give(before) / h_;
+  const Vec3 left = n.transpose() * inverse_, right = inverse_ * n;
+  FrictionContact contact;
+  double in = before;
+  for (int i = 0; i < newton_steps; ++i) {
+    const Tangent z(law, in);
+    const double less = twice * (z.slope - law.compliance);
+    const Mat3 C = compliance_ + less * n * n.transpose();
+    const Mat3 inverse = inverse_ - less / (1 + less * n.dot(right)) * right * left.transpose();
+    const Vec3 e = loose.stretch + (damper * late + twice * z.offset) * n;
+    contact = solve_contact(C, inverse, e, n, model_.friction);
+    const double next = std::max(0.0, -n.dot(contact.force));
+    const bool over = z.is_enough(next - in);
+    in = next;
+    if (over) break;
+  }
+  if (in <= 0) return contact;
+  // (F / (3/2)) / K + z(F / (3/2)) + D F below the surface
+  constexpr double share = 1 / (1 + ContactSpring::most_damping);
+  const Vec3 along = contact.force / in;
+  double most = in;
+  for (int i = 0; i < newton_steps; ++i) {
+    const Tangent z(law, share * most);
+    const double give = n.dot(bound_ * along) - share * (z.slope - law.compliance);
+    const double next = std::max(0.0, (n.dot(loose.stretch) + z.offset) / give);
+    const bool over = z.is_enough(next - most) || (i == 0 && next >= in);
+    most = next;
+    if (over) break;
+  }
+  if (most < in) contact.force = most * along;
+  return contact;
 }
 
 void TissueStep::advance(TissueState& state, const TipSample& tip) const noexcept {
@@ -61,18 +126,11 @@ void TissueStep::advance(TissueState& state, const TipSample& tip) const noexcep
 
   Vec3 force = Vec3::Zero();
   if (n.dot(stretch) < 0) {
-    const Vec3 late = tip.v - speed - relaxed * sped_ + residual_by_h_ * state.force;
-    const Vec3 e = stretch + spring_.damping / spring_.stiffness * n.dot(late) * n;
-    const FrictionContact contact = solve_contact(compliance_, inverse_, e, n, model_.friction);
-    const double in = -n.dot(contact.force);
-    if (in > 0) {
-      const Vec3 along = contact.force / in;
-      const double most = n.dot(stretch) / n.dot(bound_ * along);
-      force = most > 0 && most < in ? Vec3(most * along) : contact.force;
-      state.rest += contact.gap;
-    } else {
-      state.rest += across;
-    }
+    const Loose loose{stretch, n.dot(tip.v - speed - relaxed * sped_)};
+    const double before = pressed(model_, state);
+    const FrictionContact contact = model_.growth > 0 ? press_growing(loose, before) : press(loose, before);
+    force = contact.force;
+    state.rest += n.dot(force) < 0 ? contact.gap : across;
   } else {
     state.rest += across;
   }
@@ -101,9 +159,28 @@ StepWork TissueStep::advance(TissueState& state, const Vec3& before, const TipSa
 HeldTissue held_tissue(const TissueModel& model, const TissueState& state, const ContactSpring& spring,
                        const Vec3& x) noexcept {
   HeldTissue held;
+  const Vec3& n = model.normal;
   const Mat3 C = Mat3::Identity() / spring.stiffness + model.compliance();
-  held.contact = solve_contact(C, x - modal_surface(model, state), model.normal, model.friction);
-  held.spring_energy = 0.5 * held.contact.force.dot(C * held.contact.force);
+  const Vec3 e = x - modal_surface(model, state);
+  const Vec3& force = held.contact.force;
+  if (model.growth > 0) {
+    const GrowingContact law = model.contact();
+    double in = pressed(model, state);
+    for (int i = 0; i < newton_steps; ++i) {
+      const Tangent z(law, in);
+      const Mat3 less = (z.slope - law.compliance) * n * n.transpose();
+      held.contact = solve_contact(C + less, e + z.offset * n, n, model.friction);
+      const double next = std::max(0.0, -n.dot(force));
+      const bool over = z.is_enough(next - in);
+      in = next;
+      if (over) break;
+    }
+    const double linear = law.compliance * in * in;
+    held.spring_energy = 0.5 * (force.dot(C * force) - linear) + law.energy(in);
+  } else {
+    held.contact = solve_contact(C, e, n, model.friction);
+    held.spring_energy = 0.5 * force.dot(C * force);
+  }
   held.energy = held.spring_energy + tissue_energy(model, state);
   return held;
 }

@@ -9,6 +9,8 @@
 // within the cone of friction: solve_contact(). C is the same in all ticks: the whole tick is a few dozen products a mode. The damper acts along
 // the normal alone, through the residual compliance; the force is at least 0 and at most 3/2 of what the spring gives, as contact_spring.h has
 // it. What slides moves the rest.
+// Where the contact grows with the force, R F along n is z(F_n), and so in the bound: Newton's steps, each of a contact that gives alike,
+// R -> dz/dF, e -> e + (z - F_n dz/dF) n; z grows ever more slowly, so that they go up to F_n from below. Two in most ticks.
 
 #include <array>
 
@@ -53,6 +55,14 @@ class TissueStep {
   double h() const noexcept { return h_; }
 
  private:
+  /// Where nothing presses at the end of a tick.
+  struct Loose {
+    Vec3 stretch = Vec3::Zero();  // from the modal surface to the tip [m]
+    double late = 0;              // how fast that grows along n, the residual apart [m/s]
+  };
+  FrictionContact press(const Loose& loose, double before) const noexcept;
+  FrictionContact press_growing(const Loose& loose, double before) const noexcept;
+
   struct Branch {
     double keep = 1, first = 0, last = 0;  // p+ = keep p + first d + last d+
   };
@@ -63,7 +73,6 @@ class TissueStep {
   std::array<Branch, TissueModel::most_branches> branches_{};
   double relaxing_ = 0, held_ = 0;  // sum k (1 - last): F_r+ by d+ [N/m]; 1 / (1 + relaxing n.Dn)
   Vec3 pushed_ = Vec3::Zero(), sped_ = Vec3::Zero();         // D n, E n, branches apart [m/N], [m/(N s)]
-  Mat3 residual_by_h_ = Mat3::Zero();                        // R / h
   Mat3 compliance_ = Mat3::Zero(), inverse_ = Mat3::Zero();  // C
   Mat3 bound_ = Mat3::Zero();                                // (I / K + R) / (3/2) + D
 };

@@ -62,7 +62,7 @@ void TissueTouch::weaken(double keep, const Vec3& x) noexcept {
 Vec3 TissueTouch::command(const Vec3& v) const noexcept {
   const TissueModel& model = felt_.step.model();
   const double in = pressed(model, felt_.state);
-  const double late = spring_.series(model.residual) * hold * settings_.period *
+  const double late = spring_.series(model.contact().slope(in)) * hold * settings_.period *
                       -model.normal.dot(v - modal_speed(model, felt_.state));
   return -felt_.state.force + std::clamp(late, -in, ContactSpring::most_damping * in) * model.normal;
 }

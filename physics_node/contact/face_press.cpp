@@ -89,6 +89,12 @@ double FacePress::sample_spacing(double face_area) const noexcept {
   return side / std::clamp(std::ceil(most * side / shape_.size()), 1.0 * fewest_a_side, 1.0 * most_a_side);
 }
 
+/// Samples along a side of a face.
+std::uint8_t FacePress::a_side(double face_area) const noexcept {
+  return static_cast<std::uint8_t>(std::clamp<long>(
+      std::lround(std::sqrt(face_area) / sample_spacing(face_area)), fewest_a_side, most_a_side));
+}
+
 /// From the shape, of a point in the frame of the pose.
 RigidShape::Distance FacePress::distance(const Vec3& p) const noexcept {
   if (!turns_) return shape_.distance(p);
@@ -109,7 +115,7 @@ Vec3 FacePress::at(const Face& face, const Weights& w) const noexcept {
   return x;
 }
 
-/// From outside, by the middles and corners of faces that look at the shape.
+/// From outside, by the samples, middles and corners of faces that look at the shape.
 void FacePress::find_depth(const ShapePose& pose) noexcept {
   const auto local = [&](const Vec3& x) { return Vec3(pose.axes.transpose() * (x - pose.tip)); };
   double highest = -far;
@@ -125,8 +131,18 @@ void FacePress::find_depth(const ShapePose& pose) noexcept {
       const RigidShape::Distance d = distance(p);
       if ((pose.axes.transpose() * area).dot(d.outward) >= 0 || d.outward.z() >= 0) continue;
       nearest = std::min(nearest, d.distance);
-      for (std::size_t c = 0; c < 4; ++c)
-        nearest = std::min(nearest, distance(local(position(facet, c)) + z_ * Vec3::UnitZ()).distance);
+      std::array<Vec3, 4> corner;
+      double reach = 0;
+      for (std::size_t c = 0; c < 4; ++c) {
+        corner[c] = local(position(facet, c)) + z_ * Vec3::UnitZ();
+        reach = std::max(reach, (corner[c] - p).norm());
+        nearest = std::min(nearest, distance(corner[c]).distance);
+      }
+      if (d.distance - reach > nearest) continue;
+      for (const Weights& w : weights_[a_side(surface(facet).rest_area(facet.number).norm())])
+        nearest = std::min(
+            nearest,
+            distance(w[0] * corner[0] + w[1] * corner[1] + w[2] * corner[2] + w[3] * corner[3]).distance);
     }
     if (!(nearest < far)) return;
     z_ += nearest;
@@ -183,8 +199,7 @@ void FacePress::list(const ShapePose& pose, double way) noexcept {
     face.area = surface.rest_area(facet.number).norm();
     if (!(face.area > 0)) continue;
     face.triangle = surface.is_triangle(facet.number);
-    face.n = static_cast<std::uint8_t>(std::clamp<long>(
-        std::lround(std::sqrt(face.area) / sample_spacing(face.area)), fewest_a_side, most_a_side));
+    face.n = a_side(face.area);
     faces_.push_back(face);
     listed_.push_back(facet);
   }

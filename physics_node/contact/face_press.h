@@ -125,6 +125,7 @@ class FacePress {
   double sample_spacing(double face_area) const noexcept;
 
  private:
+  std::uint8_t a_side(double face_area) const noexcept;
   struct Facet {
     std::uint32_t body = 0, number = 0;
   };

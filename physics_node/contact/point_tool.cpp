@@ -7,6 +7,7 @@
 #include "common/message/vec3.h"
 #include "common/scene/force_model.h"
 #include "common/scene/tool_spec.h"
+#include "physics_node/contact/half_space.h"
 
 namespace palpate::physics {
 namespace {

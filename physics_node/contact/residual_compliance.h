@@ -1,12 +1,13 @@
 #pragma once
-// How much tissue gives at once under a tip, beside what its modes tell: z = r + s F + sum phi q. By a closed form at first, that of a half
-// space under the patch that bears, s = g / k, k = 2 E a / (1 - nu^2); g is learnt from what has been pressed since,
+// How much tissue gives at once under a tip, beside what its modes tell: x = r + z(F) + sum phi q. By a closed form at first, that of a half
+// space under what bears, z = g z_0 (growing_contact.h); g is learnt from what has been pressed since,
 //
-//   g = sum of d(z - sum phi q) dF / k  /  sum of (dF / k)^2,   sums that forget by what they are told, not by time
+//   g = sum of d(x - sum phi q) dz_0  /  sum of dz_0^2,   sums that forget by what they are told, not by time
 //
 // so it stays where a hand stands. Both are low-passed twice at 10 Hz first: in a millisecond, or at a step of an encoder, the masses under the
-// tip stand and tissue seems stiff. Why of changes: on what stiffens with depth the hand moves along the tangent. A copy that is too soft has to be
-// paid for, too stiff a one costs nothing: g begins below 1.
+// tip stand and tissue seems stiff. Why of changes: on what stiffens with depth the hand moves along the tangent.
+// What the next touch begins with is the secant from the free surface, since tissue of cells gives in steps, each time the tip comes to one
+// more node: g_1 = sum of x z_0 / sum of z_0^2 of all touches at such a place, weighted with time.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -17,30 +18,53 @@ namespace palpate::physics {
 
 class ResidualCompliance {
  public:
-  /// @param k  closed form of the stiffness [N/m]
-  /// @param dF, dy  changes in a frame of dt of the force and of z - sum phi q [N], [m]
-  void follow(double k, double dF, double dy, double dt) noexcept {
-    k_ = k;
+  static constexpr double least = 0.1, most = 3;  // g
+
+  /// @param dz, dx  changes in a frame of dt of the closed form z_0(F) and of x - sum phi q [m]
+  void follow(double dz, double dx, double dt) noexcept {
     const double part = low_pass_part(corner_Hz, dt);
-    rates_.pass({dF / dt, dy / dt}, part);
-    const double by = rates_.value()[0] / k;
+    rates_.pass({dz / dt, dx / dt}, part);
+    const double by = rates_.value()[0];
     const double keep = told / (told + by * by * dt);
     above_ = keep * above_ + rates_.value()[1] * by * dt;
     below_ = keep * below_ + by * by * dt;
   }
   /// Another contact begins.
-  void begin(double k) noexcept { *this = {}, k_ = k; }
-  double value() const noexcept { return k_ > 0 ? std::clamp(above_ / below_, least, most) / k_ : 0; }
+  void begin(double g) noexcept {
+    rates_ = {};
+    above_ = std::clamp(g, least, most) * weight, below_ = weight;
+  }
+  double value() const noexcept { return std::clamp(above_ / below_, least, most); }  // g
 
  private:
   static constexpr double corner_Hz = 10;
-  static constexpr double first = 0.5, least = 0.1, most = 3;  // g
   static constexpr double told = 1e-4;    // what sums hold about: 10 mm/s for a second [m^2/s]
   static constexpr double weight = 1e-6;  // of what g begins with: 1 mm/s for a second [m^2/s]
 
-  double k_ = 0;
-  TwiceLowPassed<Eigen::Vector2d> rates_;  // of F and z - sum phi q [N/s], [m/s]
-  double above_ = first * weight, below_ = weight;
+  TwiceLowPassed<Eigen::Vector2d> rates_;  // of z_0 and x - sum phi q [m/s]
+  double above_ = weight, below_ = weight;
+};
+
+/// g of a first touch.
+class FirstTouch {
+ public:
+  /// By what is known before anything has been pressed.
+  void begin(double g) noexcept { above_ = g * weight, below_ = weight; }
+  /// @param z, x  z_0(F) and how far it has given, from the free surface on [m]
+  void follow(double z, double x, double dt) noexcept {
+    const double keep = told / (told + z * z * dt);
+    above_ = keep * above_ + x * z * dt;
+    below_ = keep * below_ + z * z * dt;
+  }
+  double value() const noexcept {
+    return std::clamp(above_ / below_, ResidualCompliance::least, ResidualCompliance::most);
+  }
+
+ private:
+  static constexpr double told = 1e-7;    // what sums hold about: 1 mm for 0.1 s [m^2 s]
+  static constexpr double weight = 1e-9;  // of what g begins with: 1 mm for a millisecond [m^2 s]
+
+  double above_ = weight, below_ = weight;
 };
 
 }  // namespace palpate::physics

@@ -33,12 +33,6 @@ class SecantStiffness {
   double first_ = 0, K_ = 0;
 };
 
-/// Of an elastic half space under a round patch of radius a: 2 E a / (1 - nu^2), nu = 1/3 [N/m].
-inline double half_space_stiffness(const Body& body, double a) noexcept {
-  constexpr double nu = 1.0 / 3.0;
-  return 2 * body.law.modulus * a / (1 - nu * nu);
-}
-
 /// Does it always come back to its rest shape? Then the plane at zero force is the surface at rest.
 inline bool remembers_rest(const Body& body) noexcept {
   return is_anchored(body) && !may_change_for_good(body);

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "common/message/messages.h"
+#include "physics_node/contact/half_space.h"
 
 namespace palpate::physics {
 namespace {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "common/message/vec3.h"
+#include "physics_node/contact/half_space.h"
 #include "physics_node/contact/secant_stiffness.h"
 #include "physics_node/contact/tissue_tool.h"
 
@@ -15,8 +16,13 @@ namespace {
 // curved. Why: slower than a hand palpates.
 constexpr double offset_smoothing = 0.1;  // [s]
 constexpr double rest_smoothing = 5e-3;   // of what modes do not tell [s]
-// Of the shape's size: where a touch begins. A stick lies on more than a ball does, a flat end on all of it.
-constexpr double smallest_of_ball = 0.25, smallest_of_others = 1;
+// Where a touch begins: of the size of a cell, and of the shape's. Why: a force on one face of a cell is borne as by a round patch of this
+// radius (slabs of springs and of elements, 30 and 100 kPa, to 8 %); a stick lies on more than a ball does, a flat end on all of it.
+constexpr double smallest_of_cell = 0.48, smallest_of_ball = 0.05, smallest_of_others = 1;
+// Of its size: how far aside a tip still presses what it touched.
+constexpr double same_place = 0.2;
+// Of its radius: how deep a ball is pressed where modes are compared with what gives in all.
+constexpr double usual_depth = 0.2;
 // Of a rigid patch on a half space, across its plane to along its normal: (2 - nu) / (2 - 2 nu), nu = 1/3.
 constexpr double across_to_along = 1.25;
 
@@ -47,28 +53,72 @@ TissueTool::Shapes TissueTool::find_shapes(const Touchable& body) const noexcept
   return psi;
 }
 
-/// Of a half space under what bears: 2 E a / (1 - nu^2) [N/m].
-double TissueTool::stiffness_of_patch(const Touchable& body) const noexcept {
-  const double a = std::max((held_.turns() ? smallest_of_others : smallest_of_ball) * held_.shape.size(),
-                            std::sqrt(faces_.area() / std::numbers::pi));
-  return half_space_stiffness(body.moving->body(), a);
+/// Of a half space. A ball lies on more of it the deeper it is; the rest on what bears now.
+GrowingContact TissueTool::closed_form(const Touchable& body) const noexcept {
+  const Body& tissue = body.moving->body();
+  const double E = half_space_modulus(tissue), size = held_.shape.size();
+  if (held_.turns())
+    return GrowingContact::of_ball(
+        E, std::max(smallest_of_others * size, std::sqrt(faces_.area() / std::numbers::pi)), 0);
+  return GrowingContact::of_ball(E, std::max(smallest_of_ball * size, smallest_of_cell * tissue.spacing()),
+                                 size);
+}
+
+/// Of a first touch: what modes do of all that the closed form gives is not left to the rest.
+double TissueTool::share_beside_modes(const Touchable& body, const Shapes& psi,
+                                      const GrowingContact& law) const noexcept {
+  double modal = 0;
+  for (std::size_t i = 0; i < body.modes.size(); ++i)
+    if (const double along = psi[i].dot(pose_.normal()); body.modes.omega2(i) > 0)
+      modal += along * along / body.modes.omega2(i);
+  // slope() where z is usual_depth rho, a^2 = a_0^2 + rho z
+  const double a_0 =
+      law.compliance > 0 ? 1 / (2 * half_space_modulus(body.moving->body()) * law.compliance) : 0;
+  const double rho = held_.turns() ? 0.0 : held_.shape.size();
+  const double all = law.compliance * a_0 / std::sqrt(a_0 * a_0 + usual_depth * rho * rho);
+  return 1 - modal / all;
 }
 
 /// What does not follow the modes is learnt along the normal, and while it goes along that rather than
 /// across: where it slides, forces change with the place.
 void TissueTool::follow_compliance(const Touchable& body, const Shapes& psi, const Told& now) noexcept {
   const Vec3& n = pose_.normal();
-  const double k = stiffness_of_patch(body);
+  const GrowingContact law = closed_form(body);
   double moved = 0;
   for (std::size_t i = 0; i < body.modes.size(); ++i) moved -= psi[i].dot(n) * (now.q[i] - told_.q[i]);
   if (told_at_ > 0 && now.force > 0 && told_.force > 0 && since_told() > 0) {
     const Vec3 way = now.tip - told_.tip;
     const double in = -way.dot(n);
     if ((way + in * n).norm() <= std::abs(in))
-      residual_.follow(k, now.force - told_.force, in - moved, since_told());
+      residual_.follow(law.give(now.force) - law.give(told_.force), in - moved, since_told());
   } else if (now.force <= 0 || told_at_ == 0) {
-    residual_.begin(k);
+    if (learns_of_ != touched_) first_.begin(share_beside_modes(body, psi, law));
+    learns_of_ = touched_;
+    residual_.begin(first_.value());
   }
+}
+
+/// How far it has given since the surface was free where it was pressed hardest in this frame, which may hold a whole tap; as long as that is
+/// one place, and comes back to that surface. @param way  of the modes now [m]  @param force  now [N]
+void TissueTool::follow_first_touch(const Touchable& body, const Shapes& psi, const Vec3& way,
+                                    double force) noexcept {
+  const Vec3& n = pose_.normal();
+  if (free_at_ && told_at_ > 0 && since_told() > 0 && hardest_.force > 0) {
+    Vec3 modal = way;
+    if (force < hardest_.force) {  // not known then: as it rests
+      modal.setZero();
+      for (std::size_t i = 0; i < body.modes.size(); ++i)
+        if (body.modes.omega2(i) > 0) modal -= hardest_.force * psi[i].dot(n) / body.modes.omega2(i) * psi[i];
+    }
+    const Vec3 given = hardest_.tip - modal - *free_at_;
+    const double in = -given.dot(n);
+    const bool aside = (given + in * n).norm() > same_place * held_.shape.size();
+    if (aside || !remembers_rest(body.moving->body()))
+      free_at_.reset();
+    else
+      first_.follow(closed_form(body).give(hardest_.force), in, since_told());
+  }
+  if (force <= 0) free_at_ = tip_now() - way;
 }
 
 /// A copy that stands must not move: told is how far modes are out from where they would rest without the
@@ -90,17 +140,20 @@ void TissueTool::tell(TouchedTissue& tissue) noexcept {
   const Shapes psi = find_shapes(body);
   Told now;
   now.tip = tip_now();
-  now.force = -on_tissue_.dot(n);
+  now.force = std::max(0.0, -on_tissue_.dot(n));
   body.modes.measure(*body.moving, now.q, now.w);
   follow_compliance(body, psi, now);
   Modal q = now.q;
   take_offsets(body, psi, q);
-  const double residual = std::min(residual_.value(), most_compliance);
-  const double across = std::min(across_to_along * residual, most_compliance);
+  GrowingContact gives = closed_form(body);
+  gives.compliance = std::min(residual_.value() * gives.compliance, most_compliance);
+  const double across = std::min(across_to_along * gives.slope(now.force), most_compliance);
   const Vec3& force = on_tissue_;
 
-  Vec3 rest = now.tip - across * force - (residual - across) * force.dot(n) * n;
-  for (std::size_t i = 0; i < body.modes.size(); ++i) rest -= q[i] * psi[i];
+  Vec3 way = Vec3::Zero();
+  for (std::size_t i = 0; i < body.modes.size(); ++i) way += q[i] * psi[i];
+  follow_first_touch(body, psi, way, now.force);
+  Vec3 rest = now.tip - way - across * (force + now.force * n) + gives.give(now.force) * n;
   if (told_at_ > 0 && now.force > 0 && told_.force > 0) {
     // What has slid has done so at once; the rest is what modes do not tell.
     const Vec3 slid = rubbing_.sticks() ? rubbing_.take_slid() : Vec3(rest - rest_);
@@ -117,7 +170,8 @@ void TissueTool::tell(TouchedTissue& tissue) noexcept {
   tissue.sample = told_at_;
   tissue.normal = array(n);
   tissue.arm = array(arm_);
-  tissue.residual = residual;
+  tissue.residual = gives.compliance;
+  tissue.growth = gives.growth;
   tissue.residual_across = across;
   tissue.rest = array(rest_);
   tissue.force = array(force);

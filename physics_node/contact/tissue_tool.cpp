@@ -208,6 +208,7 @@ void TissueTool::find_guide(const LocalPlane& plane) noexcept {
 void TissueTool::find_contact(double t) noexcept {
   const bool knew_up = std::exchange(knows_up_, false), was_outside = std::exchange(outside_, false);
   found_ = false;
+  hardest_ = {};
   if (!play_.seen() || bodies_.empty()) return let_go();
   hand_ = play_.at(0);
   // The tool stays in the tissue when the hand goes deeper than its spring lets it.
@@ -278,6 +279,7 @@ double TissueTool::press(double dt) noexcept {
   }
   depth_ = faces_.depth();
   force_ = by.at(depth_);
+  if (force_ > hardest_.force) hardest_ = {force_, tip_now()};
   const Vec3 pressure = TipLean::borne(guide_, faces_.borne(), flat_);
   if (rubbing_.sticks())
     rubbing_.pull(faces_.way(dt, pressure), n, by.stiffness, force_, faces_.mobility(), dt);

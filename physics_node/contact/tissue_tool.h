@@ -16,6 +16,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/math/growing_contact.h"
 #include "physics_node/contact/face_press.h"
 #include "physics_node/contact/hand_play.h"
 #include "physics_node/contact/held_shape.h"
@@ -97,7 +98,10 @@ class TissueTool final : public PressingTool {
   Shapes find_shapes(const Touchable& body) const noexcept;
   void take_offsets(const Touchable& body, const Shapes& psi, Modal& q) noexcept;
   void follow_compliance(const Touchable& body, const Shapes& psi, const Told& now) noexcept;
-  double stiffness_of_patch(const Touchable& body) const noexcept;
+  GrowingContact closed_form(const Touchable& body) const noexcept;
+  void follow_first_touch(const Touchable& body, const Shapes& psi, const Vec3& way, double force) noexcept;
+  double share_beside_modes(const Touchable& body, const Shapes& psi,
+                            const GrowingContact& law) const noexcept;
   void tell(TouchedTissue& tissue) noexcept;
 
   HeldShape held_;
@@ -131,6 +135,14 @@ class TissueTool final : public PressingTool {
   Modal offsets_{};           // o
   Vec3 rest_ = Vec3::Zero();  // that was told, low-passed [m]
   ResidualCompliance residual_;
+  FirstTouch first_;
+  std::size_t learns_of_ = max_bodies;  // the body that it learns of
+  struct Moment {
+    double force = 0;         // along the normal [N]
+    Vec3 tip = Vec3::Zero();  // [m]
+  };
+  Moment hardest_;               // of this frame
+  std::optional<Vec3> free_at_;  // where what touches now last lay on a free surface [m]
 };
 
 }  // namespace palpate::physics

@@ -13,9 +13,6 @@ const std::map<std::string, std::string>& excused() {
   static const std::map<std::string, std::string> rooms = {
       {"common/error",
        "a class and a macro; tests/unit/common/scene and tests/system/command_test.cpp see what they print"},
-      {"common/math",
-       "constants and hashes; angles: tests/unit/physics_node/contact, hashes: "
-       "tests/property/physics_golden_test.cpp"},
       {"common/message", "plain structs; tests/unit/common/wire/convert_test.cpp sends each"},
       {"haptic_node/drivers/forcedimension", "tests/unit/haptic_node/drivers/forcedimension_driver_test.cpp"},
       {"haptic_node/drivers/inverse3", "tests/unit/haptic_node/drivers/inverse3_driver_test.cpp"},

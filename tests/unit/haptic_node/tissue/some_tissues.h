@@ -1,5 +1,5 @@
 #pragma once
-// Tissues to try laws on, with their surface up: a lump, a light one, three modes with a residual, one that relaxes; and a leaning one.
+// Tissues to try laws on, with their surface up: lumps, three modes with a residual, the same under a ball, one that relaxes; and a leaning one.
 // Without friction what moves along z alone stays there.
 
 #include <cmath>
@@ -28,11 +28,14 @@ inline std::vector<TissueModel> some_tissues() {
   waves.modes[1] = {down(4.0), 40'000, 50};
   waves.modes[2] = {down(3.8), 108'000, 120};
   waves.residual = waves.residual_across = 4e-4;
+  TissueModel under_a_ball = waves;
+  under_a_ball.residual = 7e-3;
+  under_a_ball.growth = 15;
   TissueModel relaxing = lump(0.1, 2, 200);
   relaxing.n_branches = 2;
   relaxing.branches[0] = {200, 0.1};
   relaxing.branches[1] = {50, 5e-3};
-  return {lump(0.1, 2, 200), lump(0.5, 5, 1000), lump(0.02, 0.5, 50), waves, relaxing};
+  return {lump(0.1, 2, 200), lump(0.5, 5, 1000), lump(0.02, 0.5, 50), waves, under_a_ball, relaxing};
 }
 
 /// Modes that move it along its surface as well, a slope of 0.3, friction, more give across than along.

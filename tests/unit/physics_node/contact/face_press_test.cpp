@@ -98,6 +98,19 @@ TEST(FacePress, ComesFromOutside) {
   }
 }
 
+/// Also between the middle of a coarse face and its corners.
+TEST(FacePress, KnowsHowFarTheSurfaceIsBeforeItTouches) {
+  Recipe coarse = block();
+  coarse.spacing_mm = 5;
+  Bench bench(RigidShape::sphere(0.003), coarse);
+  for (const double x : {0.0, 0.0006, 0.00125, 0.0025})
+    for (const double y : {0.0, 0.0009, 0.0025}) {
+      bench.press.list(pose_along({x, y, top + 0.003}, Vec3::UnitZ()), bench.facets);
+      EXPECT_NEAR(bench.press.depth(), 0.003, 0.00005) << x << " " << y;
+      bench.press.release();
+    }
+}
+
 TEST(FacePress, MeetsNothingBesideTheBody) {
   Bench bench(RigidShape::sphere(0.003));
   EXPECT_FALSE(bench.at(pose_along({0.03, 0, top}, Vec3::UnitZ()), 0.1));
