@@ -117,7 +117,7 @@ void World::move_bodies(double dt, int left) noexcept {
                    .team = team_.get(),
                    .threads = choice_.threads(),
                    .verlet = scene_.physics->integrator == Integrator::velocity_verlet,
-                   .watch = left == 0,
+                   .watch = left == 0 || looks_,
                    .exact = may_be_struck() || pressed_ || pressed_before_,
                    .struck = may_be_struck() || parts,
                    .planes = planes_,
@@ -289,15 +289,27 @@ void World::plan_strides(int n, double dt) noexcept {
       if (!tool->forces_on(b).empty()) strides_.act_in_every_step(b);
 }
 
+bool World::may_sleep() const noexcept { return scene_.physics->sleep && !is_implicit(); }
+
+/// What a tool presses in the midst of a frame must not meet tissue that stands until the frame ends.
+void World::wake_disturbed() noexcept {
+  for (auto& body : bodies_) body->sleep_and_wake(0);
+  unlooked_ = 0;
+}
+
 /// As many steps as the frame needs when it begins; where elements stiffen meanwhile, what is left of it is divided anew.
 void World::divide_frame() noexcept {
   constexpr double rounding = 1e-9;
   int n_substeps = substeps_of_frame();
   double begun = 0;  // share of the frame before it was divided last
+  unlooked_ = 0;
   plan_strides(n_substeps, frame_dt_ / n_substeps);
   for (int n = 1; n <= n_substeps; ++n) {
-    const double share = begun + (1 - begun) * n / n_substeps;
-    step((1 - begun) * frame_dt_ / n_substeps, share, n_substeps - n);
+    const double share = begun + (1 - begun) * n / n_substeps, dt = (1 - begun) * frame_dt_ / n_substeps;
+    unlooked_ += dt;
+    looks_ = n < n_substeps && unlooked_ > look_every - 0.5 * dt && may_sleep();
+    step(dt, share, n_substeps - n);
+    if (looks_) wake_disturbed();
     const int wanted = static_cast<int>(std::ceil((1 - share) * substeps_of_frame() - rounding));
     if (wanted <= n_substeps - n) continue;
     begun = share;
@@ -317,7 +329,7 @@ void World::frame(std::span<const std::optional<ToolState>> tools) noexcept {
   guard();
   if (collisions_ && collisions_->bodies_are_near()) inside_->look_now_and_then();
   // backward_euler solves for all masses at once: none of them can be left out.
-  if (scene_.physics->sleep && !is_implicit())
+  if (may_sleep())
     for (auto& body : bodies_) body->sleep_and_wake(frame_dt_);
   t_ += frame_dt_;
   since_reset_ += frame_dt_;

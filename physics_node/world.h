@@ -95,6 +95,8 @@ class World {
   /// @param left  steps of the frame after this one; the last is watched
   void step(double dt, double done, int left) noexcept;
   void move_bodies(double dt, int left) noexcept;
+  bool may_sleep() const noexcept;
+  void wake_disturbed() noexcept;
   void plan_strides(int n, double dt) noexcept;
   void touch(double dt, double done) noexcept;
   double book_tools(double dt, bool begun) noexcept;
@@ -134,6 +136,10 @@ class World {
   EnergyAccount account_;
   Booked watched_;    // by tools and contact before the last step of the frame
   Losses cut_since_;  // what cuts have made bodies book after that
+  /// Why: a wave runs through some cells of tissue in that time, and a wake-up is a row further. 1 kHz frames look at their end alone [s].
+  static constexpr double look_every = 1e-3;
+  double unlooked_ = 0;  // in this frame, since rows at rest were looked at [s]
+  bool looks_ = false;   // after this step
   bool is_watched_ = false;
   std::vector<std::string> remarks_;
   double t_ = 0;            // [s]

@@ -116,9 +116,9 @@ class LatticeBody final : public BodyModel, private PendingStep {
     return bounce(body_, state_, moving_velocity(state_), v_before_, plane, e, dt, momentum_);
   }
 
-  void sleep_and_wake(double frame_seconds) noexcept override {
-    if (region_) return region_->look(body_, state_, frame_seconds);
-    sleep_.look(body_, state_, frame_seconds);
+  void sleep_and_wake(double seconds) noexcept override {
+    if (!region_) return sleep_.look(body_, state_, seconds);
+    if (seconds > 0) region_->look(body_, state_, seconds);
   }
   void wake_all() noexcept override {
     if (!region_) sleep_.wake_all(body_, state_);

@@ -131,6 +131,7 @@ void Sleep::look(const Body& body, LatticeState<Real>& state, double seconds) no
   for (std::size_t r = 0; r < state.row_state.size(); ++r) {
     const RowLedger& seen = state.ledger[r];
     if (state.row_state[r] == RowState::awake) {
+      if (seconds <= 0) continue;
       const bool quiet = seen.speed2 < slow * slow && seen.acceleration2 < balanced * balanced;
       quiet_s_[r] = quiet ? quiet_s_[r] + static_cast<float>(seconds) : 0;
       // What neither moves nor is pushed at all, as a body at its start, need not prove it.

@@ -19,7 +19,8 @@ class Sleep {
  public:
   explicit Sleep(const Body& body);
 
-  /// One look at what the last watched step saw of each row. @param seconds  since the last look
+  /// One look at what the last watched step saw of each row.
+  /// @param seconds  since the last look in which rows may fall asleep; 0: none does in this
   template <class Real>
   void look(const Body& body, LatticeState<Real>& state, double seconds) noexcept;
 
