@@ -49,7 +49,7 @@ void add_tissue(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
   refuse_implicit(scene, spec, "force_model = \"tissue\" presses step by step",
                   "force_model = \"norton\", or ");
   auto tool = std::make_unique<TissueTool>(spec, n, touchable, 1 / scene.device(spec.device).rate_Hz,
-                                           scene.physics->integrator);
+                                           1 / scene.physics->frame_Hz, scene.physics->integrator);
   add_pressing(std::move(tool), bodies, box);
 }
 

@@ -21,7 +21,9 @@ constexpr double begins_within = 0.5e-3;  // [m]
 constexpr double corner_before_sample = 0.2;
 constexpr int looks_around = 12;           // a frame; the next one goes on
 constexpr double faces_within = 1 - 1e-6;  // cosine
-constexpr double bears_more = 1.5;         // than the one that is told: then another is
+// Of a hand. Why: the loop gives up beyond 1.8 m/s, and few blows of a hand on tissue reach 1.
+constexpr double fastest_hand = 1;  // [m/s]
+constexpr double bears_more = 1.5;  // than the one that is told: then another is
 
 void refuse_coarse(const ToolSpec& tool, double size, const Body& body) {
   if (follows_shape(body.spacing(), size)) return;
@@ -56,20 +58,21 @@ Vec3 normal_of(const LocalPlane& plane, const Body& body) noexcept {
 }  // namespace
 
 TissueTool::TissueTool(const ToolSpec& tool, std::uint32_t index, const std::vector<TouchableBody>& bodies,
-                       double period, Integrator integrator, const Crew& crew)
+                       double period, double frame, Integrator integrator, const Crew& crew)
     : PressingTool(index, tool.set_point),
       held_(held_shape(tool)),
       integrator_(integrator),
       play_(period),
       faces_(pressed(bodies), held_.shape),
       rubbing_(tool.friction) {
+  const double around = (held_.turns() ? held_.half_diagonal() : 0.0) +
+                        std::max(0.0, fastest_hand * frame - ToolContact::search_margin);
   for (const auto& body : bodies) {
     const Body& shape = body.moving->body();
     const double size = held_.shape.size();
     refuse_coarse(tool, size, shape);
     bodies_.push_back(std::make_unique<Touchable>(
-        Touchable{body.moving,
-                  ToolContact(*body.surface, *body.moving, size, held_.turns() ? held_.half_diagonal() : 0.0),
+        Touchable{body.moving, ToolContact(*body.surface, *body.moving, size, around),
                   BodyModes(shape, modes_of(shape), crew)}));
     near_.emplace_back().reserve(FacePress::most_facets);
     told_modes_ = std::max(told_modes_, static_cast<std::uint32_t>(bodies_.back()->modes.size()));

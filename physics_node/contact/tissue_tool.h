@@ -32,9 +32,10 @@ namespace palpate::physics {
 class TissueTool final : public PressingTool {
  public:
   /// @param period  of the hand's samples [s]
+  /// @param frame   how long it is; facets are sought as far as a hand may come within it [s]
   /// @throws InputError  a body whose cells do not follow a shape of this size
   TissueTool(const ToolSpec& tool, std::uint32_t index, const std::vector<TouchableBody>& bodies,
-             double period, Integrator integrator, const Crew& crew = {});
+             double period, double frame, Integrator integrator, const Crew& crew = {});
 
   void take(const ToolState* state, double dt) noexcept override;
   void find_contact(double t) noexcept override;

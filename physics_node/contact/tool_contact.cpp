@@ -10,7 +10,6 @@
 namespace palpate::physics {
 namespace {
 
-constexpr double search_margin = 0.010;  // [m] beyond the tip: what a hand at 0.2 m/s covers in 50 ms
 constexpr double search_period = 0.020;  // [s] after which tissue may have come near by itself
 constexpr double facing_limit = -0.2;    // cosine below which a facet belongs to the other side
 constexpr std::size_t room = 16384;      // facets kept at the most, the nearest

@@ -73,6 +73,21 @@ TEST(TissueTool, BearsTheSameForceInATapOnTissueThatSleeps) {
   }
 }
 
+/// From 20 mm above within a frame of 50 ms, 0.9 m/s at most.
+TEST(TissueTool, MeetsTissueFromFarInOneFrame) {
+  const auto blow = [](double t) {
+    const double s = std::clamp((t - 0.205) / 0.04, 0.0, 1.0);
+    return Vec3(0.0005, 0.0005, slab_top + 20e-3 - 22e-3 * (0.5 - 0.5 * std::cos(M_PI * s)));
+  };
+  Session often(palpated_slab(1000)), seldom(palpated_slab(20));
+  for (std::uint64_t n = 1; n < 300; ++n) often.to(n, blow);
+  for (std::uint64_t n = 50; n < 300; n += 50) seldom.to(n, blow);
+  EXPECT_GT(pressed(seldom.patch.tissues[0]), 0.1) << "at the end of the frame in which it came";
+  const double force = pressed(often.to(300, blow)), other = pressed(seldom.to(300, blow));
+  EXPECT_GT(force, 0.1);
+  EXPECT_NEAR(other, force, 0.03 * force);
+}
+
 TEST(TissueTool, BearsNothingFromTheFirstSampleThatIsClear) {
   Session session(palpated_slab(1000));
   std::uint64_t n = 1;
