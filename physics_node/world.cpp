@@ -289,7 +289,13 @@ void World::plan_strides(int n, double dt) noexcept {
       if (!tool->forces_on(b).empty()) strides_.act_in_every_step(b);
 }
 
+/// backward_euler solves for all masses at once: none of them can be left out.
 bool World::may_sleep() const noexcept { return scene_.physics->sleep && !is_implicit(); }
+
+bool World::any_asleep() const noexcept {
+  return may_sleep() &&
+         std::ranges::any_of(bodies_, [](const auto& body) { return body->sleeping_fraction() > 0; });
+}
 
 /// What a tool presses in the midst of a frame must not meet tissue that stands until the frame ends.
 void World::wake_disturbed() noexcept {
@@ -307,7 +313,7 @@ void World::divide_frame() noexcept {
   for (int n = 1; n <= n_substeps; ++n) {
     const double share = begun + (1 - begun) * n / n_substeps, dt = (1 - begun) * frame_dt_ / n_substeps;
     unlooked_ += dt;
-    looks_ = n < n_substeps && unlooked_ > look_every - 0.5 * dt && may_sleep();
+    looks_ = n < n_substeps && unlooked_ > look_every - 0.5 * dt && any_asleep();
     step(dt, share, n_substeps - n);
     if (looks_) wake_disturbed();
     const int wanted = static_cast<int>(std::ceil((1 - share) * substeps_of_frame() - rounding));
@@ -328,7 +334,6 @@ void World::frame(std::span<const std::optional<ToolState>> tools) noexcept {
   for (auto& tool : toolbox_.tools) tool->book().frame(tool->borne());
   guard();
   if (collisions_ && collisions_->bodies_are_near()) inside_->look_now_and_then();
-  // backward_euler solves for all masses at once: none of them can be left out.
   if (may_sleep())
     for (auto& body : bodies_) body->sleep_and_wake(frame_dt_);
   t_ += frame_dt_;

@@ -96,6 +96,7 @@ class World {
   void step(double dt, double done, int left) noexcept;
   void move_bodies(double dt, int left) noexcept;
   bool may_sleep() const noexcept;
+  bool any_asleep() const noexcept;
   void wake_disturbed() noexcept;
   void plan_strides(int n, double dt) noexcept;
   void touch(double dt, double done) noexcept;
@@ -136,7 +137,7 @@ class World {
   EnergyAccount account_;
   Booked watched_;    // by tools and contact before the last step of the frame
   Losses cut_since_;  // what cuts have made bodies book after that
-  /// Why: a wave runs through some cells of tissue in that time, and a wake-up is a row further. 1 kHz frames look at their end alone [s].
+  /// Why: as often as frames of 1 kHz look, at their end, and a wake-up is a row further [s].
   static constexpr double look_every = 1e-3;
   double unlooked_ = 0;  // in this frame, since rows at rest were looked at [s]
   bool looks_ = false;   // after this step

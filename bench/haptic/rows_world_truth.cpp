@@ -1,5 +1,6 @@
-// Is what the hand feels of real tissue what the tissue bears? Sines, taps and a step that is held, with the real physics library and the real
-// controller. What tissue bears is known of the sample that ends a frame; of every sample it is known at 1 kHz without delay: the ideal coupling.
+// Is what the hand feels of real tissue what the tissue bears? Sines, taps and a step that is held, with the real
+// physics library and the real controller. What tissue bears is known of the sample that ends a frame; of every
+// sample it is known at 1 kHz without delay, the first of the ages: the ideal coupling.
 
 #include <fmt/format.h>
 
@@ -98,20 +99,15 @@ struct Pair {
 
 /// @return of each slab in turn at each age
 std::vector<Pair> follow_all(const std::vector<const SlabModel*>& slabs, const Motion& motion, int jobs) {
-  constexpr LinkAge none{"0 ms", 1e-3, 1000, 0, 0};
   // 0.2 s more, so that tissue comes to the end.
   const double until = motion.end + 0.2;
-  std::vector<SameSamples> ideal(slabs.size());
   std::vector<Pair> pairs(slabs.size() * link_ages.size());
-  side_by_side(ideal.size(), jobs, [&](std::size_t i) {
-    ideal[i] = follow(slab_case(*slabs[i], none), motion.path, motion.begin, until);
-  });
   side_by_side(pairs.size(), jobs, [&](std::size_t i) {
     const std::size_t slab = i / link_ages.size(), age = i % link_ages.size();
-    pairs[i] = {slabs[slab],
-                follow(slab_case(*slabs[slab], link_ages[age]), motion.path, motion.begin, until),
-                ideal[slab]};
+    pairs[i].slab = slabs[slab];
+    pairs[i].late = follow(slab_case(*slabs[slab], link_ages[age]), motion.path, motion.begin, until);
   });
+  for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i].ideal = pairs[i - i % link_ages.size()].late;
   return pairs;
 }
 

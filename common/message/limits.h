@@ -43,12 +43,11 @@ inline constexpr double most_mode_damping = 1e7;  // c [1/s]
 inline constexpr double largest_shape = 1e3;      // of a mode, of a microgram [1 / sqrt(kg)]
 inline constexpr double largest_state = 1e6;      // of a mode [m sqrt(kg)], and per second
 inline constexpr double most_compliance = 1;      // of what answers at once [m/N]
-inline constexpr double most_growth =
-    1e12;  // of a contact with its force: a ball of 1 m on 1 Pa and 1 mm [1/N]
-inline constexpr double rigid_stiffness = 1e9;  // stands for "does not give" [N/m]
-inline constexpr double most_energy = 1e6;      // [J]
-inline constexpr double largest_field = 1e12;   // that colours show, strain or stress [Pa]
-inline constexpr double largest_value = 1e9;    // of a command or a rate, in its unit
+inline constexpr double most_growth = 1e12;       // of a contact: a ball of 1 m on 1 Pa and 0.1 mm [1/N]
+inline constexpr double rigid_stiffness = 1e9;    // stands for "does not give" [N/m]
+inline constexpr double most_energy = 1e6;        // [J]
+inline constexpr double largest_field = 1e12;     // that colours show, strain or stress [Pa]
+inline constexpr double largest_value = 1e9;      // of a command or a rate, in its unit
 inline constexpr std::int64_t latest_stamp = std::int64_t{1} << 61;  // either side of zero [ns]
 
 /// Why a sample was rejected; index into NodeStatus::rejected.

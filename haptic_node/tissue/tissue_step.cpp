@@ -10,14 +10,25 @@ namespace {
 constexpr int newton_steps = 8;
 constexpr double newton_force = 1e-10;  // that the next one would change F by at most [N]
 
-/// z about F: offset + slope F.
-struct Tangent {
-  double slope, offset, bend;  // slope; z''/ (2 z') up to its sign [1/N]
-  Tangent(const GrowingContact& law, double F) noexcept
-      : slope(law.slope(F)), offset(law.give(F) - slope * F), bend(law.growth / (6 * (1 + law.growth * F))) {}
-  /// Is a root that the tangent has `step` away right? What it leaves is at most that.
-  bool is_enough(double step) const noexcept { return bend * step * step <= newton_force; }
-};
+/// Is the root right that the tangent at F has at `next`? What it leaves is z'' / (2 z') times the square of the step.
+bool is_enough(const GrowingContact& law, double F, double next) noexcept {
+  return law.growth / (6 * (1 + law.growth * F)) * (next - F) * (next - F) <= newton_force;
+}
+
+/// Newton's steps. @param solve  with the tangent of the law at a force: the contact @param from  F to begin with [N]
+template <class Solve>
+FrictionContact solve_growing(const GrowingContact& law, const Vec3& n, double from,
+                              const Solve& solve) noexcept {
+  FrictionContact contact;
+  for (int i = 0; i < newton_steps; ++i) {
+    contact = solve(law.tangent(from));
+    const double next = std::max(0.0, -n.dot(contact.force));
+    const bool over = is_enough(law, from, next);
+    from = next;
+    if (over) break;
+  }
+  return contact;
+}
 
 }  // namespace
 
@@ -70,30 +81,24 @@ FrictionContact TissueStep::press_growing(const Loose& loose, double before) con
   const double damper = spring_.damping / spring_.stiffness, twice = 1 + damper / h_;
   const double late = loose.late - law.give(before) / h_;
   const Vec3 left = n.transpose() * inverse_, right = inverse_ * n;
-  FrictionContact contact;
-  double in = before;
-  for (int i = 0; i < newton_steps; ++i) {
-    const Tangent z(law, in);
+  FrictionContact contact = solve_growing(law, n, before, [&](const GrowingContact::Tangent& z) {
     const double less = twice * (z.slope - law.compliance);
     const Mat3 C = compliance_ + less * n * n.transpose();
     const Mat3 inverse = inverse_ - less / (1 + less * n.dot(right)) * right * left.transpose();
     const Vec3 e = loose.stretch + (damper * late + twice * z.offset) * n;
-    contact = solve_contact(C, inverse, e, n, model_.friction);
-    const double next = std::max(0.0, -n.dot(contact.force));
-    const bool over = z.is_enough(next - in);
-    in = next;
-    if (over) break;
-  }
+    return solve_contact(C, inverse, e, n, model_.friction);
+  });
+  const double in = -n.dot(contact.force);
   if (in <= 0) return contact;
   // (F / (3/2)) / K + z(F / (3/2)) + D F below the surface
   constexpr double share = 1 / (1 + ContactSpring::most_damping);
   const Vec3 along = contact.force / in;
   double most = in;
   for (int i = 0; i < newton_steps; ++i) {
-    const Tangent z(law, share * most);
+    const GrowingContact::Tangent z = law.tangent(share * most);
     const double give = n.dot(bound_ * along) - share * (z.slope - law.compliance);
     const double next = std::max(0.0, (n.dot(loose.stretch) + z.offset) / give);
-    const bool over = z.is_enough(next - most) || (i == 0 && next >= in);
+    const bool over = is_enough(law, share * most, share * next) || (i == 0 && next >= in);
     most = next;
     if (over) break;
   }
@@ -165,16 +170,11 @@ HeldTissue held_tissue(const TissueModel& model, const TissueState& state, const
   const Vec3& force = held.contact.force;
   if (model.growth > 0) {
     const GrowingContact law = model.contact();
-    double in = pressed(model, state);
-    for (int i = 0; i < newton_steps; ++i) {
-      const Tangent z(law, in);
+    held.contact = solve_growing(law, n, pressed(model, state), [&](const GrowingContact::Tangent& z) {
       const Mat3 less = (z.slope - law.compliance) * n * n.transpose();
-      held.contact = solve_contact(C + less, e + z.offset * n, n, model.friction);
-      const double next = std::max(0.0, -n.dot(force));
-      const bool over = z.is_enough(next - in);
-      in = next;
-      if (over) break;
-    }
+      return solve_contact(C + less, e + z.offset * n, n, model.friction);
+    });
+    const double in = std::max(0.0, -n.dot(force));
     const double linear = law.compliance * in * in;
     held.spring_energy = 0.5 * (force.dot(C * force) - linear) + law.energy(in);
   } else {

@@ -16,8 +16,9 @@ namespace {
 // curved. Why: slower than a hand palpates.
 constexpr double offset_smoothing = 0.1;  // [s]
 constexpr double rest_smoothing = 5e-3;   // of what modes do not tell [s]
-// Where a touch begins: of the size of a cell, and of the shape's. Why: a force on one face of a cell is borne as by a round patch of this
-// radius (slabs of springs and of elements, 30 and 100 kPa, to 8 %); a stick lies on more than a ball does, a flat end on all of it.
+// Where a touch begins: of the size of a cell, and of the shape's. Why: a force on one face of a cell is borne as
+// by a round patch of this radius (slabs of springs and of elements, 30 and 100 kPa: elements to 8 %, springs to
+// 14 %); a stick lies on more than a ball does, a flat end on all of it.
 constexpr double smallest_of_cell = 0.48, smallest_of_ball = 0.05, smallest_of_others = 1;
 // Of its size: how far aside a tip still presses what it touched.
 constexpr double same_place = 0.2;
@@ -71,19 +72,14 @@ double TissueTool::share_beside_modes(const Touchable& body, const Shapes& psi,
   for (std::size_t i = 0; i < body.modes.size(); ++i)
     if (const double along = psi[i].dot(pose_.normal()); body.modes.omega2(i) > 0)
       modal += along * along / body.modes.omega2(i);
-  // slope() where z is usual_depth rho, a^2 = a_0^2 + rho z
-  const double a_0 =
-      law.compliance > 0 ? 1 / (2 * half_space_modulus(body.moving->body()) * law.compliance) : 0;
-  const double rho = held_.turns() ? 0.0 : held_.shape.size();
-  const double all = law.compliance * a_0 / std::sqrt(a_0 * a_0 + usual_depth * rho * rho);
-  return 1 - modal / all;
+  return 1 - modal / law.slope_at(usual_depth * held_.shape.size());
 }
 
 /// What does not follow the modes is learnt along the normal, and while it goes along that rather than
 /// across: where it slides, forces change with the place.
-void TissueTool::follow_compliance(const Touchable& body, const Shapes& psi, const Told& now) noexcept {
+void TissueTool::follow_compliance(const Touchable& body, const Shapes& psi, const GrowingContact& law,
+                                   const Told& now) noexcept {
   const Vec3& n = pose_.normal();
-  const GrowingContact law = closed_form(body);
   double moved = 0;
   for (std::size_t i = 0; i < body.modes.size(); ++i) moved -= psi[i].dot(n) * (now.q[i] - told_.q[i]);
   if (told_at_ > 0 && now.force > 0 && told_.force > 0 && since_told() > 0) {
@@ -92,16 +88,20 @@ void TissueTool::follow_compliance(const Touchable& body, const Shapes& psi, con
     if ((way + in * n).norm() <= std::abs(in))
       residual_.follow(law.give(now.force) - law.give(told_.force), in - moved, since_told());
   } else if (now.force <= 0 || told_at_ == 0) {
-    if (learns_of_ != touched_) first_.begin(share_beside_modes(body, psi, law));
-    learns_of_ = touched_;
+    if (learns_of_ != touched_) {
+      first_.begin(share_beside_modes(body, psi, law));
+      free_at_.reset();
+      learns_of_ = touched_;
+    }
     residual_.begin(first_.value());
   }
 }
 
-/// How far it has given since the surface was free where it was pressed hardest in this frame, which may hold a whole tap; as long as that is
-/// one place, and comes back to that surface. @param way  of the modes now [m]  @param force  now [N]
-void TissueTool::follow_first_touch(const Touchable& body, const Shapes& psi, const Vec3& way,
-                                    double force) noexcept {
+/// How far it has given since the surface was free where it was pressed hardest in this frame, which may hold a
+/// whole tap; as long as that is one place, and comes back to that surface.
+/// @param way  of the modes now [m]  @param force  now [N]
+void TissueTool::follow_first_touch(const Touchable& body, const Shapes& psi, const GrowingContact& law,
+                                    const Vec3& way, double force) noexcept {
   const Vec3& n = pose_.normal();
   if (free_at_ && told_at_ > 0 && since_told() > 0 && hardest_.force > 0) {
     Vec3 modal = way;
@@ -116,7 +116,7 @@ void TissueTool::follow_first_touch(const Touchable& body, const Shapes& psi, co
     if (aside || !remembers_rest(body.moving->body()))
       free_at_.reset();
     else
-      first_.follow(closed_form(body).give(hardest_.force), in, since_told());
+      first_.follow(law.give(hardest_.force), in, since_told());
   }
   if (force <= 0) free_at_ = tip_now() - way;
 }
@@ -142,17 +142,18 @@ void TissueTool::tell(TouchedTissue& tissue) noexcept {
   now.tip = tip_now();
   now.force = std::max(0.0, -on_tissue_.dot(n));
   body.modes.measure(*body.moving, now.q, now.w);
-  follow_compliance(body, psi, now);
+  const GrowingContact law = closed_form(body);
+  follow_compliance(body, psi, law, now);
   Modal q = now.q;
   take_offsets(body, psi, q);
-  GrowingContact gives = closed_form(body);
+  GrowingContact gives = law;
   gives.compliance = std::min(residual_.value() * gives.compliance, most_compliance);
   const double across = std::min(across_to_along * gives.slope(now.force), most_compliance);
   const Vec3& force = on_tissue_;
 
   Vec3 way = Vec3::Zero();
   for (std::size_t i = 0; i < body.modes.size(); ++i) way += q[i] * psi[i];
-  follow_first_touch(body, psi, way, now.force);
+  follow_first_touch(body, psi, law, way, now.force);
   Vec3 rest = now.tip - way - across * (force + now.force * n) + gives.give(now.force) * n;
   if (told_at_ > 0 && now.force > 0 && told_.force > 0) {
     // What has slid has done so at once; the rest is what modes do not tell.

@@ -98,9 +98,11 @@ class TissueTool final : public PressingTool {
   }
   Shapes find_shapes(const Touchable& body) const noexcept;
   void take_offsets(const Touchable& body, const Shapes& psi, Modal& q) noexcept;
-  void follow_compliance(const Touchable& body, const Shapes& psi, const Told& now) noexcept;
+  void follow_compliance(const Touchable& body, const Shapes& psi, const GrowingContact& law,
+                         const Told& now) noexcept;
   GrowingContact closed_form(const Touchable& body) const noexcept;
-  void follow_first_touch(const Touchable& body, const Shapes& psi, const Vec3& way, double force) noexcept;
+  void follow_first_touch(const Touchable& body, const Shapes& psi, const GrowingContact& law,
+                          const Vec3& way, double force) noexcept;
   double share_beside_modes(const Touchable& body, const Shapes& psi,
                             const GrowingContact& law) const noexcept;
   void tell(TouchedTissue& tissue) noexcept;

@@ -23,8 +23,8 @@ struct LocalPlane {
 
 class ToolContact {
  public:
-  static constexpr double search_margin =
-      0.010;  // beyond the tip: what a hand at 0.2 m/s covers in 50 ms [m]
+  /// Beyond the tip: what a hand at 0.2 m/s covers in 50 ms [m].
+  static constexpr double search_margin = 0.010;
 
   /// @param radius  of the tip: its force fades out smoothly over twice that, and over two cells at least [m]
   /// @param farther  that facets are looked for beyond it [m]

@@ -47,7 +47,8 @@ class Stepper {
   virtual Bounces bounce_off(const Plane& plane, double e, double dt) noexcept = 0;
 
   /// Lets quiet rows sleep and disturbed ones wake, from what the last watched step saw.
-  /// @param seconds  since the last call at the end of a frame; 0: in the midst of one, where rows wake but none falls asleep
+  /// @param seconds  since the last call at the end of a frame; 0: in the midst of one, where rows wake but none
+  ///                 falls asleep
   virtual void sleep_and_wake(double seconds) noexcept = 0;
   virtual void wake_all() noexcept = 0;
   virtual double sleeping_fraction() const noexcept = 0;  // of the masses

@@ -16,6 +16,10 @@ TEST(GrowingContact, IsAsStiffAsThePatchIsWide) {
     for (const double F : {0.0, 1e-6, 0.01, 0.3, 20.0}) {
       const double a = std::sqrt(patch * patch + rho * law.give(F));
       EXPECT_NEAR(law.slope(F) * 2 * E * a, 1, 1e-12) << patch << " " << F;
+      EXPECT_NEAR(law.slope_at(law.give(F)), law.slope(F), 1e-12 * law.slope(F));
+      const GrowingContact::Tangent z = law.tangent(F);
+      EXPECT_EQ(z.slope, law.slope(F));
+      EXPECT_NEAR(z.offset + z.slope * F, law.give(F), 1e-12 * law.give(F));
     }
   }
 }
