@@ -154,43 +154,47 @@ Row world_tissue_swings(Runs& runs) {
       "T1",
       "real library and controller: 0.5 mm about 2 mm, 0.5 to 20 Hz, ages of 2, 20, 100 ms (10 % loss); "
       "slabs of springs and of elements, 30 and 100 kPa; apart a viscous one (5 ms) and one that relaxes",
-      "felt / borne within 6 %, 6 deg; of what flows, which the copy does not know, 20 %, 20 deg; borne / "
-      "ideal within 5 %; G <= 0.1 mJ",
+      "felt / borne within 6 %, 6 deg; of what flows 6 %, 7 deg; borne / ideal within 5 %; G <= 0.1 mJ",
       fmt::format("felt off by {}; of what flows {}; borne by {:.2f} %; G {:.3f} mJ", felt.text(),
                   flowing.text(), 100 * borne, 1e3 * surplus),
-      felt.within(0.06, 6) && flowing.within(0.2, 20) && borne <= 0.05 && surplus <= EnergyBook::G_allowed};
+      felt.within(0.06, 6) && flowing.within(0.06, 7) && borne <= 0.05 && surplus <= EnergyBook::G_allowed};
 }
 
 Row world_tissue_taps(Runs& runs) {
   struct Off {
     double peak = 0, impulse = 0;
+
+    std::string text() const {
+      return fmt::format("peak off by {:.2f} %, impulse by {:.2f} %", 100 * peak, 100 * impulse);
+    }
+    bool within(double of_peak, double of_impulse) const { return peak <= of_peak && impulse <= of_impulse; }
   };
   std::array<Off, n_taps> off{};
+  Off viscous;
   double surplus = 0;
   for (const Pair& pair : follow_all(slabs_of(runs), taps(), runs.jobs)) {
-    if (pair.slab == &viscous_slab) continue;
     surplus = std::max(surplus, pair.late.surplus);
     for (int n = 0; n < n_taps; ++n) {
-      Off& of = off[static_cast<std::size_t>(n)];
+      Off& of = pair.slab == &viscous_slab ? viscous : off[static_cast<std::size_t>(n)];
       const Tap felt = tap_in(pair.late.felt, n), borne = tap_in(pair.ideal.borne, n);
       of.peak = std::max(of.peak, std::abs(felt.peak / borne.peak - 1));
       of.impulse = std::max(of.impulse, std::abs(felt.impulse / borne.impulse - 1));
     }
   }
   const Off &first = off.front(), &last = off.back();
-  return {
-      "T2",
-      "the same slabs, the viscous one apart: three taps of 0.1 s, 2 mm deep, from 3 mm above, all ages",
-      "felt / borne, the first: peak within 9 %, impulse within 8 %; the third: 5 %, 3 %; G <= 0.1 mJ",
-      fmt::format(
-          "the first: peak off by {:.2f} %, impulse by {:.2f} %; the third: {:.2f} %, {:.2f} %; G {:.3f} mJ",
-          100 * first.peak, 100 * first.impulse, 100 * last.peak, 100 * last.impulse, 1e3 * surplus),
-      first.peak <= 0.09 && first.impulse <= 0.08 && last.peak <= 0.05 && last.impulse <= 0.03 &&
-          surplus <= EnergyBook::G_allowed};
+  return {"T2",
+          "the same slabs: three taps of 0.1 s, 2 mm deep, from 3 mm above, all ages; the viscous one apart",
+          "felt / borne, the first: peak within 5 %, impulse within 2 %; the third: the same; of the viscous "
+          "one all: 5 %, "
+          "4 %; G <= 0.1 mJ",
+          fmt::format("the first: {}; the third: {}; the viscous one: {}; G {:.3f} mJ", first.text(),
+                      last.text(), viscous.text(), 1e3 * surplus),
+          first.within(0.05, 0.02) && last.within(0.05, 0.02) && viscous.within(0.05, 0.04) &&
+              surplus <= EnergyBook::G_allowed};
 }
 
 Row world_tissue_relaxes(Runs& runs) {
-  double worst = 0, relaxing = 0;
+  double worst = 0;
   for (const Pair& pair : follow_all(slabs_of(runs), press_and_hold(), runs.jobs)) {
     double off = 0, whole = 0;
     for (const auto& [sample, force] : pair.ideal.borne)
@@ -198,15 +202,11 @@ Row world_tissue_relaxes(Runs& runs) {
         off += (at->second - force).squaredNorm();
         whole += force.squaredNorm();
       }
-    double& most = pair.slab == &relaxing_slab ? relaxing : worst;
-    most = std::max(most, std::sqrt(off / whole));
+    worst = std::max(worst, std::sqrt(off / whole));
   }
-  return {"T3",
-          "the same slabs: 2 mm pressed in 20 ms and held for 2.9 s, all ages; what relaxes apart, whose "
-          "branches are not told",
-          "root mean square of felt less borne within 3 %, of what relaxes within 4 %",
-          fmt::format("{:.2f} %; what relaxes {:.2f} %", 100 * worst, 100 * relaxing),
-          worst <= 0.03 && relaxing <= 0.04};
+  return {"T3", "the same slabs: 2 mm pressed in 20 ms and held for 2.9 s, all ages",
+          "root mean square of felt less borne within 1 %", fmt::format("{:.2f} %", 100 * worst),
+          worst <= 0.01};
 }
 
 }  // namespace palpate::bench

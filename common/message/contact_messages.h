@@ -53,11 +53,13 @@ struct ModeOfTissue {
   friend bool operator==(const ModeOfTissue&, const ModeOfTissue&) = default;
 };
 
-/// A spring that relaxes: place' = (depth - place) / time.
+/// What relaxes: a spring beside the modes, place' = (depth - place) / time; and a share of what the contact itself bears.
 struct BranchOfTissue {
   double stiffness = 0;  // [N/m]
   double time = 1;       // > 0 [s]
   double place = 0;      // now, below the rest [m]
+  double share = 0;      // of the contact, over what stays [1]
+  double force = 0;      // that the contact has come to: force' = (what stays - force) / time [N]
 
   template <class Visit>
   static constexpr void fields(Visit&& visit) {
@@ -65,6 +67,8 @@ struct BranchOfTissue {
     visit(PALPATE_FIELD(stiffness), up_to(rigid_stiffness));
     visit(PALPATE_FIELD(time), above_zero(longest_time));
     visit(PALPATE_FIELD(place), within(farthest_hand));
+    visit(PALPATE_FIELD(share), up_to(most_flow));
+    visit(PALPATE_FIELD(force), up_to(strongest_tissue));
   }
   friend bool operator==(const BranchOfTissue&, const BranchOfTissue&) = default;
 };
@@ -73,8 +77,8 @@ struct BranchOfTissue {
 struct TouchedTissue {
   std::uint64_t sample = 0;  // ToolState.sample that the tissue has been pressed by last
   Array3 normal{0, 0, 1};    // out of the tissue, unit
-  double residual = 0;  // compliance of all that follows at once, along the normal, at the first touch [m/N]
-  double growth = 0;    // of the contact: residual / (1 + growth F)^(1/3) at F, see growing_contact.h [1/N]
+  double residual = 0;       // compliance of all else, along the normal, at the first touch [m/N]
+  double growth = 0;  // of the contact: residual / (1 + growth F)^(1/3) at F, see growing_contact.h [1/N]
   double residual_across = 0;  // and across it [m/N]
   Array3 arm{};                // from the hand's tip to where the tool is touched [m]
   Array3 rest{};               // place of the tip that modes and residual lie on [m]

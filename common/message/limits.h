@@ -15,7 +15,7 @@ inline constexpr std::uint32_t max_bodies = 64;
 inline constexpr std::uint32_t max_patch_facets = 16;
 // Samples of the hand that ToolState has beside the newest. Why: with them it is one frame of Ethernet, and 64 ms cover physics at 20 Hz.
 inline constexpr std::uint32_t max_told_samples = 64;
-inline constexpr std::uint32_t max_tissue_modes = 9, max_tissue_branches = 4;
+inline constexpr std::uint32_t max_tissue_modes = 9, max_tissue_branches = 5;
 inline constexpr std::uint32_t max_surface_vertices = 2048;  // in one BodySurface chunk
 inline constexpr std::uint32_t max_surface_facets = 2048;    // in one BodySurface chunk
 inline constexpr std::uint32_t max_surface_chunks = 16384;   // of one body: 33 million vertices
@@ -42,7 +42,8 @@ inline constexpr double stiffest_mode = 1e13;     // omega^2 [1/s^2]
 inline constexpr double most_mode_damping = 1e7;  // c [1/s]
 inline constexpr double largest_shape = 1e3;      // of a mode, of a microgram [1 / sqrt(kg)]
 inline constexpr double largest_state = 1e6;      // of a mode [m sqrt(kg)], and per second
-inline constexpr double most_compliance = 1;      // of what answers at once [m/N]
+inline constexpr double most_compliance = 1;      // beside modes [m/N]
+inline constexpr double most_flow = 1e6;          // of what relaxes in it, over what stays
 inline constexpr double most_growth = 1e12;       // of a contact: a ball of 1 m on 1 Pa and 0.1 mm [1/N]
 inline constexpr double rigid_stiffness = 1e9;    // stands for "does not give" [N/m]
 inline constexpr double most_energy = 1e6;        // [J]

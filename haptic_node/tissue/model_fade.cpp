@@ -22,7 +22,8 @@ bool same_parameters(const TissueModel& a, const TissueModel& b) noexcept {
         a.modes[i].damping != b.modes[i].damping)
       return false;
   for (std::uint32_t j = 0; j < a.n_branches; ++j)
-    if (a.branches[j].stiffness != b.branches[j].stiffness || a.branches[j].time != b.branches[j].time)
+    if (a.branches[j].stiffness != b.branches[j].stiffness || a.branches[j].time != b.branches[j].time ||
+        a.branches[j].share != b.branches[j].share)
       return false;
   return a.normal == b.normal && a.friction == b.friction && a.residual == b.residual &&
          a.growth == b.growth && a.residual_across == b.residual_across;
@@ -41,6 +42,7 @@ TissueModel mixed(const TissueModel& a, const TissueModel& b, double beta) noexc
   for (std::uint32_t j = 0; j < m.n_branches; ++j) {
     m.branches[j].stiffness = between(a.branches[j].stiffness, b.branches[j].stiffness, beta);
     m.branches[j].time = between(a.branches[j].time, b.branches[j].time, beta);
+    m.branches[j].share = between(a.branches[j].share, b.branches[j].share, beta);
   }
   m.residual = between(a.residual, b.residual, beta);
   m.growth = between(a.growth, b.growth, beta);
@@ -56,7 +58,10 @@ TissueState mixed(const TissueCopy& felt, const TissueCopy& shadow, const Tissue
     s.q[i] = between(felt.state.q[i], shadow.state.q[i], beta);
     s.w[i] = between(felt.state.w[i], shadow.state.w[i], beta);
   }
-  for (std::uint32_t j = 0; j < m.n_branches; ++j) s.p[j] = between(felt.state.p[j], shadow.state.p[j], beta);
+  for (std::uint32_t j = 0; j < m.n_branches; ++j) {
+    s.p[j] = between(felt.state.p[j], shadow.state.p[j], beta);
+    s.f[j] = between(felt.state.f[j], shadow.state.f[j], beta);
+  }
   s.rest = between(modal_surface(felt.step.model(), felt.state),
                    modal_surface(shadow.step.model(), shadow.state), beta) -
            modal_way(m, s);

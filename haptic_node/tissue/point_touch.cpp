@@ -24,8 +24,9 @@ TissueAnswer answer_of(const TouchedTissue& told, double friction) noexcept {
   }
   model.n_branches = std::min<std::uint32_t>(told.n_branches, TissueModel::most_branches);
   for (std::uint32_t j = 0; j < model.n_branches; ++j) {
-    model.branches[j] = {told.branches[j].stiffness, told.branches[j].time};
-    state.p[j] = told.branches[j].place;
+    const BranchOfTissue& branch = told.branches[j];
+    model.branches[j] = {branch.stiffness, branch.time, branch.share};
+    state.p[j] = branch.place, state.f[j] = branch.force;
   }
   model.residual = told.residual;
   model.growth = told.growth;
@@ -48,7 +49,7 @@ void PointTouch::take(const ContactPatch& patch) noexcept {
   known_ = true;
   normal_ = answer.model.normal;
   arm_ = answer.arm;
-  surface_ = modal_surface(answer.model, answer.state) + answer.model.residual_way(answer.state.force);
+  surface_ = modal_surface(answer.model, answer.state) + residual_way(answer.model, answer.state);
   const Vec3 before = touch_.shadow_copy().state.force;
   if (!touch_.take(answer) || !foretold) return;
   const Vec3& now = touch_.shadow_copy().state.force;

@@ -26,7 +26,8 @@ bool is_sound(const TissueAnswer& answer, std::uint32_t tool) noexcept {
   for (std::uint32_t j = 0; j < m.n_branches; ++j) {
     if (!within(m.branches[j].stiffness, 0, rigid_stiffness)) return false;
     if (!(m.branches[j].time > 0) || !std::isfinite(m.branches[j].time)) return false;
-    if (!within(s.p[j], farthest_hand)) return false;
+    if (!within(m.branches[j].share, 0, most_flow)) return false;
+    if (!within(s.p[j], farthest_hand) || !within(s.f[j], 0, strongest_tissue)) return false;
   }
   return within(answer.arm, farthest_hand) && within(m.friction, 0, largest_friction) &&
          within(m.residual, 0, most_compliance) && within(m.residual_across, 0, most_compliance) &&

@@ -4,9 +4,15 @@
 //   q_i'' + c_i q_i' + omega_i^2 q_i = psi_i . (F + F_r n),     y = r + sum psi_i q_i,     S = y + R F
 //   F_r = sum k_j (d - p_j),   p_j' = (d - p_j) / tau_j,   d = -n . (y - r)
 //
-// R F along n: z(F) of a contact that grows (common/math/growing_contact.h).
+// R F along n: z(F_e) of a contact that grows (common/math/growing_contact.h). What flows under the tip as well bears F by more than that,
+//
+//   F = F_e + sum g_j (F_e - f_j),   f_j' = (F_e - f_j) / tau_j
+//
+// as tissue does of which each part relaxes alike, since the patch it is pressed on follows from z (Lee & Radok 1960, while it grows).
+// A viscous one, F = F_e + beta F_e', is a branch of g = beta / tau with a short tau. A cycle gives nothing, since z grows with F_e.
+//
 // S is where the surface is, n its normal, out of the tissue; the tip rubs there with Coulomb's friction mu. Modes (normalised by mass), the
-// compliance R of all that follows at once, along n and across it, branches that relax along n, and the rest r that they lie on. What slides
+// compliance R of all that is not of them, along n and across it, branches that relax along n, and the rest r that they lie on. What slides
 // moves r along the surface. No modes, no compliance: a wall at r.
 
 #include <algorithm>
@@ -29,6 +35,7 @@ struct TissueMode {
 struct RelaxingBranch {
   double stiffness = 0;  // k [N/m]
   double time = 1;       // tau, > 0 [s]
+  double share = 0;      // g
 };
 
 struct TissueModel {
@@ -44,20 +51,24 @@ struct TissueModel {
   bool same_counts(const TissueModel& other) const noexcept {
     return n_modes == other.n_modes && n_branches == other.n_branches;
   }
-  GrowingContact contact() const noexcept { return {residual, growth}; }  // along n
-  Mat3 compliance() const noexcept {                                      // R at the first touch
-    return residual_across * Mat3::Identity() + (residual - residual_across) * normal * normal.transpose();
+  GrowingContact contact() const noexcept { return {residual, growth}; }  // z
+  /// 1 + sum g: F over F_e where it changes at once.
+  double stiffening() const noexcept {
+    double all = 1;
+    for (std::uint32_t j = 0; j < n_branches; ++j) all += branches[j].share;
+    return all;
   }
-  /// Where a force moves the surface at once [m].
-  Vec3 residual_way(const Vec3& force) const noexcept {
-    const double in = -normal.dot(force);
-    return residual_across * (force + in * normal) - contact().give(std::max(0.0, in)) * normal;
+  /// R at the first touch. @param share  of R along n
+  Mat3 compliance(double share = 1) const noexcept {
+    return residual_across * Mat3::Identity() +
+           (share * residual - residual_across) * normal * normal.transpose();
   }
 };
 
 struct TissueState {
   std::array<double, TissueModel::most_modes> q{}, w{};  // [m sqrt(kg)], and per second
   std::array<double, TissueModel::most_branches> p{};    // where relaxing branches lie, below r [m]
+  std::array<double, TissueModel::most_branches> f{};    // what those of the contact have come to [N]
   Vec3 rest = Vec3::Zero();                              // r [m]
   Vec3 force = Vec3::Zero();                             // F [N]
 };
@@ -97,6 +108,25 @@ inline double relaxing_force(const TissueModel& model, const TissueState& state,
   for (std::uint32_t j = 0; j < model.n_branches; ++j)
     force += model.branches[j].stiffness * (d - state.p[j]);
   return force;
+}
+
+/// sum g f [N]
+inline double flowed(const TissueModel& model, const TissueState& state) noexcept {
+  double sum = 0;
+  for (std::uint32_t j = 0; j < model.n_branches; ++j) sum += model.branches[j].share * state.f[j];
+  return sum;
+}
+
+/// F_e, of a force F into the tissue that acts now [N].
+inline double staying(const TissueModel& model, const TissueState& state, double F) noexcept {
+  return std::max(0.0, (F + flowed(model, state)) / model.stiffening());
+}
+
+/// How far the residual has let the surface go under F, along n and across it [m].
+inline Vec3 residual_way(const TissueModel& model, const TissueState& state) noexcept {
+  const double in = pressed(model, state);
+  return model.residual_across * (state.force + in * model.normal) -
+         model.contact().give(staying(model, state, in)) * model.normal;
 }
 
 /// In modes and branches: sum (w^2 + omega^2 q^2) / 2 + sum k (d - p)^2 / 2 [J]. That of the compliance belongs to the spring.

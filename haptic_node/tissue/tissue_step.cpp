@@ -10,24 +10,33 @@ namespace {
 constexpr int newton_steps = 8;
 constexpr double newton_force = 1e-10;  // that the next one would change F by at most [N]
 
-/// Is the root right that the tangent at F has at `next`? What it leaves is z'' / (2 z') times the square of the step.
-bool is_enough(const GrowingContact& law, double F, double next) noexcept {
-  return law.growth / (6 * (1 + law.growth * F)) * (next - F) * (next - F) <= newton_force;
-}
-
 /// Newton's steps. @param solve  with the tangent of the law at a force: the contact @param from  F to begin with [N]
 template <class Solve>
-FrictionContact solve_growing(const GrowingContact& law, const Vec3& n, double from,
+FrictionContact solve_growing(const FlowingContact& law, const Vec3& n, double from,
                               const Solve& solve) noexcept {
   FrictionContact contact;
   for (int i = 0; i < newton_steps; ++i) {
     contact = solve(law.tangent(from));
     const double next = std::max(0.0, -n.dot(contact.force));
-    const bool over = is_enough(law, from, next);
+    const bool over = law.is_enough(from, next, newton_force);
     from = next;
     if (over) break;
   }
   return contact;
+}
+
+/// In contact and branches, where F acts now: with U the integral of F dz, U(F_e) and for each branch
+/// g (U(F_e) - U(f) - f (z(F_e) - z(f))), which is at least 0 and loses what it is not given (g R (F_e - f)^2 / 2 of a law that is linear).
+double contact_energy(const TissueModel& model, const TissueState& state, double F) noexcept {
+  const GrowingContact law = model.contact();
+  const double stays = staying(model, state, F), stored = law.energy(stays);
+  double energy = stored;
+  for (std::uint32_t j = 0; j < model.n_branches; ++j)
+    if (const double g = model.branches[j].share; g > 0) {
+      const double f = state.f[j];
+      energy += g * std::max(0.0, stored - law.energy(f) - f * (law.give(stays) - law.give(f)));
+    }
+  return energy;
 }
 
 }  // namespace
@@ -42,13 +51,16 @@ TissueStep::TissueStep(const TissueModel& model, const ContactSpring& spring, do
     D += modes_[i].c1 * psi * psi.transpose();
     E += modes_[i].d1 * psi * psi.transpose();
   }
+  double flowing = 1;
   for (std::uint32_t j = 0; j < model.n_branches; ++j) {
     // p' = (d - p) / tau: a held d leaves 1 - e^-u, one that grows from 0 to 1 leaves 1 - (1 - e^-u) / u, u = h / tau
     const double u = h / model.branches[j].time;
     const double keep = std::exp(-u), mean = -std::expm1(-u) / u;
     branches_[j] = {keep, mean - keep, 1 - mean};
     relaxing_ += model.branches[j].stiffness * mean;
+    flowing += model.branches[j].share * mean;
   }
+  flowing_ = 1 / flowing;
   pushed_ = D * n;
   sped_ = E * n;
   held_ = 1 / (1 + relaxing_ * n.dot(pushed_));
@@ -56,36 +68,36 @@ TissueStep::TissueStep(const TissueModel& model, const ContactSpring& spring, do
   D -= held_ * relaxing_ * pushed_ * pushed_.transpose();
   E -= held_ * relaxing_ * sped_ * pushed_.transpose();
   const double K = spring.stiffness;
-  const Mat3 R = model.compliance(), still = Mat3::Identity() / K + R;
+  const Mat3 R = model.compliance(flowing_), still = Mat3::Identity() / K + R;
   compliance_ = still + D + spring.damping / K * n * (n.transpose() * (R / h + E));
   inverse_ = compliance_.inverse();
   bound_ = still / (1 + ContactSpring::most_damping) + D;
 }
 
-FrictionContact TissueStep::press(const Loose& loose, double before) const noexcept {
+FrictionContact TissueStep::press(const Loose& loose, const FlowingContact& law) const noexcept {
   const Vec3& n = model_.normal;
-  const double late = loose.late - model_.residual * before / h_;
-  const Vec3 e = loose.stretch + spring_.damping / spring_.stiffness * late * n;
+  const double damper = spring_.damping / spring_.stiffness, lags = law.give(0);
+  const Vec3 e = loose.stretch + (damper * (loose.late + lags / h_) + lags) * n;
   FrictionContact contact = solve_contact(compliance_, inverse_, e, n, model_.friction);
   const double in = -n.dot(contact.force);
   if (in <= 0) return contact;
   const Vec3 along = contact.force / in;
-  const double most = n.dot(loose.stretch) / n.dot(bound_ * along);
+  const double most = (n.dot(loose.stretch) + lags) / n.dot(bound_ * along);
   if (most > 0 && most < in) contact.force = most * along;
   return contact;
 }
 
-FrictionContact TissueStep::press_growing(const Loose& loose, double before) const noexcept {
+FrictionContact TissueStep::press_growing(const Loose& loose, const FlowingContact& law,
+                                          double before) const noexcept {
   const Vec3& n = model_.normal;
-  const GrowingContact law = model_.contact();
   const double damper = spring_.damping / spring_.stiffness, twice = 1 + damper / h_;
-  const double late = loose.late - law.give(before) / h_;
+  const double gives = law.share * law.law.compliance;  // of the linear part
   const Vec3 left = n.transpose() * inverse_, right = inverse_ * n;
   FrictionContact contact = solve_growing(law, n, before, [&](const GrowingContact::Tangent& z) {
-    const double less = twice * (z.slope - law.compliance);
+    const double less = twice * (z.slope - gives);
     const Mat3 C = compliance_ + less * n * n.transpose();
     const Mat3 inverse = inverse_ - less / (1 + less * n.dot(right)) * right * left.transpose();
-    const Vec3 e = loose.stretch + (damper * late + twice * z.offset) * n;
+    const Vec3 e = loose.stretch + (damper * loose.late + twice * z.offset) * n;
     return solve_contact(C, inverse, e, n, model_.friction);
   });
   const double in = -n.dot(contact.force);
@@ -96,9 +108,9 @@ FrictionContact TissueStep::press_growing(const Loose& loose, double before) con
   double most = in;
   for (int i = 0; i < newton_steps; ++i) {
     const GrowingContact::Tangent z = law.tangent(share * most);
-    const double give = n.dot(bound_ * along) - share * (z.slope - law.compliance);
+    const double give = n.dot(bound_ * along) - share * (z.slope - gives);
     const double next = std::max(0.0, (n.dot(loose.stretch) + z.offset) / give);
-    const bool over = is_enough(law, share * most, share * next) || (i == 0 && next >= in);
+    const bool over = law.is_enough(share * most, share * next, newton_force) || (i == 0 && next >= in);
     most = next;
     if (over) break;
   }
@@ -128,12 +140,15 @@ void TissueStep::advance(TissueState& state, const TipSample& tip) const noexcep
   const double relaxed = held_ * (-relaxing_ * n.dot(way) - lag);  // F_r+ without F+
   const Vec3 stretch = tip.x - state.rest - way - relaxed * pushed_;
   const Vec3 across = stretch - n.dot(stretch) * n;
+  const double before = pressed(model_, state), stays = staying(model_, state, before);
+  FlowingContact law{model_.contact(), flowing_, 0};
+  for (std::uint32_t j = 0; j < model_.n_branches; ++j)
+    law.lag += model_.branches[j].share * (branches_[j].keep * state.f[j] + branches_[j].first * stays);
 
   Vec3 force = Vec3::Zero();
-  if (n.dot(stretch) < 0) {
-    const Loose loose{stretch, n.dot(tip.v - speed - relaxed * sped_)};
-    const double before = pressed(model_, state);
-    const FrictionContact contact = model_.growth > 0 ? press_growing(loose, before) : press(loose, before);
+  if (n.dot(stretch) + law.give(0) < 0) {
+    const Loose loose{stretch, n.dot(tip.v - speed - relaxed * sped_) - law.law.give(stays) / h_};
+    const FrictionContact contact = model_.growth > 0 ? press_growing(loose, law, before) : press(loose, law);
     force = contact.force;
     state.rest += n.dot(force) < 0 ? contact.gap : across;
   } else {
@@ -148,9 +163,23 @@ void TissueStep::advance(TissueState& state, const TipSample& tip) const noexcep
     state.w[i] = w[i] + modes_[i].d1 * g;
   }
   const double d_end = model_.n_branches > 0 ? -n.dot(modal_way(model_, state)) : 0.0;
-  for (std::uint32_t j = 0; j < model_.n_branches; ++j)
-    state.p[j] = branches_[j].keep * state.p[j] + branches_[j].first * d + branches_[j].last * d_end;
+  const double stays_end = law.staying(std::max(0.0, -n.dot(force)));
+  for (std::uint32_t j = 0; j < model_.n_branches; ++j) {
+    const Branch& b = branches_[j];
+    state.p[j] = b.keep * state.p[j] + b.first * d + b.last * d_end;
+    state.f[j] = b.keep * state.f[j] + b.first * stays + b.last * stays_end;
+  }
   state.force = force;
+}
+
+/// z' = dz/dF_e F_e', F_e' = flowing (F' + sum g f'), f' of F_e as it is now.
+double TissueStep::rising(const TissueState& state, double speed) const noexcept {
+  const double stays = staying(model_, state, pressed(model_, state));
+  double relaxes = 0;
+  for (std::uint32_t j = 0; j < model_.n_branches; ++j)
+    relaxes += model_.branches[j].share * (1 - branches_[j].keep) / h_ * (stays - state.f[j]);
+  const double slope = flowing_ * model_.contact().slope(stays);
+  return spring_.series(slope) * (speed - slope * relaxes);
 }
 
 StepWork TissueStep::advance(TissueState& state, const Vec3& before, const TipSample& tip) const noexcept {
@@ -165,22 +194,20 @@ HeldTissue held_tissue(const TissueModel& model, const TissueState& state, const
                        const Vec3& x) noexcept {
   HeldTissue held;
   const Vec3& n = model.normal;
-  const Mat3 C = Mat3::Identity() / spring.stiffness + model.compliance();
+  const FlowingContact law{model.contact(), 1 / model.stiffening(), flowed(model, state)};
+  const double gives = law.share * model.residual;
+  const Mat3 C = Mat3::Identity() / spring.stiffness + model.compliance(law.share);
   const Vec3 e = x - modal_surface(model, state);
-  const Vec3& force = held.contact.force;
-  if (model.growth > 0) {
-    const GrowingContact law = model.contact();
+  if (model.growth > 0)
     held.contact = solve_growing(law, n, pressed(model, state), [&](const GrowingContact::Tangent& z) {
-      const Mat3 less = (z.slope - law.compliance) * n * n.transpose();
+      const Mat3 less = (z.slope - gives) * n * n.transpose();
       return solve_contact(C + less, e + z.offset * n, n, model.friction);
     });
-    const double in = std::max(0.0, -n.dot(force));
-    const double linear = law.compliance * in * in;
-    held.spring_energy = 0.5 * (force.dot(C * force) - linear) + law.energy(in);
-  } else {
-    held.contact = solve_contact(C, e, n, model.friction);
-    held.spring_energy = 0.5 * force.dot(C * force);
-  }
+  else
+    held.contact = solve_contact(C, e + law.give(0) * n, n, model.friction);
+  const Vec3& force = held.contact.force;
+  const double in = std::max(0.0, -n.dot(force));
+  held.spring_energy = 0.5 * (force.dot(C * force) - gives * in * in) + contact_energy(model, state, in);
   held.energy = held.spring_energy + tissue_energy(model, state);
   return held;
 }

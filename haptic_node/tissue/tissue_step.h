@@ -11,6 +11,8 @@
 // it. What slides moves the rest.
 // Where the contact grows with the force, R F along n is z(F_n), and so in the bound: Newton's steps, each of a contact that gives alike,
 // R -> dz/dF, e -> e + (z - F_n dz/dF) n; z grows ever more slowly, so that they go up to F_n from below. Two in most ticks.
+// Where it flows, z is of F_e, which is linear in the tick as well: F_e+ = (F+ + lag) / (1 + sum g mean_j), so that a tick is as with a contact
+// that gives less, from another place.
 
 #include <array>
 
@@ -28,10 +30,27 @@ struct StepWork {
       0;  // of it, what neither stores; below 0 by what the clamps and the damper's difference leave [J]
 };
 
+/// z of F, where F_e = share (F + lag) is what it follows.
+struct FlowingContact {
+  GrowingContact law;
+  double share = 1, lag = 0;
+
+  double staying(double F) const noexcept { return share * (F + lag); }  // F_e
+  double give(double F) const noexcept { return law.give(staying(F)); }  // z [m]
+  GrowingContact::Tangent tangent(double F) const noexcept {             // of z over F
+    const GrowingContact::Tangent z = law.tangent(staying(F));
+    return {share * z.slope, z.offset + share * z.slope * lag};
+  }
+  /// Is the root right to `precision` that the tangent at F has at `next`? What it leaves is z'' / (2 z') times the square of the step.
+  bool is_enough(double F, double next, double precision) const noexcept {
+    return share * law.growth / (6 * (1 + law.growth * staying(F))) * (next - F) * (next - F) <= precision;
+  }
+};
+
 /// A state as it is, held by the spring alone.
 struct HeldTissue {
   FrictionContact contact;
-  double spring_energy = 0;  // in spring and residual compliance [J]
+  double spring_energy = 0;  // in spring and residual compliance, with what flows in that [J]
   double energy = 0;         // and in modes and branches, H [J]
 };
 HeldTissue held_tissue(const TissueModel& model, const TissueState& state, const ContactSpring& spring,
@@ -50,6 +69,8 @@ class TissueStep {
   HeldTissue held(const TissueState& state, const Vec3& x) const noexcept {
     return held_tissue(model_, state, spring_, x);
   }
+  /// dF/dt along the normal over the next tick, if the tip goes on at this speed into the modal surface [N/s]
+  double rising(const TissueState& state, double speed) const noexcept;
   const TissueModel& model() const noexcept { return model_; }
   const ContactSpring& spring() const noexcept { return spring_; }
   double h() const noexcept { return h_; }
@@ -60,11 +81,11 @@ class TissueStep {
     Vec3 stretch = Vec3::Zero();  // from the modal surface to the tip [m]
     double late = 0;              // how fast that grows along n, the residual apart [m/s]
   };
-  FrictionContact press(const Loose& loose, double before) const noexcept;
-  FrictionContact press_growing(const Loose& loose, double before) const noexcept;
+  FrictionContact press(const Loose& loose, const FlowingContact& law) const noexcept;
+  FrictionContact press_growing(const Loose& loose, const FlowingContact& law, double before) const noexcept;
 
   struct Branch {
-    double keep = 1, first = 0, last = 0;  // p+ = keep p + first d + last d+
+    double keep = 1, first = 0, last = 0;  // p+ = keep p + first d + last d+; f+ alike, of F_e
   };
   TissueModel model_;
   ContactSpring spring_;
@@ -72,6 +93,7 @@ class TissueStep {
   std::array<ModeResponse, TissueModel::most_modes> modes_{};
   std::array<Branch, TissueModel::most_branches> branches_{};
   double relaxing_ = 0, held_ = 0;  // sum k (1 - last): F_r+ by d+ [N/m]; 1 / (1 + relaxing n.Dn)
+  double flowing_ = 1;              // 1 / (1 + sum g (1 - last)): F_e+ by F+
   Vec3 pushed_ = Vec3::Zero(), sped_ = Vec3::Zero();         // D n, E n, branches apart [m/N], [m/(N s)]
   Mat3 compliance_ = Mat3::Zero(), inverse_ = Mat3::Zero();  // C
   Mat3 bound_ = Mat3::Zero();                                // (I / K + R) / (3/2) + D

@@ -55,15 +55,16 @@ void TissueTouch::weaken(double keep, const Vec3& x) noexcept {
   if (depth_below(model, felt_.state, x) > 0)
     felt_.state.rest += (1 - keep) * (x - modal_surface(model, felt_.state));
   felt_.state.force *= keep;
+  for (double& f : felt_.state.f) f *= keep;
 }
 
-/// F on the hand, and along the normal clamp(K* 1.5 h (x' - y'), -f, f / 2) more: a force that is held and late is worth its spring
+/// F on the hand, and along the normal clamp(1.5 h F', -f, f / 2) more, where F' = K* (x' - y') is known of what does not flow: a force that is held and late is worth its spring
 /// less a damper of that size, which gives energy; the command has it in advance.
 Vec3 TissueTouch::command(const Vec3& v) const noexcept {
   const TissueModel& model = felt_.step.model();
   const double in = pressed(model, felt_.state);
-  const double late = spring_.series(model.contact().slope(in)) * hold * settings_.period *
-                      -model.normal.dot(v - modal_speed(model, felt_.state));
+  const double speed = -model.normal.dot(v - modal_speed(model, felt_.state));
+  const double late = hold * settings_.period * felt_.step.rising(felt_.state, speed);
   return -felt_.state.force + std::clamp(late, -in, ContactSpring::most_damping * in) * model.normal;
 }
 

@@ -5,14 +5,17 @@
 
 namespace palpate::physics {
 
+/// Of its own material.
+inline double half_space_poisson_ratio(const Body& body) noexcept {
+  constexpr double of_springs = 1.0 / 3.0;
+  if (body.solid) return body.solid->poisson_ratio;
+  if (body.mesh && !body.mesh->springs) return body.mesh->model.materials.front().poisson_ratio;
+  return of_springs;
+}
+
 /// E / (1 - nu^2) of its own material [Pa].
 inline double half_space_modulus(const Body& body) noexcept {
-  constexpr double of_springs = 1.0 / 3.0;
-  double nu = of_springs;
-  if (body.solid)
-    nu = body.solid->poisson_ratio;
-  else if (body.mesh && !body.mesh->springs)
-    nu = body.mesh->model.materials.front().poisson_ratio;
+  const double nu = half_space_poisson_ratio(body);
   return body.law.modulus / (1 - nu * nu);
 }
 

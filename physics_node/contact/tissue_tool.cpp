@@ -77,6 +77,10 @@ TissueTool::TissueTool(const ToolSpec& tool, std::uint32_t index, const std::vec
     near_.emplace_back().reserve(FacePress::most_facets);
     told_modes_ = std::max(told_modes_, static_cast<std::uint32_t>(bodies_.back()->modes.size()));
   }
+  for (std::size_t b = bodies_.size(); b-- > 0;) {
+    flow_.begin(bodies_[b]->moving->body());
+    told_branches_ = std::max(told_branches_, static_cast<std::uint32_t>(flow_.branches().size()));
+  }
 }
 
 void TissueTool::let_go() noexcept {
@@ -92,9 +96,20 @@ void TissueTool::reset() noexcept {
   engaged_ = found_ = knows_up_ = outside_ = false;
   keep_ = 1;
   told_at_ = 0;
+  flow_.rest();
+}
+
+/// What was pressed flows back, unless it presses; elsewhere nothing has flowed.
+void TissueTool::flow(double dt) noexcept {
+  if (force_ > 0)
+    pressed_at_ = tip_now();
+  else if ((hand_.x - pressed_at_).norm() > held_.shape.size() + std::abs(depth_))
+    flow_.rest();
+  flow_.pass(force_, dt);
 }
 
 void TissueTool::take(const ToolState* state, double dt) noexcept {
+  if (!may_press()) flow(frame_dt_);  // the frame before
   frame_dt_ = dt;
   elapsed_ = 0;
   if (!play_.take(state, dt)) let_go(), told_at_ = 0;
@@ -178,7 +193,10 @@ std::optional<Vec3> TissueTool::look(const Vec3& tip, double t) noexcept {
       if (bodies_[b]->nearest.distance < bodies_[at]->nearest.distance) at = b;
   }
   if (!looks(at)) return std::nullopt;
-  if (at != touched_) touched_ = at, told_at_ = 0;
+  if (at != touched_) {
+    touched_ = at, told_at_ = 0;
+    flow_.begin(bodies_[at]->moving->body());
+  }
   if (force_ > 0 && held_.turns()) return tip + arm_;
   arm_ = bodies_[at]->nearest.on_shape - tip;
   return bodies_[at]->nearest.point;
@@ -278,11 +296,13 @@ double TissueTool::press(double dt) noexcept {
   force_ = 0;
   if (!engaged_ || !faces_.press(pose_, by, dt)) {
     let_go();
+    flow(dt);
     return 0;
   }
   depth_ = faces_.depth();
   force_ = by.at(depth_);
-  if (force_ > hardest_.force) hardest_ = {force_, tip_now()};
+  flow(dt);
+  if (force_ > hardest_.force) hardest_ = {force_, flow_.staying(), tip_now()};
   const Vec3 pressure = TipLean::borne(guide_, faces_.borne(), flat_);
   if (rubbing_.sticks())
     rubbing_.pull(faces_.way(dt, pressure), n, by.stiffness, force_, faces_.mobility(), dt);

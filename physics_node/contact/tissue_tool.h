@@ -3,7 +3,8 @@
 // the tissue bears are one force, of one sample. The hand has no answer to wait for: it presses a copy of the tissue, which is told here, at
 // the end of each frame, with the state that the motion has brought the tissue to.
 //
-//   copy: nine modes of the body (finite elements on a lattice; else none), the compliance of all else, and the depth that both lie on
+//   copy: nine modes of the body (finite elements on a lattice; else none), the compliance of all else, the depth that both lie on, and how
+//   the tissue flows (contact_flow.h)
 //
 // While physics hears nothing the hand stands, and after Hands::silence the spring lets go, within 200 ms.
 // Bodies that it spans bear it together; the copy is of the one that bears most.
@@ -17,6 +18,7 @@
 #include <vector>
 
 #include "common/math/growing_contact.h"
+#include "physics_node/contact/contact_flow.h"
 #include "physics_node/contact/face_press.h"
 #include "physics_node/contact/hand_play.h"
 #include "physics_node/contact/held_shape.h"
@@ -81,9 +83,11 @@ class TissueTool final : public PressingTool {
   struct Told {
     Vec3 tip = Vec3::Zero();  // where it lies [m]
     double force = 0;         // along the normal [N]
+    double stays = 0;         // of it: ContactFlow [N]
     Modal q{}, w{};
   };
   void let_go() noexcept;
+  void flow(double dt) noexcept;
   void place(double share) noexcept;
   void face(const Vec3& tip) noexcept;
   void roll(double slid) noexcept;
@@ -101,8 +105,12 @@ class TissueTool final : public PressingTool {
   void follow_compliance(const Touchable& body, const Shapes& psi, const GrowingContact& law,
                          const Told& now) noexcept;
   GrowingContact closed_form(const Touchable& body) const noexcept;
+  double lasting_stiffness(const Touchable& body, std::size_t mode) const noexcept;
+  double modal_compliance(const Touchable& body, const Shapes& psi) const noexcept;
+  void tell_flow(const Touchable& body, const Shapes& psi, TouchedTissue& tissue) const noexcept;
   void follow_first_touch(const Touchable& body, const Shapes& psi, const GrowingContact& law,
-                          const Vec3& way, double force) noexcept;
+                          const Vec3& way, double gives) noexcept;
+  double stiffer_than_deep(const Touchable& body, double depth) const noexcept;
   double share_beside_modes(const Touchable& body, const Shapes& psi,
                             const GrowingContact& law) const noexcept;
   void tell(TouchedTissue& tissue) noexcept;
@@ -133,15 +141,18 @@ class TissueTool final : public PressingTool {
   Vec3 up_ = Vec3::UnitZ();     // of a ball, from its tip to its middle, unit
   std::uint64_t told_at_ = 0;   // the sample of the last answer
   /// Of every body, whether it has as many or not. Why: a hand that touches takes no other number.
-  std::uint32_t told_modes_ = 0;
+  std::uint32_t told_modes_ = 0, told_branches_ = 0;
   Told told_;
   Modal offsets_{};           // o
   Vec3 rest_ = Vec3::Zero();  // that was told, low-passed [m]
   ResidualCompliance residual_;
+  ContactFlow flow_;
+  Vec3 pressed_at_ = Vec3::Zero();  // where it flows [m]
   FirstTouch first_;
   std::size_t learns_of_ = max_bodies;  // the body that it learns of
   struct Moment {
     double force = 0;         // along the normal [N]
+    double stays = 0;         // of it [N]
     Vec3 tip = Vec3::Zero();  // [m]
   };
   Moment hardest_;               // of this frame

@@ -21,9 +21,10 @@
 namespace palpate::physics {
 namespace {
 
-constexpr double fastest_hand = 3;  // [m/s]: a throw; pressing and cutting stay below 1
-constexpr double far_away = 10;     // times the size of the bodies
-constexpr double touch = 0.8;       // of the spacing: from anywhere on a facet a vertex is within 0.71 of it
+constexpr double fastest_hand = 3;        // [m/s]: a throw; pressing and cutting stay below 1
+constexpr double far_away = 10;           // times the size of the bodies
+constexpr double begins_within = 0.5e-3;  // [m], of tissue a shape may begin in: tissue_tool.cpp
+constexpr double touch = 0.8;  // of the spacing: from anywhere on a facet a vertex is within 0.71 of it
 constexpr std::size_t most_samples = 4000,
                       most_of_shape = 200;  // of a path; the latter cost a pass over all vertices each
 
@@ -62,8 +63,8 @@ class ToolLook {
   Remarks remarks() {
     if (others_.empty() || device_.waypoints.empty() || device_.driver != "simulated") return {};
     shape_ = tool_points(tool_, scene_, bodies_, 0.5 * finest_);
-    if (is_solid_tip(tool_.shape) || (tool_.shape == ToolShape::point && presses_faces()))
-      held_ = held_shape(tool_);
+    const bool may_press_faces = tool_.shape == ToolShape::point || tool_.shape == ToolShape::stick;
+    if (is_solid_tip(tool_.shape) || (may_press_faces && presses_faces())) held_ = held_shape(tool_);
     Remarks found;
     const Vec3 start = device_.waypoints.front().p;
     const bool inside = tool_.shape != ToolShape::body && begins_inside(start);
@@ -93,9 +94,10 @@ class ToolLook {
     });
   }
   bool begins_inside(const Vec3& start) const {
-    return std::any_of(shape_.begin(), shape_.end(), [&](const Vec3& p) {
-      return std::any_of(others_.begin(), others_.end(),
-                         [&](const Enclosure& other) { return other.contains(start + p); });
+    return std::ranges::any_of(others_, [&](const Enclosure& other) {
+      // The ball of a point lies outside, whatever its radius.
+      return std::ranges::any_of(shape_, [&](const Vec3& p) { return other.contains(start + p); }) ||
+             (held_ && held_->turns() && from_shape(other, start, 0) < -begins_within);
     });
   }
 

@@ -1,5 +1,6 @@
 #pragma once
-// Tissues to try laws on, with their surface up: lumps, three modes with a residual, the same under a ball, one that relaxes; and a leaning one.
+// Tissues to try laws on, with their surface up: lumps, three modes with a residual, the same under a ball, one that relaxes, three whose
+// contact flows; and a leaning one.
 // Without friction what moves along z alone stays there.
 
 #include <cmath>
@@ -35,7 +36,25 @@ inline std::vector<TissueModel> some_tissues() {
   relaxing.n_branches = 2;
   relaxing.branches[0] = {200, 0.1};
   relaxing.branches[1] = {50, 5e-3};
-  return {lump(0.1, 2, 200), lump(0.5, 5, 1000), lump(0.02, 0.5, 50), waves, under_a_ball, relaxing};
+  TissueModel viscous = under_a_ball;  // by 5 ms
+  viscous.n_branches = 1;
+  viscous.branches[0] = {0, 0.3e-3, 5 / 0.3};
+  TissueModel flowing = under_a_ball;
+  flowing.n_branches = 3;
+  flowing.branches[0] = {0, 0.3e-3, 2};
+  flowing.branches[1] = {600, 0.1, 0.6};
+  flowing.branches[2] = {400, 1, 0.4};
+  TissueModel flat = flowing;
+  flat.growth = 0;
+  return {lump(0.1, 2, 200),
+          lump(0.5, 5, 1000),
+          lump(0.02, 0.5, 50),
+          waves,
+          under_a_ball,
+          relaxing,
+          viscous,
+          flowing,
+          flat};
 }
 
 /// Modes that move it along its surface as well, a slope of 0.3, friction, more give across than along.

@@ -30,17 +30,39 @@ TEST(TissueStep, PressesAWallWithSpringAndDamper) {
   EXPECT_EQ(pressed(state), 0);
 }
 
+double root(auto&& surplus) {
+  double low = 0, high = 10;
+  for (int i = 0; i < 100; ++i) (surplus(0.5 * (low + high)) > 0 ? low : high) = 0.5 * (low + high);
+  return low;
+}
+
+/// What it and its branches bear, in small steps, at the end of a tick in which F_e goes straight to a value.
+double borne_at(const TissueModel& model, const TissueState& before, double stays_end) {
+  const double stays = staying(model, before, pressed(before));
+  constexpr int steps = 1000;
+  double force = stays_end;
+  for (std::uint32_t j = 0; j < model.n_branches; ++j) {
+    const auto& [k, tau, g] = model.branches[j];
+    double f = before.f[j];
+    for (int i = 0; i < steps; ++i) {  // by the middle
+      const double mean = stays + (i + 0.5) / steps * (stays_end - stays), u = h / steps / tau;
+      f += u / (1 + 0.5 * u) * (mean - f);
+    }
+    force += g * (stays_end - f);
+  }
+  return force;
+}
+
 /// F of the law at the end of a tick, by halving: K (e - z) + B (e' - z'), not below 0 nor above 3/2 of what the spring alone gives.
-double by_law(const TissueModel& model, const ContactSpring& spring, double e, double e_dot, double before) {
-  if (e <= 0) return 0;
-  const auto z = [&](double F) { return model.contact().give(F); };
-  const auto root = [](auto&& surplus) {
-    double low = 0, high = 10;
-    for (int i = 0; i < 100; ++i) (surplus(0.5 * (low + high)) > 0 ? low : high) = 0.5 * (low + high);
-    return low;
-  };
+double by_law(const TissueModel& model, const ContactSpring& spring, double e, double e_dot,
+              const TissueState& before) {
+  // That is straight in its end.
+  const double none = borne_at(model, before, 0), by_one = borne_at(model, before, 1) - none;
+  const auto z = [&](double F) { return model.contact().give((F - none) / by_one); };
+  if (e <= z(0)) return 0;
+  const double z_before = model.contact().give(staying(model, before, pressed(before)));
   const double whole = root([&](double F) {
-    return spring.stiffness * (e - z(F)) + spring.damping * (e_dot - (z(F) - z(before)) / h) - F;
+    return spring.stiffness * (e - z(F)) + spring.damping * (e_dot - (z(F) - z_before) / h) - F;
   });
   const double alone = root([&](double F) { return spring.stiffness * (e - z(F)) - F; });
   return std::min(whole, 1.5 * alone);
@@ -55,12 +77,14 @@ TEST(TissueStep, SolvesTheLawOfTheSpringAtItsEnd) {
     TissueState state;
     int in_contact = 0;
     for (int i = 0; i < 2000; ++i) {
-      const double before = pressed(state), x = depth(random), v = speed(random);
+      const TissueState before = state;
+      const double x = depth(random), v = speed(random);
       step.advance(state, tip_down(x, v));
       const double e = x + modal_surface(model, state).z(), e_dot = v + modal_speed(model, state).z();
-      EXPECT_NEAR(pressed(state), by_law(model, step.spring(), e, e_dot, before), 1e-9);
-      if (model.growth == 0) {
-        EXPECT_NEAR(pressed(state), step.spring().force(model.residual, h, e, e_dot, before), 1e-9);
+      const double precision = model.stiffening() > 1 ? 1e-6 : 1e-9;  // of the small steps
+      EXPECT_NEAR(pressed(state), by_law(model, step.spring(), e, e_dot, before), precision);
+      if (model.growth == 0 && model.stiffening() == 1) {
+        EXPECT_NEAR(pressed(state), step.spring().force(model.residual, h, e, e_dot, pressed(before)), 1e-9);
       }
       in_contact += pressed(state) > 0;
     }
@@ -89,12 +113,39 @@ TEST(TissueStep, IsNearlyThatOfTinySubsteps) {
   }
 }
 
+/// Without modes, pressed by a force that grows straight, it gives as z of the integral of creep: F_e of beta F_e' + F_e = F, and of a standard
+/// linear solid.
+TEST(TissueStep, CreepsAsTheClosedFormDoes) {
+  constexpr double rate = 2, beta = 5e-3, tau = 0.1, g = 1.5;  // [N/s]
+  for (const bool viscous : {true, false}) {
+    TissueModel model;
+    model.residual = 7e-3, model.growth = 15;
+    model.n_branches = 1;
+    model.branches[0] = viscous ? RelaxingBranch{0, 0.1e-3, beta / 0.1e-3} : RelaxingBranch{0, tau, g};
+    const auto stays = [&](double t) {
+      if (viscous) return rate * (t + beta * std::expm1(-t / beta));
+      const double late = (1 + g) * tau;  // F_e + (1 + g) tau F_e' = F + tau F'
+      return rate * (t + (late - tau) * std::expm1(-t / late));
+    };
+    const ContactSpring spring{500, 0};
+    const TissueStep step(model, spring, h);
+    TissueState state;
+    for (int n = 1; n <= 400; ++n) {
+      const double t = n * h, F = rate * t;
+      step.advance(state, tip_down(F / spring.stiffness + model.contact().give(stays(t)), 0));
+      if (n > 20) {
+        EXPECT_NEAR(pressed(state), F, 0.01 * F) << viscous << " at " << t;
+      }
+    }
+  }
+}
+
 /// Held for long the force is that of springs in series; branches have relaxed.
 TEST(TissueStep, EndsAtTheStaticForce) {
   for (const TissueModel& model : some_tissues()) {
     const TissueStep step(model, {500, 1}, h);
     TissueState state;
-    for (int n = 0; n < 20'000; ++n) step.advance(state, tip_down(3e-3, 0));
+    for (int n = 0; n < 60'000; ++n) step.advance(state, tip_down(3e-3, 0));
     double compliance = 1 / 500.0;
     for (std::uint32_t i = 0; i < model.n_modes; ++i)
       compliance += model.modes[i].psi.squaredNorm() / model.modes[i].stiffness;
@@ -199,7 +250,10 @@ TEST(TissueModel, RejectsWhatIsNoTissue) {
   };
   const double nan = std::nan("");
   EXPECT_TRUE(rejected([](TissueAnswer& a) { a.model.n_modes = 10; }));
-  EXPECT_TRUE(rejected([](TissueAnswer& a) { a.model.n_branches = 5; }));
+  EXPECT_TRUE(rejected([](TissueAnswer& a) { a.model.n_branches = 6; }));
+  EXPECT_TRUE(rejected([](TissueAnswer& a) { a.model.branches[1].share = -1; }));
+  EXPECT_TRUE(rejected([&](TissueAnswer& a) { a.state.f[0] = nan; }));
+  EXPECT_TRUE(rejected([](TissueAnswer& a) { a.state.f[1] = -1e-3; }));
   EXPECT_TRUE(rejected([&](TissueAnswer& a) { a.model.modes[0].psi.y() = nan; }));
   EXPECT_TRUE(rejected([](TissueAnswer& a) { a.model.modes[0].stiffness = -1; }));
   EXPECT_TRUE(rejected([&](TissueAnswer& a) { a.model.modes[0].damping = nan; }));

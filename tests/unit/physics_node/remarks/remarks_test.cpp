@@ -196,6 +196,16 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"CameraFarAway", {"render.camera={distance_mm=300000}"}, "are a dot in the picture"}),
     [](const auto& which) { return which.param.name; });
 
+/// None of its own points need lie in tissue.
+TEST(Remarks, SayThatAPlateBeginsAroundTissue) {
+  std::string text = sound;
+  const std::string ball = "radius_mm = 8";
+  text.replace(text.find(ball), ball.size(), "shape = \"box\"\nsize_mm = [200, 200, 6]");
+  EXPECT_EQ(all(remarks_of(text)).find("begins inside"), std::string::npos) << "10 mm above";
+  const Remarks remarks = remarks_of(text, {path + "[[0,0,0,12],[1,0,0,25]]"});
+  EXPECT_NE(all(remarks).find("tool \"tip\" begins inside tissue"), std::string::npos) << all(remarks);
+}
+
 TEST(Remarks, SayThatTwoBodiesBeginInOnePlace) {
   const std::string other = std::string(sound) + R"([[body]]
 name = "other"
