@@ -15,8 +15,10 @@ class Guard {
   /// The books begin anew.
   void begin() noexcept;
   /// Looks at what the last watched step of a frame saw: a pass over rows, over all elements only where energy has
-  /// grown, where much was put in, and in the first frames. `save` is said every 50 frames.
-  Verdict look(const BodyModels& bodies, EnergyAccount& account, StepReport& report) noexcept;
+  /// grown, where much was put in, where something has come far in that step, and in the first frames. `save` is said
+  /// every 50 frames.
+  /// @param dt  of a step [s]
+  Verdict look(const BodyModels& bodies, double dt, EnergyAccount& account, StepReport& report) noexcept;
 
   /// A tool's work was not finite, and what it moved is not either.
   void note_unusable_work() noexcept { unusable_work_ = true; }

@@ -192,7 +192,7 @@ void World::save_all(bool good) noexcept {
 
 void World::guard() noexcept {
   const StageTimer timer(report_, Stage::guard_finite);
-  switch (guard_.look(bodies_, account_, report_)) {
+  switch (guard_.look(bodies_, dt_, account_, report_)) {
     case Guard::Verdict::go_back:
       return recover();
     case Guard::Verdict::save:

@@ -67,6 +67,13 @@ TEST(Stress, WhatABlowStoresInAStepIsSeenInItsFrame) {
   EXPECT_EQ(result.restored, 1);
 }
 
+/// Torn tissue whose elements hold little until the step in which they are drawn out by 60 times, 3600 times the energy put in.
+TEST(Stress, WhatComesFarInAStepIsSeenInItsFrame) {
+  const StressResult result = run_stress(9412, ElementModel::fem);
+  EXPECT_TRUE(result.finite);
+  EXPECT_LT(result.growth, 10);
+}
+
 TEST(Stress, ResultsSurviveTheirFile) {
   const StressResult result = run_stress(5);
   StressResult read;

@@ -199,8 +199,8 @@ INSTANTIATE_TEST_SUITE_P(
 /// None of its own points need lie in tissue.
 TEST(Remarks, SayThatAPlateBeginsAroundTissue) {
   std::string text = sound;
-  const std::string ball = "radius_mm = 8";
-  text.replace(text.find(ball), ball.size(), "shape = \"box\"\nsize_mm = [200, 200, 6]");
+  const std::string round = "radius_mm = 8";
+  text.replace(text.find(round), round.size(), "shape = \"box\"\nsize_mm = [200, 200, 6]");
   EXPECT_EQ(all(remarks_of(text)).find("begins inside"), std::string::npos) << "10 mm above";
   const Remarks remarks = remarks_of(text, {path + "[[0,0,0,12],[1,0,0,25]]"});
   EXPECT_NE(all(remarks).find("tool \"tip\" begins inside tissue"), std::string::npos) << all(remarks);
