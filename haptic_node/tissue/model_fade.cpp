@@ -103,15 +103,17 @@ bool ModelFade::is_event(double felt, double shadow, double h) noexcept {
 
 /// The damper's part of F stays as it was: what is compared are the springs.
 double ModelFade::pass(TissueCopy& felt, const TissueCopy& shadow, const Vec3& x, double force_step,
-                       WorkTank& tank, double age) noexcept {
+                       WorkTank& tank, double age, bool doubted) noexcept {
   const double h = felt.step.h();
   const HeldTissue before = felt.step.held(felt.state, x);
   const auto fits = [&](const Tried& t) {
     return t.held.energy - before.energy <= tank.level() &&
            (t.held.contact.force - before.contact.force).norm() <= force_step;
   };
-  double beta = -std::expm1(-h / std::clamp(over_age * age, least, slow));
-  if (is_event(pressed(felt.step.model(), felt.state), pressed(shadow.step.model(), shadow.state), h)) {
+  double beta = -std::expm1(-h / (doubted ? doubtful : std::clamp(over_age * age, least, slow)));
+  const bool event =
+      is_event(pressed(felt.step.model(), felt.state), pressed(shadow.step.model(), shadow.state), h);
+  if (event && !doubted) {
     const double fast = -std::expm1(-h / quick);
     const Tried t = tried(felt, shadow, x, fast);
     if (t.held.energy <= before.energy &&

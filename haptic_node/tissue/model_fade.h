@@ -6,7 +6,7 @@
 //          F changes by no more than a given step
 //
 // tau is 5 times the age of the answers, 5 to 50 ms, so that a wrong model stands still: what it does comes back after that
-// age. After an event, which takes force and energy away (a cut, a yield), it is 10 ms: from where S* lies below F by 0.1 N and a quarter, until it has been reached. A ripple is no event: within
+// age. A model that is doubted (model_trust.h) comes in 150 ms, whatever happens. After an event, which takes force and energy away (a cut, a yield), it is 10 ms: from where S* lies below F by 0.1 N and a quarter, until it has been reached. A ripple is no event: within
 // 0.5 s after S* was above F it does not count.
 // A tip in the air pays as well. A copy that is too soft and heavy runs away from the hand, and what it was given on its way
 // for nothing the hand met when it came back: up to 1.6 mJ each time, and a bouncing handle gained 0.5 J.
@@ -30,6 +30,7 @@ class ModelFade {
  public:
   static constexpr double slow = 50e-3, least = 5e-3;  // tau, at most and at least [s]
   static constexpr double quick = 10e-3;               // after an event [s]
+  static constexpr double doubtful = 150e-3;           // of a model that is doubted [s]
   static constexpr double over_age = 5;                // tau over the age of answers
   static constexpr double event_force = 0.1;           // that S* lies below F [N]
   static constexpr double event_share = 0.25;          // of F
@@ -39,9 +40,10 @@ class ModelFade {
 
   /// One tick: moves `felt` towards `shadow`, both with the tip at x.
   /// @param force_step  most change of F [N]  @param age  of the oldest answers of late [s]
+  /// @param doubted  what the shadow does is not what tissue does
   /// @return energy that it put into the felt copy, taken from the tank [J]
   double pass(TissueCopy& felt, const TissueCopy& shadow, const Vec3& x, double force_step, WorkTank& tank,
-              double age) noexcept;
+              double age, bool doubted = false) noexcept;
 
   bool falling() const noexcept { return falling_; }
 

@@ -8,6 +8,7 @@ namespace palpate::haptic {
 TissueTouch::TissueTouch(const TouchSettings& settings) noexcept
     : settings_(settings),
       history_(settings.period),
+      trust_(settings.period),
       leak_(settings.resolution, settings.period),
       guard_(settings.force_limit, settings.spring.stiffness, settings.period),
       spring_(settings.spring) {}
@@ -15,9 +16,11 @@ TissueTouch::TissueTouch(const TouchSettings& settings) noexcept
 bool TissueTouch::take(const TissueAnswer& answer) noexcept {
   if (!history_.has(answer.stamp)) return false;
   if (touching() && !answer.model.same_counts(felt_.step.model())) return false;
+  trust_.compare(answer.stamp, history_.newest(), answer.state.force);
   turn_to(history_.at(answer.stamp).q.conjugate() * answer.arm);
   shadow_.step = TissueStep(answer.model, spring_, settings_.period);
   shadow_.state = answer.state;
+  answered_ = answer.state.force;
   shadow_at_ = answer.stamp;
   age_ = std::max(age_, settings_.period * static_cast<double>(history_.newest() - answer.stamp));
   while (shadow_at_ < history_.newest())
@@ -80,7 +83,10 @@ Vec3 TissueTouch::tick(const Vec3& tip, const Eigen::Quaterniond& q, double gain
     began_ = false, shadow_at_ = 0;
   else if (gain != gain_)
     scale(gain);
-  if (shadow_at_ > 0) shadow_.step.advance(shadow_.state, point), shadow_at_ = history_.newest();
+  if (shadow_at_ > 0) {
+    shadow_.step.advance(shadow_.state, point), shadow_at_ = history_.newest();
+    trust_.foretell(shadow_at_, shadow_.state.force, answered_);
+  }
 
   StepWork work;
   double put_in = 0;
@@ -89,7 +95,7 @@ Vec3 TissueTouch::tick(const Vec3& tip, const Eigen::Quaterniond& q, double gain
   } else if (began_) {
     work = felt_.step.advance(felt_.state, before, point);
     if (gain > gain_) weaken(gain_ / gain, x);
-    put_in = fade_.pass(felt_, shadow_, x, slew * settings_.period, tank_, age_);
+    put_in = fade_.pass(felt_, shadow_, x, slew * settings_.period, tank_, age_, doubted());
   }
   gain_ = gain;
   age_ *= 1 - settings_.period / remembered;

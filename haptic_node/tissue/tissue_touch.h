@@ -13,6 +13,7 @@
 #include "haptic_node/safety/force_guard.h"
 #include "haptic_node/safety/leak_limit.h"
 #include "haptic_node/tissue/model_fade.h"
+#include "haptic_node/tissue/model_trust.h"
 #include "haptic_node/tissue/motion_history.h"
 
 namespace palpate::haptic {
@@ -64,6 +65,8 @@ class TissueTouch {
   double leak() const noexcept { return leak_.leak(); }
   /// Energy that steps of the copy have made by themselves, sum of -min(0, D) since the start [J].
   double made() const noexcept { return made_; }
+  /// Does its copy foretell something else than tissue does?
+  bool doubted() const noexcept { return trust_.doubted(history_.newest()); }
   bool knows_shadow() const noexcept { return shadow_at_ > 0; }
   const TissueCopy& felt_copy() const noexcept { return felt_; }
   const TissueCopy& shadow_copy() const noexcept { return shadow_; }
@@ -80,6 +83,8 @@ class TissueTouch {
   Vec3 arm_ = Vec3::Zero();  // in the frame of the handle
   TissueCopy felt_, shadow_;
   ModelFade fade_;
+  ModelTrust trust_;
+  Vec3 answered_ = Vec3::Zero();  // F of the last answer [N]
   WorkTank tank_;
   LeakLimit leak_;
   ForceGuard guard_;

@@ -7,8 +7,8 @@
 
 namespace palpate::physics {
 
-/// About its tip [m]: the tip, points along a stick or an edge, corners of what has flat ends, or the surface of its
-/// body.
+/// About its tip [m]: the tip, points along a stick or an edge, corners, rims and axes of what has flat ends, or the
+/// surface of its body.
 /// @param apart  of those along a line, at most [m]
 std::vector<Vec3> tool_points(const ToolSpec& tool, const Scene& scene, const Bodies& bodies, double apart);
 

@@ -206,6 +206,20 @@ TEST(Remarks, SayThatAPlateBeginsAroundTissue) {
   EXPECT_NE(all(remarks).find("tool \"tip\" begins inside tissue"), std::string::npos) << all(remarks);
 }
 
+/// The box round a cylinder may reach into tissue that the cylinder stands clear of.
+TEST(Remarks, LookAtARoundToolAsItIs) {
+  std::string text = sound;
+  const std::string round = "radius_mm = 8";
+  text.replace(text.find(round), round.size(), "shape = \"cylinder\"\nradius_mm = 4\nlength_mm = 20");
+  const auto inside = [&](const char* start) {
+    return all(remarks_of(text, {path + "[[" + start + "],[1,0,0,40]]"})).find("begins inside") !=
+           std::string::npos;
+  };
+  EXPECT_FALSE(inside("0,33,33,10"));
+  EXPECT_TRUE(inside("0,32,32,10"));
+  EXPECT_TRUE(inside("0,33,0,10"));
+}
+
 TEST(Remarks, SayThatTwoBodiesBeginInOnePlace) {
   const std::string other = std::string(sound) + R"([[body]]
 name = "other"
