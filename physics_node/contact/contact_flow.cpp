@@ -10,6 +10,10 @@ constexpr double short_time = 0.3e-3;  // [s]
 // Why: less than a degree at 20 Hz.
 constexpr double shortest_lag = 0.1e-3;  // [s]
 
+// What a damper takes of all relative motion of its ends over what it takes of that along it, of springs in all directions and a bar that is
+// drawn: <|e n|^2> / <(n . e n)^2>, e = diag(-nu, -nu, 1), nu = 1/3.
+constexpr double relative_over_axial = 2.4;
+
 /// Viscosity over modulus [s].
 double lag_of(const Body& body) noexcept {
   if (is_of_finite_elements(body) || body.mesh) return damper_time(body);
@@ -17,7 +21,7 @@ double lag_of(const Body& body) noexcept {
   if (law.damper == Damper::drag) return 0;
   double c = 0, k = 0;
   for (std::size_t d = 0; d < law.k1.size(); ++d) c += law.c[d], k += law.k1[d];
-  return k > 0 ? c / k : 0;
+  return k > 0 ? (law.damper == Damper::relative ? relative_over_axial : 1.0) * c / k : 0;
 }
 
 }  // namespace

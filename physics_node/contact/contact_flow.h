@@ -25,7 +25,7 @@ class ContactFlow {
     double force = 0;            // f [N]
     bool viscous = false;        // the body's dampers
   };
-  /// Of a body that nothing has pressed. Springs flow by their axial dampers, what is not damped and does not relax not at all.
+  /// Of a body that nothing has pressed. Springs flow by their dampers, but for drag; what is not damped and does not relax not at all.
   void begin(const Body& body) noexcept;
   /// Where nothing has been pressed.
   void rest() noexcept;

@@ -60,6 +60,23 @@ TEST(ContactFlow, CreepsAsAStandardLinearSolid) {
   EXPECT_EQ(flow.staying(), 0);
 }
 
+/// Springs by c / k; dampers of all relative motion take 2.4 times as much, drag is none of the tissue's own.
+TEST(ContactFlow, IsOfTheDampersOfSprings) {
+  Body body;
+  body.law.k1.fill(100);
+  body.law.c.fill(0.5);
+  ContactFlow flow;
+  for (const auto& [damper, times] : {std::pair{Damper::axial, 1.0}, std::pair{Damper::relative, 2.4}}) {
+    body.law.damper = damper;
+    flow.begin(body);
+    ASSERT_EQ(flow.branches().size(), 1u);
+    EXPECT_NEAR(flow.branches()[0].share * flow.branches()[0].time, times * 5e-3, 1e-12);
+  }
+  body.law.damper = Damper::drag;
+  flow.begin(body);
+  EXPECT_TRUE(flow.branches().empty());
+}
+
 TEST(ContactFlow, HasRoomForAllThatAMaterialMayBe) {
   ContactFlow flow;
   flow.begin(elements(1e-3, {{0.2, 0.01}, {0.2, 0.1}, {0.2, 1}, {0.2, 10}}));
