@@ -6,8 +6,9 @@
 //          F changes by no more than a given step
 //
 // tau is 5 times the age of the answers, 5 to 50 ms, so that a wrong model stands still: what it does comes back after that
-// age. A model that is doubted (model_trust.h) comes in 150 ms, whatever happens. After an event, which takes force and energy away (a cut, a yield), it is 10 ms: from where S* lies below F by 0.1 N and a quarter, until it has been reached. A ripple is no event: within
-// 0.5 s after S* was above F it does not count.
+// age. A model that is doubted (model_trust.h) comes in 150 ms, whatever happens. After an event, which takes force and
+// energy away (a cut, a yield), it is 10 ms: from where S* lies below F by 0.1 N and a quarter, until it has been
+// reached. A ripple is no event: within 0.5 s after S* was above F it does not count.
 // A tip in the air pays as well. A copy that is too soft and heavy runs away from the hand, and what it was given on its way
 // for nothing the hand met when it came back: up to 1.6 mJ each time, and a bouncing handle gained 0.5 J.
 // Source: Hannaford & Ryu 2002 for what pays; the fade is ours.

@@ -1,16 +1,18 @@
 #pragma once
-// Does the copy foretell what tissue does? The force that the shadow has at a sample is kept until the answer of that sample comes, an age of
-// the answers later, and the two are compared:
+// Does the copy foretell what tissue does? The force that the shadow has at a sample is kept until the answer of that
+// sample comes, an age of the answers later, and the two are compared:
 //
 //   off(s) = |F*(s) - F(s)| > max(1/4 max(|F*|, |F|), 5/4 |F(s_0) - F(s)|),   B := B + (1 - e^(-dt / T)) (off - B)
 //
-// F(s_0) the force of the answer that it was foretold from: who foretells wrongly that tissue moves by itself (a pulse) is no worse than one who
-// foretells nothing, and is not doubted.
+// F(s_0) the force of the answer that it was foretold from: who cannot know that tissue moves by itself (a pulse) is no
+// worse than one who foretells nothing, and is not doubted.
 //
-// the share of answers of late, over T, that it was off. From B > 1/2 on it is doubted, and for 2 s after: model_fade.h then is slow.
+// the share of answers of late, over T, that it was off. From B > 1/2 on it is doubted, and for 2 s after: model_fade.h
+// then is slow.
 // An event, a cut or a yield, is foretold wrongly for one age alone, and is none.
 // Source: ours.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>

@@ -4,12 +4,14 @@
 //   q_i'' + c_i q_i' + omega_i^2 q_i = psi_i . (F + F_r n),     y = r + sum psi_i q_i,     S = y + R F
 //   F_r = sum k_j (d - p_j),   p_j' = (d - p_j) / tau_j,   d = -n . (y - r)
 //
-// R F along n: z(F_e) of a contact that grows (common/math/growing_contact.h). What flows under the tip as well bears F by more than that,
+// R F along n: z(F_e) of a contact that grows (common/math/growing_contact.h). What flows under the tip as well bears F
+// by more than that,
 //
 //   F = F_e + sum g_j (F_e - f_j),   f_j' = (F_e - f_j) / tau_j
 //
-// as tissue does of which each part relaxes alike, since the patch it is pressed on follows from z (Lee & Radok 1960, while it grows).
-// A viscous one, F = F_e + beta F_e', is a branch of g = beta / tau with a short tau. A cycle gives nothing, since z grows with F_e.
+// as tissue does of which each part relaxes alike, since the patch it is pressed on follows from z (Lee & Radok 1960,
+// while it grows). A viscous one, F = F_e + beta F_e', is a branch of g = beta / tau with a short tau. A cycle gives
+// nothing, since z grows with F_e.
 //
 // S is where the surface is, n its normal, out of the tissue; the tip rubs there with Coulomb's friction mu. Modes (normalised by mass), the
 // compliance R of all that is not of them, along n and across it, branches that relax along n, and the rest r that they lie on. What slides

@@ -26,7 +26,8 @@ FrictionContact solve_growing(const FlowingContact& law, const Vec3& n, double f
 }
 
 /// In contact and branches, where F acts now: with U the integral of F dz, U(F_e) and for each branch
-/// g (U(F_e) - U(f) - f (z(F_e) - z(f))), which is at least 0 and loses what it is not given (g R (F_e - f)^2 / 2 of a law that is linear).
+/// g (U(F_e) - U(f) - f (z(F_e) - z(f))), which is at least 0 and loses what it is not given; of a law that is linear
+/// g R (F_e - f)^2 / 2.
 double contact_energy(const TissueModel& model, const TissueState& state, double F) noexcept {
   const GrowingContact law = model.contact();
   const double stays = staying(model, state, F), stored = law.energy(stays);
@@ -53,12 +54,9 @@ TissueStep::TissueStep(const TissueModel& model, const ContactSpring& spring, do
   }
   double flowing = 1;
   for (std::uint32_t j = 0; j < model.n_branches; ++j) {
-    // p' = (d - p) / tau: a held d leaves 1 - e^-u, one that grows from 0 to 1 leaves 1 - (1 - e^-u) / u, u = h / tau
-    const double u = h / model.branches[j].time;
-    const double keep = std::exp(-u), mean = -std::expm1(-u) / u;
-    branches_[j] = {keep, mean - keep, 1 - mean};
-    relaxing_ += model.branches[j].stiffness * mean;
-    flowing += model.branches[j].share * mean;
+    branches_[j] = LagStep::over(h, model.branches[j].time);
+    relaxing_ += model.branches[j].stiffness * branches_[j].mean;
+    flowing += model.branches[j].share * branches_[j].mean;
   }
   flowing_ = 1 / flowing;
   pushed_ = D * n;
@@ -136,14 +134,14 @@ void TissueStep::advance(TissueState& state, const TipSample& tip) const noexcep
   }
   double lag = 0;
   for (std::uint32_t j = 0; j < model_.n_branches; ++j)
-    lag += model_.branches[j].stiffness * (branches_[j].keep * state.p[j] + branches_[j].first * d);
+    lag += model_.branches[j].stiffness * branches_[j].begun(state.p[j], d);
   const double relaxed = held_ * (-relaxing_ * n.dot(way) - lag);  // F_r+ without F+
   const Vec3 stretch = tip.x - state.rest - way - relaxed * pushed_;
   const Vec3 across = stretch - n.dot(stretch) * n;
   const double before = pressed(model_, state), stays = staying(model_, state, before);
   FlowingContact law{model_.contact(), flowing_, 0};
   for (std::uint32_t j = 0; j < model_.n_branches; ++j)
-    law.lag += model_.branches[j].share * (branches_[j].keep * state.f[j] + branches_[j].first * stays);
+    law.lag += model_.branches[j].share * branches_[j].begun(state.f[j], stays);
 
   Vec3 force = Vec3::Zero();
   if (n.dot(stretch) + law.give(0) < 0) {
@@ -165,9 +163,8 @@ void TissueStep::advance(TissueState& state, const TipSample& tip) const noexcep
   const double d_end = model_.n_branches > 0 ? -n.dot(modal_way(model_, state)) : 0.0;
   const double stays_end = law.staying(std::max(0.0, -n.dot(force)));
   for (std::uint32_t j = 0; j < model_.n_branches; ++j) {
-    const Branch& b = branches_[j];
-    state.p[j] = b.keep * state.p[j] + b.first * d + b.last * d_end;
-    state.f[j] = b.keep * state.f[j] + b.first * stays + b.last * stays_end;
+    state.p[j] = branches_[j].passed(state.p[j], d, d_end);
+    state.f[j] = branches_[j].passed(state.f[j], stays, stays_end);
   }
   state.force = force;
 }

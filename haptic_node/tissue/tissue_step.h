@@ -11,11 +11,12 @@
 // it. What slides moves the rest.
 // Where the contact grows with the force, R F along n is z(F_n), and so in the bound: Newton's steps, each of a contact that gives alike,
 // R -> dz/dF, e -> e + (z - F_n dz/dF) n; z grows ever more slowly, so that they go up to F_n from below. Two in most ticks.
-// Where it flows, z is of F_e, which is linear in the tick as well: F_e+ = (F+ + lag) / (1 + sum g mean_j), so that a tick is as with a contact
-// that gives less, from another place.
+// Where it flows, z is of F_e, which is linear in the tick as well: F_e+ = (F+ + lag) / (1 + sum g mean_j), so that
+// a tick is as with a contact that gives less, from another place.
 
 #include <array>
 
+#include "common/math/lag_step.h"
 #include "haptic_node/tissue/contact_spring.h"
 #include "haptic_node/tissue/mode_response.h"
 #include "haptic_node/tissue/motion_history.h"
@@ -41,7 +42,8 @@ struct FlowingContact {
     const GrowingContact::Tangent z = law.tangent(staying(F));
     return {share * z.slope, z.offset + share * z.slope * lag};
   }
-  /// Is the root right to `precision` that the tangent at F has at `next`? What it leaves is z'' / (2 z') times the square of the step.
+  /// Is the root right to `precision` that the tangent at F has at `next`? What it leaves is z'' / (2 z') times the
+  /// square of the step.
   bool is_enough(double F, double next, double precision) const noexcept {
     return share * law.growth / (6 * (1 + law.growth * staying(F))) * (next - F) * (next - F) <= precision;
   }
@@ -79,22 +81,20 @@ class TissueStep {
   /// Where nothing presses at the end of a tick.
   struct Loose {
     Vec3 stretch = Vec3::Zero();  // from the modal surface to the tip [m]
-    double late = 0;              // how fast that grows along n, the residual apart [m/s]
+    double late =
+        0;  // how fast that grows along n, were the residual back where nothing presses at the end [m/s]
   };
   FrictionContact press(const Loose& loose, const FlowingContact& law) const noexcept;
   FrictionContact press_growing(const Loose& loose, const FlowingContact& law, double before) const noexcept;
 
-  struct Branch {
-    double keep = 1, first = 0, last = 0;  // p+ = keep p + first d + last d+; f+ alike, of F_e
-  };
   TissueModel model_;
   ContactSpring spring_;
   double h_ = 1e-3;
   std::array<ModeResponse, TissueModel::most_modes> modes_{};
-  std::array<Branch, TissueModel::most_branches> branches_{};
-  double relaxing_ = 0, held_ = 0;  // sum k (1 - last): F_r+ by d+ [N/m]; 1 / (1 + relaxing n.Dn)
-  double flowing_ = 1;              // 1 / (1 + sum g (1 - last)): F_e+ by F+
-  Vec3 pushed_ = Vec3::Zero(), sped_ = Vec3::Zero();         // D n, E n, branches apart [m/N], [m/(N s)]
+  std::array<LagStep, TissueModel::most_branches> branches_{};  // of p behind d, and of f behind F_e
+  double relaxing_ = 0, held_ = 0;                    // sum k mean: F_r+ by d+ [N/m]; 1 / (1 + relaxing n.Dn)
+  double flowing_ = 1;                                // 1 / (1 + sum g mean): F_e+ by F+
+  Vec3 pushed_ = Vec3::Zero(), sped_ = Vec3::Zero();  // D n, E n, branches apart [m/N], [m/(N s)]
   Mat3 compliance_ = Mat3::Zero(), inverse_ = Mat3::Zero();  // C
   Mat3 bound_ = Mat3::Zero();                                // (I / K + R) / (3/2) + D
 };

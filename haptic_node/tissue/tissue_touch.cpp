@@ -61,8 +61,9 @@ void TissueTouch::weaken(double keep, const Vec3& x) noexcept {
   for (double& f : felt_.state.f) f *= keep;
 }
 
-/// F on the hand, and along the normal clamp(1.5 h F', -f, f / 2) more, where F' = K* (x' - y') is known of what does not flow: a force that is held and late is worth its spring
-/// less a damper of that size, which gives energy; the command has it in advance.
+/// F on the hand, and along the normal clamp(1.5 h F', -f, f / 2) more, F' = K* (x' - y') of what does not flow: a force
+/// that is held and late is worth its spring less a damper of that size, which gives energy; the command has it in
+/// advance.
 Vec3 TissueTouch::command(const Vec3& v) const noexcept {
   const TissueModel& model = felt_.step.model();
   const double in = pressed(model, felt_.state);

@@ -1,6 +1,6 @@
 #pragma once
-// How much harder a ball has to press where tissue is a layer of thickness h on something that stands, over what it would in a half space, at
-// the same depth d of a ball of radius R:
+// How much harder a ball of radius R has to press, to the same depth d, where tissue is a layer of thickness h on
+// something that stands, over what it would in a half space:
 //
 //   F / F_Hertz = 1 - 2 a / pi chi + 4 a^2 / pi^2 chi^2 - 8 / pi^3 (a^3 + 4 pi^2 / 15 b) chi^3,   chi = sqrt(R d) / h
 //   a = -(1.2876 - 1.4678 nu + 1.3442 nu^2) / (1 - nu),   b = (0.6387 - 1.0277 nu + 1.5164 nu^2) / (1 - nu)
@@ -34,9 +34,8 @@ inline double thickness_below(const Body& body, Index node, const Vec3& normal) 
   const Adjacency neighbours = body.adjacency();
   const Vec3 from = body.rest_position(node);
   for (int n = 0; n < most_cells; ++n) {
-    if (!(body.inverse_mass[static_cast<std::size_t>(node)] > 0))
-      return normal.dot(from - body.rest_position(node));
     const double here = normal.dot(from - body.rest_position(node));
+    if (!(body.inverse_mass[static_cast<std::size_t>(node)] > 0)) return here;
     Index next = node;
     double best = 0;
     neighbours.each_neighbour(node, [&](Index other) {

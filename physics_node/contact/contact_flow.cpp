@@ -1,7 +1,5 @@
 #include "physics_node/contact/contact_flow.h"
 
-#include <cmath>
-
 namespace palpate::physics {
 namespace {
 
@@ -10,13 +8,13 @@ constexpr double short_time = 0.3e-3;  // [s]
 // Why: less than a degree at 20 Hz.
 constexpr double shortest_lag = 0.1e-3;  // [s]
 
-// What a damper takes of all relative motion of its ends over what it takes of that along it, of springs in all directions and a bar that is
-// drawn: <|e n|^2> / <(n . e n)^2>, e = diag(-nu, -nu, 1), nu = 1/3.
+// What a damper takes of all relative motion of its ends over what it takes of that along it, of springs in all
+// directions and a bar that is drawn: <|e n|^2> / <(n . e n)^2>, e = diag(-nu, -nu, 1), nu = 1/3.
 constexpr double relative_over_axial = 2.4;
 
 /// Viscosity over modulus [s].
 double lag_of(const Body& body) noexcept {
-  if (is_of_finite_elements(body) || body.mesh) return damper_time(body);
+  if (body.solid || body.mesh) return damper_time(body);
   const ElementLaw& law = body.law;
   if (law.damper == Damper::drag) return 0;
   double c = 0, k = 0;
@@ -48,15 +46,12 @@ void ContactFlow::rest() noexcept {
   for (Branch& branch : branches_) branch.force = 0;
 }
 
-/// A held F_e leaves 1 - e^-u, one that grows from 0 to 1 leaves 1 - (1 - e^-u) / u, u = dt / tau.
 void ContactFlow::set_step(double dt) noexcept {
   dt_ = dt;
   stiffness_ = 1;
   for (std::size_t j = 0; j < n_; ++j) {
-    const double u = dt / branches_[j].time;
-    const double keep = std::exp(-u), mean = -std::expm1(-u) / u;
-    steps_[j] = {keep, mean - keep, 1 - mean};
-    stiffness_ += branches_[j].share * mean;
+    steps_[j] = LagStep::over(dt, branches_[j].time);
+    stiffness_ += branches_[j].share * steps_[j].mean;
   }
 }
 
@@ -65,11 +60,11 @@ void ContactFlow::pass(double F, double dt) noexcept {
   if (dt != dt_) set_step(dt);
   double lag = 0;
   for (std::size_t j = 0; j < n_; ++j) {
-    branches_[j].force = steps_[j].keep * branches_[j].force + steps_[j].first * staying_;
+    branches_[j].force = steps_[j].begun(branches_[j].force, staying_);
     lag += branches_[j].share * branches_[j].force;
   }
   staying_ = (F + lag) / stiffness_;
-  for (std::size_t j = 0; j < n_; ++j) branches_[j].force += steps_[j].last * staying_;
+  for (std::size_t j = 0; j < n_; ++j) branches_[j].force += steps_[j].last() * staying_;
 }
 
 }  // namespace palpate::physics

@@ -22,6 +22,10 @@ struct HeldShape {
   bool turns() const noexcept { return shape.kind() != RigidShape::Kind::sphere; }
 };
 
+/// How deep it may lie in tissue where a touch begins. Why: a touch begins outside; what is deeper without bearing has
+/// got there otherwise, and would be thrown out [m].
+inline constexpr double begins_within = 0.5e-3;
+
 /// A point is a sphere whose lowest point is the tip; a stick a capsule whose axis begins there; what has flat ends begins at the tip and goes
 /// up from it. @param tool  a shape of its own, not a body
 HeldShape held_shape(const ToolSpec& tool);

@@ -17,9 +17,10 @@ namespace {
 // curved. Why: slower than a hand palpates.
 constexpr double offset_smoothing = 0.1;  // [s]
 constexpr double rest_smoothing = 5e-3;   // of what modes do not tell [s]
-// Where a touch begins: of the size of a cell, and of the shape's. Why: a force on one face of a cell is borne as by a round patch of this
-// radius (slabs of 8, 16 and 40 mm on what stands, cells of 4 mm, a ball of 5 mm, a first tap of 2 mm: peak to 4 %; springs give
-// more than a solid by the factor below, then to 6 %); a stick lies on more than a ball does, a flat end on all of it.
+// Where a touch begins: of the size of a cell, and of the shape's. Why: a force on one face of a cell is borne as by a
+// round patch of this radius (slabs of 8, 16 and 40 mm on what stands, cells of 4 mm, a ball of 5 mm, a first tap of
+// 2 mm: peak to 4 %; springs give more than a solid by the factor below, then to 6 %); a stick lies on more than a ball
+// does, a flat end on all of it.
 constexpr double smallest_of_element = 0.37, smallest_of_spring = 0.48, smallest_of_ball = 0.05,
                  smallest_of_others = 1;
 constexpr double springs_give = 1.13;
@@ -163,11 +164,13 @@ void TissueTool::take_offsets(const Touchable& body, const Shapes& psi, Modal& q
   }
 }
 
-/// Branches beside the modes are as stiff as these are all together along the normal, so they relax as far as what the contact bears.
+/// Branches beside the modes are as stiff as these are all together along the normal, so they relax as far as what the
+/// contact bears.
 void TissueTool::tell_flow(const Touchable& body, const Shapes& psi, TouchedTissue& tissue) const noexcept {
+  tissue.n_branches = told_branches_;
+  if (told_branches_ == 0) return;
   const double modal = modal_compliance(body, psi);
   const auto flows = flow_.branches();
-  tissue.n_branches = told_branches_;
   for (std::size_t j = 0; j < told_branches_; ++j) {
     BranchOfTissue& branch = tissue.branches[j];
     branch = {};  // one that nothing moves

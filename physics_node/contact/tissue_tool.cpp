@@ -13,8 +13,6 @@
 namespace palpate::physics {
 namespace {
 
-// A touch begins outside: what is deeper in the tissue without bearing has got there otherwise, and would be thrown out.
-constexpr double begins_within = 0.5e-3;  // [m]
 // Of the shape's size: how deep a corner of the tissue may be in it before a sample of its faces is, where
 // it has come from outside. Why: samples lie up to a twentieth of the size beside a corner, and in a hollow
 // the shape is as steep as four to one.

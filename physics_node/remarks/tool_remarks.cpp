@@ -21,10 +21,9 @@
 namespace palpate::physics {
 namespace {
 
-constexpr double fastest_hand = 3;        // [m/s]: a throw; pressing and cutting stay below 1
-constexpr double far_away = 10;           // times the size of the bodies
-constexpr double begins_within = 0.5e-3;  // [m], of tissue a shape may begin in: tissue_tool.cpp
-constexpr double touch = 0.8;  // of the spacing: from anywhere on a facet a vertex is within 0.71 of it
+constexpr double fastest_hand = 3;  // [m/s]: a throw; pressing and cutting stay below 1
+constexpr double far_away = 10;     // times the size of the bodies
+constexpr double touch = 0.8;       // of the spacing: from anywhere on a facet a vertex is within 0.71 of it
 constexpr std::size_t most_samples = 4000,
                       most_of_shape = 200;  // of a path; the latter cost a pass over all vertices each
 
