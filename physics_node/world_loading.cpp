@@ -49,7 +49,7 @@ TeamChoice choose_threads(const Scene& scene, int spare_cores, Index n_masses, s
   return TeamChoice::up_to(std::clamp(cores, 1, std::max(1, static_cast<int>(n_pieces))));
 }
 
-/// By node, as large as they may become when a body is cut: of its lightest tetrahedron or cell alone [1/kg].
+/// By node, as large as they may become when a body is cut: of its lightest tetrahedron, triangle or cell alone [1/kg].
 std::vector<double> inverse_masses_when_cut(const Body& body) {
   std::vector<double> inverse = body.inverse_mass;
   if (const CellNet* net = body.cell_net())
@@ -57,6 +57,15 @@ std::vector<double> inverse_masses_when_cut(const Body& body) {
       for (const Index node : net->loaded_corners(cell))
         if (double& w = inverse[static_cast<std::size_t>(node)]; w > 0)
           w = std::max(w, 1 / body.solid->eighth[static_cast<std::size_t>(cell)]);
+  if (body.mesh && body.mesh->triangles) {
+    const SpringSurface& surface = *body.mesh->springs;
+    for (const MeshTriangle& t : surface.mesh.triangles) {
+      const double third =
+          surface.membrane.density * surface.membrane.thickness * area_of(surface.mesh, t) / 3;
+      for (const Index node : t)
+        if (double& w = inverse[static_cast<std::size_t>(node)]; w > 0) w = std::max(w, 1 / third);
+    }
+  }
   if (!body.mesh || !body.mesh->net) return inverse;
   const TetModel& model = body.mesh->model;
   for (std::size_t t = 0; t < model.mesh.tets.size(); ++t) {

@@ -42,15 +42,17 @@ double mass_of(const physics::Body& body) {
   return sum;
 }
 
-/// Edges that facets do not go as often one way as the other.
+/// Edges that facets do not go as often one way as the other; of a bag, which a cut opens, those that they go twice one way.
 std::int64_t open_edges_of(const physics::BodyModel& moving) {
   const physics::Surface surface = make_surface(moving, std::nullopt, 0);
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> gone;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> gone, ways;
   for (const auto& facet : surface.facets)
     for (std::size_t c = 0; c < 4; ++c) {
       const std::uint32_t a = facet[c], b = facet[(c + 1) % 4];
-      if (a != b) gone[std::minmax(a, b)] += a < b ? 1 : -1;
+      if (a != b) gone[std::minmax(a, b)] += a < b ? 1 : -1, ++ways[{a, b}];
     }
+  if (is_surface_of_springs(moving.body()))
+    return std::ranges::count_if(ways, [](const auto& way) { return way.second > 1; });
   return std::ranges::count_if(gone, [](const auto& edge) { return edge.second != 0; });
 }
 

@@ -16,7 +16,8 @@ enum class CutKind {
   tetrahedra,  // a jittered mesh, free
   cells,       // of a voxel lattice, free
   springs,     // on either lattice, free
-  parts        // cells of an image that is awake in parts
+  parts,       // cells of an image that is awake in parts
+  surfaces     // a bag of springs, filled or not
 };
 const std::vector<std::string>& cut_kinds();  // in that order
 

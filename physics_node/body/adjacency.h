@@ -8,7 +8,7 @@
 
 #include "physics_node/lattice/cell_net.h"
 #include "physics_node/lattice/lattice.h"
-#include "physics_node/mesh/tet_net.h"
+#include "physics_node/mesh/simplex_net.h"
 
 namespace palpate::physics {
 
@@ -26,44 +26,28 @@ class Adjacency {
   /// Of a mesh, in which nothing breaks. @param lists  outlives this
   explicit Adjacency(const NodeLists& lists) : lists_(&lists) {}
   /// Of a mesh that may be cut. @param lists, net  of it; outlive this
-  Adjacency(const NodeLists& lists, const TetNet& net) : lists_(&lists), net_(&net) {}
+  Adjacency(const NodeLists& lists, const TetNet& net) : lists_(&lists), net_(&net), copies_(&net) {}
+  Adjacency(const NodeLists& lists, const TriangleNet& net)
+      : lists_(&lists), triangles_(&net), copies_(&net) {}
 
   /// Calls visit(neighbour) for each node that a live element joins to this one, in an order that depends on the body
   /// alone; where a mesh or cells may be cut for some of them more than once.
   template <class Visit>
   void each_neighbour(Index node, const Visit& visit) const noexcept {
-    if (net_ != nullptr) {
-      net_->each_corner(node, [&](Index tet, std::size_t) {
-        for (const Index other : net_->corners(tet))
-          if (other != node) visit(other);
-      });
-      return;
-    }
+    if (net_ != nullptr) return each_in(*net_, node, visit);
+    if (triangles_ != nullptr) return each_in(*triangles_, node, visit);
     if (lists_ != nullptr) {
       for (const Index other : lists_->of(node)) visit(other);
       return;
     }
-    if (cells_ != nullptr) {
-      cells_->each_corner(node, [&](Index cell, std::size_t) {
-        for (const Index other : cells_->corners(cell))
-          if (other != node) visit(other);
-      });
-      return;
-    }
+    if (cells_ != nullptr) return each_in(*cells_, node, visit);
     const auto& offset = lattice_->offset[static_cast<std::size_t>(lattice_->row_kind(node))];
     for (Mask left = live_elements(node) & element_bits; left != 0; left &= left - 1)
       visit(node + offset[static_cast<std::size_t>(std::countr_zero(left))]);
   }
   bool are_joined(Index a, Index b) const noexcept {
-    if (net_ != nullptr) {
-      bool joined = false;
-      net_->each_corner(a, [&](Index tet, std::size_t) {
-        joined = joined || std::ranges::find(net_->corners(tet), b) != net_->corners(tet).end();
-      });
-      return joined;
-    }
-    if (lists_ != nullptr) return std::ranges::binary_search(lists_->of(a), b);
-    if (cells_ != nullptr) {
+    if (lists_ != nullptr && copies_ == nullptr) return std::ranges::binary_search(lists_->of(a), b);
+    if (copies_ != nullptr || cells_ != nullptr) {
       bool joined = false;
       each_neighbour(a, [&](Index other) { joined = joined || other == b; });
       return joined;
@@ -81,7 +65,7 @@ class Adjacency {
   /// Is an element gone that joined it to another when the body was loaded, or a cell that it was a corner of? Or has the
   /// node of a mesh split?
   bool has_lost(Index node) const noexcept {
-    if (net_ != nullptr) return net_->has_split(node);
+    if (copies_ != nullptr) return copies_->has_split(node);
     if (cells_ != nullptr && cells_->has_split(node)) return true;
     return lists_ == nullptr && live_elements(node) != lattice_->mask[static_cast<std::size_t>(node)];
   }
@@ -103,11 +87,21 @@ class Adjacency {
   }
 
  private:
+  template <class Net, class Visit>
+  static void each_in(const Net& net, Index node, const Visit& visit) noexcept {
+    net.each_corner(node, [&](Index element, std::size_t) {
+      for (const Index other : net.corners(element))
+        if (other != node) visit(other);
+    });
+  }
+
   const Lattice* lattice_ = nullptr;
   std::span<const Mask> live_;
-  const NodeLists* lists_ = nullptr;  // of a mesh, as loaded; else null
-  const TetNet* net_ = nullptr;       // of a mesh that may be cut; else null
-  const CellNet* cells_ = nullptr;    // of cells that may be; else null
+  const NodeLists* lists_ = nullptr;        // of a mesh, as loaded; else null
+  const TetNet* net_ = nullptr;             // of a mesh of tetrahedra that may be cut; else null
+  const TriangleNet* triangles_ = nullptr;  // of a surface of springs that may be; else null
+  const NodeCopies* copies_ = nullptr;      // of either; else null
+  const CellNet* cells_ = nullptr;          // of cells that may be; else null
 };
 
 }  // namespace palpate::physics

@@ -69,12 +69,12 @@ struct Body {
     const auto visit_all = [&](const auto& net) {
       for (Index node = net.n_loaded(); node < net.n_nodes(); ++node) visit(node);
     };
-    if (mesh && mesh->net) visit_all(*mesh->net);
+    if (mesh && mesh->copies() != nullptr) visit_all(*mesh->copies());
     if (const CellNet* net = cell_net()) visit_all(*net);
   }
   /// The node as loaded that this is, or is a copy of.
   Index origin(Index node) const noexcept {
-    if (mesh) return mesh->net ? mesh->net->origin(node) : node;
+    if (mesh) return mesh->origin(node);
     return cell_net() != nullptr ? cell_net()->origin(node) : node;
   }
   Vec3 rest_position(Index node) const noexcept {  // [m]
@@ -134,9 +134,10 @@ inline bool any_yields(const Body& body) {
   return !body.solid &&
          std::any_of(body.laws.begin(), body.laws.end(), [](const ElementLaw& law) { return law.yields; });
 }
-/// Are there springs that a tool may cut, or tetrahedra or cells that it may part?
+/// Are there springs that a tool may cut, or tetrahedra, triangles or cells that it may part?
 inline bool any_cut(const Body& body) {
-  return body.may_be_cut && (body.solid ? body.solid->net != nullptr : !body.mesh || body.mesh->net);
+  if (!body.may_be_cut) return false;
+  return body.solid ? body.solid->net != nullptr : !body.mesh || body.mesh->copies() != nullptr;
 }
 /// May springs or finite elements go, of themselves or because a tool cuts them?
 inline bool any_breaks(const Body& body) {
@@ -164,8 +165,8 @@ inline bool any_springs_lose(const Body& body) {
          std::any_of(body.laws.begin(), body.laws.end(), [](const ElementLaw& law) { return law.drag > 0; });
 }
 
-/// For a body that a tool of the scene cuts: of tetrahedra of first order and of cells of finite elements all of whose materials
-/// say how tough they are, room for the copies of their nodes. @throws InputError  more tetrahedra at a node than TetNet has room for
+/// For a body that a tool of the scene cuts: of tetrahedra of first order, of surfaces of springs and of cells of finite elements all of whose materials
+/// say how tough they are, room for the copies of their nodes. @throws InputError  more elements at a node than SimplexNet has room for
 void make_ready_for_cuts(const BodySpec& spec, const std::vector<MaterialSpec>& materials, Body& body);
 
 /// Builds a body's lattice or mesh, its laws, held masses and handle. Held are the masses within a quarter of a grid step of a face; where

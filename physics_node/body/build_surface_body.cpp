@@ -48,6 +48,7 @@ void build_surface_body(Body& body, const BodySpec& spec, const std::vector<Mate
   ElementLaw& law = body.laws.emplace_back();
   law.modulus = membrane.modulus;
   law.drag = membrane.drag;
+  law.cut_toughness = material.cut_toughness.value_or(0.0);
   law.damped = membrane.beta > 0;
   law.damper = Damper::axial;
   body.law = law;

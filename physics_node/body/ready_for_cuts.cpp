@@ -20,24 +20,34 @@ namespace {
 constexpr std::size_t spare_copies = 4096;
 constexpr std::size_t most_copies_of_cells = 65536;
 
-void give_tet_net(const BodySpec& spec, Body& body) {
-  if (!body.mesh || body.mesh->springs || !body.mesh->model.mesh.middles.empty()) return;
+/// @param kind  of elements, as words
+template <std::size_t N>
+std::unique_ptr<SimplexNet<N>> make_net(const BodySpec& spec, Body& body,
+                                        const std::vector<std::array<Index, N>>& elements, const char* kind) {
   MeshBody& mesh = *body.mesh;
-  const std::size_t n = mesh.nodes.size(), corners = 4 * mesh.model.mesh.tets.size();
+  const std::size_t n = mesh.nodes.size(), corners = N * elements.size();
   std::vector<std::size_t> around(n, 0);
-  for (const auto& tet : mesh.model.mesh.tets)
-    for (const Index node : tet) ++around[static_cast<std::size_t>(node)];
-  if (const auto most = std::ranges::max_element(around); *most > TetNet::most_around) {
+  for (const auto& element : elements)
+    for (const Index node : element) ++around[static_cast<std::size_t>(node)];
+  if (const auto most = std::ranges::max_element(around); *most > SimplexNet<N>::most_around) {
     const Vec3 at = 1e3 * mesh.rest(static_cast<Index>(most - around.begin()));
     throw InputError(fmt::format(
-        "{}: body \"{}\" is to be cut, and {} tetrahedra meet at a node of its mesh, at {:.4g} {:.4g} {:.4g} "
+        "{}: body \"{}\" is to be cut, and {} {} meet at a node of its mesh, at {:.4g} {:.4g} {:.4g} "
         "mm; mesh it anew, with at most {}",
-        spec.place.text(), spec.name, *most, at.x(), at.y(), at.z(), TetNet::most_around));
+        spec.place.text(), spec.name, *most, kind, at.x(), at.y(), at.z(), SimplexNet<N>::most_around));
   }
   const std::size_t copies = std::min(corners - n, n + spare_copies);
-  mesh.net = std::make_unique<TetNet>(mesh.model.mesh, copies);
   mesh.mass.resize(n + copies, 0.0);
   body.inverse_mass.resize(n + copies, 0.0);
+  return std::make_unique<SimplexNet<N>>(elements, n, copies);
+}
+
+void give_net_of_mesh(const BodySpec& spec, Body& body) {
+  MeshBody& mesh = *body.mesh;
+  if (mesh.springs)
+    mesh.triangles = make_net<3>(spec, body, mesh.springs->mesh.triangles, "triangles");
+  else if (mesh.model.mesh.middles.empty())
+    mesh.net = make_net<4>(spec, body, mesh.model.mesh.tets, "tetrahedra");
 }
 
 /// What cells weigh and how tough they are, by their own material.
@@ -75,7 +85,7 @@ void give_cell_net(const BodySpec& spec, const std::vector<MaterialSpec>& materi
 void make_ready_for_cuts(const BodySpec& spec, const std::vector<MaterialSpec>& materials, Body& body) {
   body.may_be_cut = true;
   if (std::ranges::any_of(body.laws, [](const ElementLaw& law) { return law.cut_toughness <= 0; })) return;
-  if (body.mesh && !body.mesh->springs && body.mesh->model.mesh.middles.empty()) give_tet_net(spec, body);
+  if (body.mesh) give_net_of_mesh(spec, body);
   if (body.solid && is_parted_where_cut(body)) give_cell_net(spec, materials, body);
 }
 

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "physics_node/lattice/lattice_types.h"
-#include "physics_node/mesh/tet_net.h"
+#include "physics_node/mesh/simplex_net.h"
 
 namespace palpate::physics {
 

@@ -16,7 +16,7 @@ class ExposedNodes {
 
   bool contains(Index node, const Adjacency& now) const noexcept {
     if (mesh_ != nullptr && mesh_->net) return mesh_->net->is_exposed(node);
-    if (mesh_ != nullptr) return mesh_->is_outer[static_cast<std::size_t>(node)] != 0;
+    if (mesh_ != nullptr) return mesh_->is_outer[static_cast<std::size_t>(mesh_->origin(node))] != 0;
     const Index loaded = cells_ != nullptr ? cells_->origin(node) : node;
     if (lattice_->is_beyond(loaded)) return false;
     if (cells_ != nullptr && cells_->n_copies() > 0 && cells_->is_exposed(node)) return true;

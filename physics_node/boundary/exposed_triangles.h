@@ -19,7 +19,8 @@ class ExposedTriangles {
 
   /// There are never more on so many nodes.
   std::size_t most(std::size_t n_nodes) const noexcept {
-    if (mesh_ != nullptr && mesh_->net) return 4 * static_cast<std::size_t>(mesh_->net->n_tets());
+    if (mesh_ != nullptr && mesh_->net) return 4 * static_cast<std::size_t>(mesh_->net->n_elements());
+    if (mesh_ != nullptr && mesh_->triangles) return static_cast<std::size_t>(mesh_->triangles->n_elements());
     return n_nodes * std::max(most_of_a_node(), cells_ != nullptr ? most_at_cells : 0);
   }
   /// Calls take(b, c) for each whose first corner is `a`; every triangle has one first corner.
@@ -27,6 +28,7 @@ class ExposedTriangles {
   template <class Wanted, class Take>
   void each(Index a, const Adjacency& now, const Wanted& wanted, const Take& take) const noexcept {
     if (mesh_ != nullptr && mesh_->net) return each_of_net(a, wanted, take);
+    if (mesh_ != nullptr && mesh_->triangles) return each_of_surface(a, wanted, take);
     if (mesh_ != nullptr) return each_of_mesh(a, wanted, take);
     if (now.is_at_cut(a)) return each_of_cells(a, wanted, take);
     const auto live = [&](Index node) { return now.live_elements(node); };
@@ -60,6 +62,15 @@ class ExposedTriangles {
         if (face[0] == a && net.is_exposed(tet, f) && wanted(face[1]) && wanted(face[2]))
           take(face[1], face[2]);
       }
+    });
+  }
+  template <class Wanted, class Take>
+  void each_of_surface(Index a, const Wanted& wanted, const Take& take) const noexcept {
+    const TriangleNet& net = *mesh_->triangles;
+    net.each_corner(a, [&](Index triangle, std::size_t) {
+      MeshTriangle face = net.corners(triangle);
+      std::rotate(face.begin(), std::ranges::min_element(face), face.end());
+      if (face[0] == a && wanted(face[1]) && wanted(face[2])) take(face[1], face[2]);
     });
   }
   /// Where a cut has parted cells: both halves of their faces.

@@ -12,9 +12,10 @@ void LiveElements::copy(const Topology& moving) { copy(moving.body(), moving.adj
 
 void LiveElements::copy_faces(const Body& body) {
   faces_.clear();
+  if (body.mesh->triangles) return copy_triangles(*body.mesh->triangles);
   if (!body.mesh->net) return;
   const TetNet& net = *body.mesh->net;
-  for (Index tet = 0; tet < net.n_tets(); ++tet)
+  for (Index tet = 0; tet < net.n_elements(); ++tet)
     for (std::size_t f = 0; f < 4; ++f) {
       if (!net.is_exposed(tet, f)) continue;
       const MeshTriangle face = net.face(tet, f);
@@ -23,6 +24,16 @@ void LiveElements::copy_faces(const Body& body) {
                         face,
                         {net.origin(face[0]), net.origin(face[1]), net.origin(face[2])}});
     }
+}
+
+void LiveElements::copy_triangles(const TriangleNet& net) {
+  for (Index triangle = 0; triangle < net.n_elements(); ++triangle) {
+    const MeshTriangle& of = net.corners(triangle);
+    bool beside_cut = false;
+    for (std::size_t side = 0; side < 3; ++side)
+      beside_cut = beside_cut || (net.is_open(triangle, side) && net.is_exposed(triangle, side));
+    faces_.push_back({triangle, !beside_cut, of, {net.origin(of[0]), net.origin(of[1]), net.origin(of[2])}});
+  }
 }
 
 void LiveElements::copy_parted(const Body& body) {

@@ -12,7 +12,7 @@
 
 namespace palpate::physics {
 
-/// Of a mesh that may be cut it holds the faces that can be touched; of another, in which nothing breaks, nothing. Of cells that may be
+/// Of a mesh that may be cut it holds the faces that can be touched, of a surface all triangles; of another, in which nothing breaks, nothing. Of cells that may be
 /// cut also those that have been.
 class LiveElements {
  public:
@@ -29,11 +29,11 @@ class LiveElements {
   Mask mask(Index cell) const { return mask_[static_cast<std::size_t>(cell)]; }
   std::span<const Mask> masks() const { return {mask_.data(), mask_.size()}; }  // (n_cells)
   struct Face {
-    Index tet = 0;
-    bool is_skin = true;                // as loaded; else a cut has opened it
+    Index element = 0;
+    bool is_skin = true;                // as loaded; else a cut has opened it, or of a surface goes along it
     MeshTriangle corners{}, origins{};  // origins: the nodes as loaded that these are, or are copies of
   };
-  std::span<const Face> faces() const { return faces_; }  // in the order of the tetrahedra
+  std::span<const Face> faces() const { return faces_; }  // in the order of the elements
 
   /// A cell of finite elements that has a copy at a corner, or an open face.
   struct PartedCell {
@@ -47,6 +47,7 @@ class LiveElements {
 
  private:
   void copy_faces(const Body& body);
+  void copy_triangles(const TriangleNet& net);
   void copy_parted(const Body& body);
 
   ZeroedArray<Mask> mask_;  // (n_cells)

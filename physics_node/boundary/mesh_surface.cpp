@@ -47,9 +47,9 @@ class MeshSurfaceMaker {
 Surface mesh_surface(const Body& body, const LiveElements& live, std::uint32_t rgba) {
   const MeshBody& mesh = *body.mesh;
   MeshSurfaceMaker maker(body);
-  if (mesh.net)
+  if (mesh.copies() != nullptr)
     for (const LiveElements::Face& face : live.faces())
-      maker.take(face.corners, face.origins, face.tet, face.is_skin ? rgba : inside_colour(rgba));
+      maker.take(face.corners, face.origins, face.element, face.is_skin ? rgba : inside_colour(rgba));
   else
     for (const MeshTriangle& face : mesh.faces) maker.take(face, face, 0, rgba);
   if (!mesh.filled.empty()) maker.surface.hidden = (4 * mesh.filled.size() - mesh.faces.size()) / 2;

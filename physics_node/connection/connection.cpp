@@ -47,34 +47,44 @@ Connection::Connection(std::vector<Strand> strands, BodyModel& from, BodyModel& 
     for (std::size_t c = 0; c < 3; ++c)
       rest_.back() += strand.share[c] * to_->body().rest_position(strand.foot[c]);
   }
-  if (to_->body().mesh && to_->body().mesh->net) find_tets();
+  with_net([this](const auto& net) { find_elements(net); });
 }
 
-void Connection::find_tets() {
-  const TetNet& net = *to_->body().mesh->net;
-  on_tet_.resize(strands_.size());
+/// Calls visit(net) where the second body is a mesh that may be cut.
+template <class Visit>
+void Connection::with_net(const Visit& visit) const {
+  const MeshBody* mesh = to_->body().mesh.get();
+  if (mesh != nullptr && mesh->net) visit(*mesh->net);
+  if (mesh != nullptr && mesh->triangles) visit(*mesh->triangles);
+}
+
+template <class Net>
+void Connection::find_elements(const Net& net) {
+  on_element_.resize(strands_.size());
   for (std::size_t s = 0; s < strands_.size(); ++s)
-    net.each_corner(strands_[s].foot[0], [&](Index tet, std::size_t) {
-      OnTet on{.tet = tet};
-      const TetNet::Corners& corners = net.corners(tet);
+    net.each_corner(strands_[s].foot[0], [&](Index element, std::size_t) {
+      OnElement on{.element = element};
+      const auto& corners = net.corners(element);
       for (std::size_t c = 0; c < 3; ++c) {
         const auto at = std::ranges::find(corners, strands_[s].foot[c]);
         if (at == corners.end()) return;
         on.corner[c] = static_cast<std::uint8_t>(at - corners.begin());
       }
-      on_tet_[s] = on;
+      on_element_[s] = on;
     });
 }
 
 void Connection::take_feet() noexcept {
-  for (std::size_t s = 0; s < on_tet_.size(); ++s) {
-    const TetNet::Corners& corners = to_->body().mesh->net->corners(on_tet_[s].tet);
-    for (std::size_t c = 0; c < 3; ++c) strands_[s].foot[c] = corners[on_tet_[s].corner[c]];
-  }
+  with_net([this](const auto& net) {
+    for (std::size_t s = 0; s < on_element_.size(); ++s) {
+      const auto& corners = net.corners(on_element_[s].element);
+      for (std::size_t c = 0; c < 3; ++c) strands_[s].foot[c] = corners[on_element_[s].corner[c]];
+    }
+  });
 }
 
 void Connection::follow() noexcept {
-  if (!on_tet_.empty() && !to_->events().nodes_split.empty()) take_feet();
+  if (!on_element_.empty() && !to_->events().nodes_split.empty()) take_feet();
 }
 
 Connection::Ends Connection::places(const Strand& strand) const noexcept {

@@ -74,12 +74,15 @@ class Connection {
   std::uint64_t hash(std::uint64_t seed) const noexcept;
 
  private:
-  /// Where strands end on tetrahedra that may be cut.
-  struct OnTet {
-    Index tet = 0;
+  /// Where strands end on tetrahedra or triangles that may be cut.
+  struct OnElement {
+    Index element = 0;
     std::array<std::uint8_t, 3> corner{};
   };
-  void find_tets();
+  template <class Visit>
+  void with_net(const Visit& visit) const;
+  template <class Net>
+  void find_elements(const Net& net);
   void take_feet() noexcept;
 
   struct Left {
@@ -103,7 +106,7 @@ class Connection {
   std::vector<Vec3> rest_;  // of each, from its node to its foot; parts of a cut body keep it [m]
   BodyModel* from_;
   BodyModel* to_;
-  std::vector<OnTet> on_tet_;  // of each strand; EMPTY: of another body
+  std::vector<OnElement> on_element_;  // of each strand; EMPTY: of another body
   std::vector<double> left_;
   std::vector<Vec3> damping_;  // in the last step, on the first body [N]
   std::vector<NodalForce> on_from_, on_to_;

@@ -47,14 +47,20 @@ void BladeCells::number_elements(const Net& net, std::span<const Index> elements
 BladeCells::BladeCells(const BodyModel& body)
     : body_(&body),
       tets_(body.body().mesh ? body.body().mesh->net.get() : nullptr),
+      triangles_(body.body().mesh ? body.body().mesh->triangles.get() : nullptr),
       hexes_(body.body().cell_net()),
       h_(body.body().spacing()) {
-  if (!have_volumes()) return;
-  if (tets_ != nullptr) {
-    first_skin_ = tets_->n_tets();
+  if (!are_elements()) return;
+  const auto number_mesh = [this](const auto& net, std::size_t n_faces) {
+    first_skin_ = net.n_elements();
     std::vector<Index> all(static_cast<std::size_t>(first_skin_));
     std::iota(all.begin(), all.end(), 0);
-    number_elements(*tets_, all, 4);
+    number_elements(net, all, n_faces);
+  };
+  if (tets_ != nullptr) {
+    number_mesh(*tets_, 4);
+  } else if (triangles_ != nullptr) {
+    number_mesh(*triangles_, 3);
   } else {
     first_skin_ = hexes_->n_loaded();
     number_elements(*hexes_, hexes_->cells(), CellNet::n_faces);
@@ -87,10 +93,12 @@ BladeCells::Nodes BladeCells::nodes(Index cell) const noexcept {
     all.n = some.size();
     std::ranges::copy(some, all.of.begin());
   };
-  if (!have_volumes()) return {{cell}, 1};
+  if (!are_elements()) return {{cell}, 1};
   if (!is_skin(cell)) {
     if (tets_ != nullptr)
       take(tets_->corners(cell));
+    else if (triangles_ != nullptr)
+      take(triangles_->corners(cell));
     else
       take(hexes_->corners(cell));
     return all;
@@ -98,13 +106,15 @@ BladeCells::Nodes BladeCells::nodes(Index cell) const noexcept {
   const Skin& skin = faces_[face_of(cell)];
   if (tets_ != nullptr)
     take(tets_->face(skin.element, skin.face));
+  else if (triangles_ != nullptr)
+    take(triangles_->face(skin.element, skin.face));
   else
     take(hexes_->face(skin.element, skin.face));
   return all;
 }
 
 Vec3 BladeCells::rest(Index cell) const noexcept {
-  return have_volumes() ? rest_[static_cast<std::size_t>(cell)] : body_->body().rest_position(cell);
+  return are_elements() ? rest_[static_cast<std::size_t>(cell)] : body_->body().rest_position(cell);
 }
 
 }  // namespace palpate::physics

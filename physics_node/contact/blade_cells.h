@@ -1,7 +1,7 @@
 #pragma once
 // What an edge goes between in a body: cells that stay whole and hang together until it has passed between them. Of a
 // lattice of springs these are its masses; of finite elements they are the elements, tetrahedra or cells of the lattice, and
-// their outer faces, so that tissue reaches as far as its skin.
+// their outer faces, so that tissue reaches as far as its skin; of a surface of springs its triangles.
 //
 // A cell is where its nodes are in the mean, and what presses on it presses on each of them alike, s = 1 / their number:
 // force on a node F_n = sum of s F, and a cell gives way by sum of s F_n / m_n.
@@ -24,7 +24,7 @@ class BladeCells {
   explicit BladeCells(const BodyModel& body);
 
   /// Numbers of all.
-  std::span<const Index> all() const noexcept { return have_volumes() ? numbers_ : body_->body().nodes(); }
+  std::span<const Index> all() const noexcept { return are_elements() ? numbers_ : body_->body().nodes(); }
   /// Calls visit(cell) for each that may lie in a box now, and maybe for others; one or all of them, always in the same order. Cost: of a
   /// body that is awake in parts what lies about the box, else all.
   template <class Visit>
@@ -47,10 +47,10 @@ class BladeCells {
         }
   }
   std::size_t capacity() const noexcept {  // numbers are below it
-    return have_volumes() ? static_cast<std::size_t>(first_skin_) + faces_.size()
+    return are_elements() ? static_cast<std::size_t>(first_skin_) + faces_.size()
                           : static_cast<std::size_t>(body_->body().capacity());
   }
-  /// How far cells lie apart [m]; no two that are joined lie farther apart than 1.5 of it. Of finite elements no less than
+  /// How far cells lie apart [m]; no two that are joined lie farther apart than 1.5 of it. Of elements no less than
   /// what an edge presses in before it cuts.
   double spacing() const noexcept { return h_; }
   double toughness(Index cell) const noexcept;  // [J/m^2]
@@ -64,7 +64,14 @@ class BladeCells {
   Nodes nodes(Index cell) const noexcept;
   /// How many nodes have split in two.
   Index splits() const noexcept {
-    return tets_ != nullptr ? tets_->n_copies() : hexes_ != nullptr ? hexes_->n_copies() : 0;
+    if (hexes_ != nullptr) return hexes_->n_copies();
+    return body_->body().mesh && body_->body().mesh->copies() != nullptr
+               ? body_->body().mesh->copies()->n_copies()
+               : 0;
+  }
+  /// How thick a surface is; 0: it is none [m]
+  double wall() const noexcept {
+    return triangles_ != nullptr ? body_->body().mesh->springs->membrane.thickness : 0;
   }
   Vec3 rest(Index cell) const noexcept;                                                   // [m]
   Vec3 position(Index cell) const noexcept { return place_of(rest(cell), nodes(cell)); }  // [m]
@@ -84,6 +91,7 @@ class BladeCells {
       return;
     }
     if (tets_ != nullptr) return each_beyond(*tets_, 4, cell, visit);
+    if (triangles_ != nullptr) return each_beyond(*triangles_, 3, cell, visit);
     if (hexes_ != nullptr) return each_beyond(*hexes_, CellNet::n_faces, cell, visit);
     body_->adjacency().each_neighbour(cell, visit);
   }
@@ -93,12 +101,15 @@ class BladeCells {
     return hexes_ != nullptr && any_open(*hexes_, CellNet::n_faces, cell);
   }
   bool have_volumes() const noexcept { return tets_ != nullptr || hexes_ != nullptr; }
+  /// Elements, whose nodes part, or masses that springs join?
+  bool are_elements() const noexcept { return have_volumes() || triangles_ != nullptr; }
+  bool is_element(Index cell) const noexcept { return are_elements() && cell < first_skin_; }
   /// Is it of a volume, of which a plane has a section, or a point?
   bool has_section(Index cell) const noexcept { return have_volumes() && cell < first_skin_; }
   /// Which of the nodes of such a volume its edges join.
   std::span<const std::array<std::size_t, 2>> edges() const noexcept;
   /// Has the edge gone between an element and its skin? Nothing of the body comes apart there.
-  bool is_skin(Index cell) const noexcept { return have_volumes() && cell >= first_skin_; }
+  bool is_skin(Index cell) const noexcept { return are_elements() && cell >= first_skin_; }
   void pass_skin(Index cell) noexcept { passed_[face_of(cell)] = 1; }
   void reset() noexcept { passed_.assign(passed_.size(), 0); }
 
@@ -168,8 +179,9 @@ class BladeCells {
   }
 
   const BodyModel* body_ = nullptr;
-  const TetNet* tets_ = nullptr;    // null: no tetrahedra
-  const CellNet* hexes_ = nullptr;  // null: no cells; with both a lattice of springs
+  const TetNet* tets_ = nullptr;            // null: no tetrahedra
+  const TriangleNet* triangles_ = nullptr;  // null: no surface of springs
+  const CellNet* hexes_ = nullptr;          // null: no cells; with all three a lattice of springs
   double h_ = 1;
   Index first_skin_ = 0;              // elements have numbers below it
   std::vector<Index> numbers_;        // of elements, then of outer faces

@@ -108,13 +108,13 @@ void BladeLinks::gather(const BladeFrame& frame, const EdgePlace& edge, double t
 /// A cell before the edge that lies on one side, and all that it hangs together with on the other, would come off as a
 /// crumb: it goes with them.
 void BladeLinks::join_islands(const EdgePlace& edge) noexcept {
-  if (!edge.bites || !cells_.have_volumes()) return;
+  if (!edge.bites || !cells_.are_elements()) return;
   for (Node& node : nodes_) {
-    if (!cells_.has_section(node.cell)) continue;
+    if (!cells_.is_element(node.cell)) continue;
     if (node.at.y() < edge.lag || node.at.y() > edge.lag + settled_ahead * h_) continue;
     bool alone = true, any = false;
     cells_.each_joined(node.cell, [&](Index other) {
-      if (!cells_.has_section(other)) return;
+      if (!cells_.is_element(other)) return;
       const std::int32_t n = number_[static_cast<std::size_t>(other)];
       any = true;
       alone = alone && n >= 0 && nodes_[static_cast<std::size_t>(n)].side != node.side;

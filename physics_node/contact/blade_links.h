@@ -105,6 +105,10 @@ class BladeLinks {
   double spacing() const noexcept { return h_; }
   const BladeCells& cells() const noexcept { return cells_; }
   bool has_sections() const noexcept { return cells_.have_volumes(); }
+  /// Of a surface, how thick it is; else 0 [m].
+  double wall() const noexcept { return cells_.wall(); }
+  /// Do nodes part where it goes, and not springs between them?
+  bool parts_nodes() const noexcept { return cells_.are_elements(); }
 
  private:
   void look_around(const BladeFrame& frame, const EdgePlace& edge) noexcept;

@@ -75,6 +75,7 @@ void BladeStrips::weigh(const BladeLinks& links) noexcept {
     strip.bites = strip.bites && strip.weight > 0;
     if (!strip.bites) continue;
     strip.toughness /= strip.weight;
+    if (links.wall() > 0) continue;  // cover_wall()
     const double begin = static_cast<double>(i) * width_, end = begin + width_;
     if (links.has_sections()) {
       if (strip.low > begin) strip.low = std::min(strip.low, links.skin_along(*lowest[i], begin));
@@ -83,11 +84,31 @@ void BladeStrips::weigh(const BladeLinks& links) noexcept {
     const double low = std::max(strip.low, begin), high = std::min(strip.high, end);
     strip.cover = std::max(0.0, high - low) / width_;
   }
+  if (links.wall() > 0) cover_wall(links);
+}
+
+/// An edge goes through a surface at a point, about which its wall reaches along the edge: of a strip the part of that which lies on it. So
+/// what a way opens is as thick as the wall wherever strips end. Deviation: as if the edge stood upright on it.
+void BladeStrips::cover_wall(const BladeLinks& links) noexcept {
+  std::array<double, most> p{};
+  each_held(links, &BladeLinks::Link::now,
+            [&](const BladeLinks::Link&, const BladeLinks::Crossing& at, BladeStrip& strip, double w) {
+              p[static_cast<std::size_t>(&strip - strips_.data())] += w * at.p;
+            });
+  for (std::size_t i = 0; i < strips_.size(); ++i) {
+    BladeStrip& strip = strips_[i];
+    if (!strip.bites) continue;
+    const double middle = p[i] / strip.weight, half = 0.5 * links.wall(),
+                 begin = static_cast<double>(i) * width_;
+    strip.low = middle - half, strip.high = middle + half;
+    strip.cover = std::max(0.0, std::min(strip.high, begin + width_) - std::max(strip.low, begin)) / width_;
+  }
 }
 
 /// By how much the area before a strip has grown or shrunk: the places at rest of where its elements cross,
 /// X = X_0 + A q + B p by least squares, make of dq dp an area |A x B| dq dp.
 void BladeStrips::compare_with_rest(const BladeLinks& links, double dt) noexcept {
+  if (links.wall() > 0) return compare_way_with_rest(links, dt);
   struct Sums {
     double n = 0, q = 0, p = 0, qq = 0, qp = 0, pp = 0;
     Vec3 x = Vec3::Zero(), xq = Vec3::Zero(), xp = Vec3::Zero();
@@ -128,13 +149,53 @@ void BladeStrips::compare_with_rest(const BladeLinks& links, double dt) noexcept
   }
 }
 
+/// The same of a surface, where what lies before a strip is a line: X = X_0 + A q, and of a way dq |A| dq has been passed, as far as it is
+/// thick.
+void BladeStrips::compare_way_with_rest(const BladeLinks& links, double dt) noexcept {
+  struct Sums {
+    double n = 0, q = 0, qq = 0;
+    Vec3 x = Vec3::Zero(), xq = Vec3::Zero();
+  };
+  std::array<Sums, most> sums{};
+  const std::span<const BladeLinks::Node> nodes = links.nodes();
+  each_held(links, &BladeLinks::Link::now,
+            [&](const BladeLinks::Link& link, const BladeLinks::Crossing& at, BladeStrip& strip, double w) {
+              Sums& s = sums[static_cast<std::size_t>(&strip - strips_.data())];
+              const Vec3 x = at.between(nodes[link.a].rest, nodes[link.b].rest);
+              s.n += w, s.q += w * at.q, s.qq += w * at.q * at.q;
+              s.x += w * x, s.xq += w * at.q * x;
+            });
+  const double h = links.spacing();
+  for (std::size_t i = 0; i < strips_.size(); ++i) {
+    const Sums& s = sums[i];
+    BladeStrip& strip = strips_[i];
+    const bool first = strip.new_bite;
+    const double part = first ? 1.0 : evened_part(strip.slid, h, dt);
+    strip.slid_before = strip.slid, strip.slid = 0;
+    if (!strip.bites || s.n <= 0) continue;
+    const double q = s.q / s.n, qq = s.qq / s.n - q * q;
+    if (qq < 1e-3 * h * h) continue;
+    const Vec3 x = s.x / s.n, A = (s.xq / s.n - q * x) / qq;
+    strip.unstrained += part * (std::clamp(A.norm(), 0.1, 10.0) - strip.unstrained);
+    strip.new_bite = false;
+    strip.onward += part * (A - strip.onward);
+    const Vec3 front = x + (strip.q - q) * strip.onward;
+    if (!first) count_passed(strip, front, Vec3::Zero());
+    strip.front = front;
+    const double broad = std::min(width_, links.wall());
+    const double even = std::clamp(1 + strip.unpaid / (evened_in * h * broad), 0.5, 1.5);
+    strip.even += part * (even - strip.even);
+  }
+}
+
 /// What a strip has passed since the last step. Counted by where it is, and not by how far it went, this is right in the sum:
 /// where the two differ, as tissue is pressed together before the edge, the next that it opens is booked as so much more or less.
 void BladeStrips::count_passed(BladeStrip& strip, const Vec3& front, const Vec3& B) noexcept {
   const double size = strip.onward.norm();
   if (size < 0.1) return;
   const Vec3 onward = strip.onward / size;
-  const double passed = (front - strip.front).dot(onward) * onward.cross(B).norm() * strip.cover * width_;
+  const double broad = B.isZero(0) ? 1.0 : onward.cross(B).norm();  // of a line none
+  const double passed = (front - strip.front).dot(onward) * broad * strip.cover * width_;
   strip.unpaid += passed - strip.booked;
   strip.booked = 0;
 }

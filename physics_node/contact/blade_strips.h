@@ -24,15 +24,15 @@ struct BladeStrip {
   double toughness = 0;              // of these [J/m^2]
   double low = 0, high = 0;          // p of the outermost of them [m]
   double cover = 0;                  // share of its width that lies between
-  double unstrained = 1;             // area at rest of what the edge passes by its area now
-  double booked = 0;                 // area at rest that it has opened since that was counted [m^2]
-  double unpaid = 0;                 // that it has passed and not booked, or less than none [m^2]
-  double even = 1;                   // by how much more it books therefore
-  Vec3 front = Vec3::Zero();         // where its middle is in the tissue at rest [m]
-  Vec3 onward = Vec3::Zero();        // how far it goes on there by its way now, A below
-  double softness = 0;               // g
-  Vec3 way = Vec3::Zero();           // that tissue carries it in a step [m]
-  double ahead = 0, across = 0;      // force on the tissue [N]
+  double unstrained = 1;         // area at rest of what the edge passes by its area now; of a surface, way
+  double booked = 0;             // area at rest that it has opened since that was counted [m^2]
+  double unpaid = 0;             // that it has passed and not booked, or less than none [m^2]
+  double even = 1;               // by how much more it books therefore
+  Vec3 front = Vec3::Zero();     // where its middle is in the tissue at rest [m]
+  Vec3 onward = Vec3::Zero();    // how far it goes on there by its way now, A below
+  double softness = 0;           // g
+  Vec3 way = Vec3::Zero();       // that tissue carries it in a step [m]
+  double ahead = 0, across = 0;  // force on the tissue [N]
 };
 
 class BladeStrips {
@@ -112,6 +112,8 @@ class BladeStrips {
   static double weight(double d) noexcept {
     return std::max(0.0, d < 0 ? 1 + d / passed_by : 1 - d / ahead_reach);
   }
+  void cover_wall(const BladeLinks& links) noexcept;
+  void compare_way_with_rest(const BladeLinks& links, double dt) noexcept;
   void stay_before_elements(const BladeLinks& links) noexcept;
   void count_passed(BladeStrip& strip, const Vec3& front, const Vec3& B) noexcept;
 

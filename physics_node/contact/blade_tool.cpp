@@ -21,27 +21,27 @@ bool is_lattice_of_springs(const Body& body) { return !body.solid && !body.mesh;
 /// Where their materials say how tough they are.
 bool is_of_a_kind_to_cut(const Body& body) {
   return is_lattice_of_springs(body) || is_parted_where_cut(body) ||
-         (body.mesh && !body.mesh->springs && body.mesh->model.mesh.middles.empty());
+         (body.mesh && body.mesh->model.mesh.middles.empty());
 }
 bool is_cut(const Body& body) {
-  return is_lattice_of_springs(body) || body.cell_net() != nullptr || (body.mesh && body.mesh->net);
+  return is_lattice_of_springs(body) || body.cell_net() != nullptr ||
+         (body.mesh && body.mesh->copies() != nullptr);
 }
 
 /// What kind it is that a scalpel does not cut, and what would do.
 const char* kind_and_remedy(const Body& body) {
-  if (is_surface_of_springs(body))
-    return "a surface of springs; fill it with tetrahedra, or join it by a [[connection]]";
   if (body.mesh) return "of second order; write elements = \"nodal_pressure\" there";
   return "of finite elements that yield, break or relax; leave that out of its materials";
 }
 
 void refuse_uncut(const ToolSpec& tool, const Body& body) {
   if (!is_of_a_kind_to_cut(body))
-    throw InputError(fmt::format(
-        "{}: shape = \"scalpel\" cuts springs, finite elements of first order that are elastic, and what a "
-        "[[connection]] "
-        "joins, and \"{}\" is {}",
-        tool.place.text(), body.name, kind_and_remedy(body)));
+    throw InputError(
+        fmt::format("{}: shape = \"scalpel\" cuts springs, surfaces of springs, finite elements of first "
+                    "order that are elastic, and what a "
+                    "[[connection]] "
+                    "joins, and \"{}\" is {}",
+                    tool.place.text(), body.name, kind_and_remedy(body)));
   if (std::ranges::any_of(body.laws, [](const ElementLaw& law) { return law.cut_toughness <= 0; }))
     throw InputError(
         fmt::format("{}: shape = \"scalpel\" needs to know how tough \"{}\" is; give each of its materials "
@@ -161,7 +161,7 @@ double BladeTool::press(double dt) noexcept {
   if (!may_press() || keep_ == 0) return 0;
   blade_.set_stiffness(keep_ * stiffness_);
   BladeLinks& links = near_ ? bodies_[touched_].links : nothing_;
-  const bool limits = links.has_sections() && frame_dt_ > 0;
+  const bool limits = links.parts_nodes() && frame_dt_ > 0;
   blade_.set_fastest(limits ? links.spacing() / frame_dt_ : std::numeric_limits<double>::max());
   done_ = blade_.step(links, strands_, frame_, dt, cuts_);
   for (const BladeLinks::Node& node : links.nodes()) {

@@ -1,5 +1,5 @@
 #pragma once
-// A scalpel: a rigid edge that the hand leads through bodies of springs or tetrahedra and through the strands of
+// A scalpel: a rigid edge that the hand leads through bodies of springs or finite elements, surfaces and the strands of
 // connections, and what it passes is cut (blade_edge.h, blade_strands.h). No mass is lost.
 // What the hand pays is the tissue's toughness times the area that has been opened.
 //

@@ -49,7 +49,7 @@ std::uint64_t faces_kept_joined(const World& world) noexcept {
   std::uint64_t n = 0;
   for (std::size_t b = 0; b < world.n_bodies(); ++b) {
     const Body& body = world.body(b).body();
-    if (body.mesh && body.mesh->net) n += body.mesh->net->left_out();
+    if (body.mesh && body.mesh->copies() != nullptr) n += body.mesh->copies()->left_out();
     if (const CellNet* net = body.cell_net()) n += net->left_out();
   }
   return n;

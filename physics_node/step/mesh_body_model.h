@@ -1,8 +1,10 @@
 #pragma once
 // A body that is a mesh, as the others know it, whatever its elements are. It is stepped by symplectic Euler, never
-// sleeps, and nothing of it breaks; tetrahedra come apart along faces where a tool cuts (mesh/tet_net.h).
+// sleeps, and nothing of it breaks; tetrahedra and triangles come apart along faces and edges where a tool cuts
+// (mesh/simplex_net.h).
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -178,9 +180,15 @@ class MeshBodyModel final : public BodyModel {
       return elements_.step(step);
   }
 
-  static constexpr bool may_part = requires(Elements & e, const TetNet& net) { e.separate({}, net); };
+  using Net = typename Elements::Net;
+  static constexpr bool may_part = requires(Elements & e, const Net& net) { e.separate({}, net); };
 
-  TetNet* net() const noexcept { return body_.mesh->net.get(); }
+  Net* net() const noexcept {
+    if constexpr (std::is_same_v<Net, TetNet>)
+      return body_.mesh->net.get();
+    else
+      return body_.mesh->triangles.get();
+  }
   std::size_t capacity() const { return static_cast<std::size_t>(body_.capacity()); }
   double inverse_mass(Index node) const noexcept {
     return body_.inverse_mass[static_cast<std::size_t>(node)];

@@ -43,7 +43,7 @@ const TetNet& net_of(const BodyModel& body) { return *body.body().mesh->net; }
 /// In an order of its own.
 std::vector<EdgeGone> inner_faces(const TetNet& net, unsigned seed) {
   std::vector<EdgeGone> all;
-  for (Index t = 0; t < net.n_tets(); ++t)
+  for (Index t = 0; t < net.n_elements(); ++t)
     for (std::size_t f = 0; f < 4; ++f)
       if (net.beyond(t, f) > t) all.push_back({t, net.beyond(t, f)});
   std::shuffle(all.begin(), all.end(), std::mt19937(seed));
@@ -59,7 +59,7 @@ using Faces = std::multiset<std::array<Index, 3>>;
 
 Faces exposed_faces(const TetNet& net) {
   Faces faces;
-  for (Index t = 0; t < net.n_tets(); ++t)
+  for (Index t = 0; t < net.n_elements(); ++t)
     for (std::size_t f = 0; f < 4; ++f)
       if (net.is_exposed(t, f)) faces.insert(turned(net.face(t, f)));
   return faces;
@@ -129,7 +129,7 @@ TEST_F(PartedMesh, HangsTogetherAsAFloodOverAllSays) {
   Fragments followed(*moving);
   int most = 1;
   part(60, [&] { most = std::max(most, expect_to_hang_together(*moving, followed)); });
-  EXPECT_EQ(most, net_of(*moving).n_tets()) << "crumbs in the end";
+  EXPECT_EQ(most, net_of(*moving).n_elements()) << "crumbs in the end";
 }
 
 /// Places and velocities of the guard's good state are known of copies that are younger than it.

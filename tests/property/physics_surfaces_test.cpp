@@ -155,7 +155,7 @@ TEST(Surface, IsRefusedWhatItDoesNotFollow) {
   cut.world =
       "[[tool]]\nname = \"blade\"\nshape = \"scalpel\"\nlength_mm = 9\ndevice = \"d\"\n[device.d]\ndriver = "
       "\"simulated\"\nwaypoints = [[0, 0, 0, 50], [1, 0, 0, 40]]\n";
-  EXPECT_THAT(complaint(cut), HasSubstr("is a surface of springs"));
+  EXPECT_THAT(complaint(cut), HasSubstr("needs to know how tough"));
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ palpate_test(NAME physics_yield_test KIND property SOURCES physics_yield_test.cp
 palpate_test(NAME physics_meshes_test KIND property SOURCES physics_meshes_test.cpp LIBS palpate_physics_worlds)
 # Bodies that need fewer steps than others.
 palpate_test(NAME physics_strides_test KIND property SOURCES physics_strides_test.cpp LIBS palpate_physics_worlds)
+palpate_test(NAME physics_parted_surfaces_test KIND property SANITIZERS address SOURCES physics_parted_surfaces_test.cpp LIBS palpate_physics_worlds)
 palpate_test(NAME physics_surfaces_test KIND property SOURCES physics_surfaces_test.cpp LIBS palpate_physics_worlds)
 # Finite elements against what is known: closed forms, and CalculiX where it is installed.
 palpate_test(NAME physics_solids_test KIND property APART SOURCES physics_calculix_test.cpp physics_solids_test.cpp physics_large_strain_test.cpp physics_presses_test.cpp

@@ -66,7 +66,7 @@ TEST_F(RemarksOfScenes, ThatComeAlongAreAsExpected) {
     const auto known = expected.find(entry.path().stem().string());
     EXPECT_EQ(remarks_in_log(), known == expected.end() ? "" : known->second) << entry.path();
   }
-  EXPECT_GE(scenes, 28);
+  EXPECT_GE(scenes, 43);
 }
 
 TEST_F(RemarksOfScenes, AreSaidByInfoAndSimulateAndKeptInTheSummary) {

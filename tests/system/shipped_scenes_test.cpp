@@ -37,6 +37,13 @@ class ShippedScenes : public CommandRun {
     EXPECT_EQ(summary["guard"]["restored"].get<int>(), 0) << scene;
     return summary;
   }
+  /// Of a patient's labelled abdomen.
+  void import_part(const std::string& part, const std::string& file) {
+    if (!fs::exists(LIVER)) throw std::runtime_error("fetch the liver with deploy/fetch_liver.sh");
+    const std::string command =
+        "import " + test::quoted(LIVER) + " --keep " + part + " --out " + test::quoted(file);
+    EXPECT_EQ(palpate(command), 0) << log;
+  }
 };
 
 TEST_F(ShippedScenes, OfMadeBodiesAccountForTheirEnergy) {
@@ -235,12 +242,8 @@ waypoints = [[0, 0, 1, 20], [0.5, 0, 1, 8], [0.7, 0, 1, 2], [1.2, 0, 1, 2]]
 
 /// A patient's liver, from a labelled image to a force: what the hand feels is what the tissue bears.
 TEST_F(ShippedScenes, ALiverOfAnImageIsPalpated) {
-  ASSERT_TRUE(fs::exists(LIVER)) << "fetch it with deploy/fetch_liver.sh";
   const std::string file = (folder / "liver.h5").string();
-  ASSERT_EQ(palpate("import " + test::quoted(LIVER) + " --keep 255,255 --tetrahedra-mm 9.7 --out " +
-                    test::quoted(file)),
-            0)
-      << log;
+  import_part("255,255 --tetrahedra-mm 9.7", file);
   ASSERT_EQ(palpate("info " + test::quoted(file)), 0) << log;
   EXPECT_NE(log.find("in 1 piece and 1 region"), log.npos) << log;
   const auto summary = simulate("liver", "--seconds 1.5 --set body.liver.file=" + test::quoted(file));
@@ -254,14 +257,29 @@ TEST_F(ShippedScenes, ALiverOfAnImageIsPalpated) {
 }
 
 /// A patient's gall bladder as a bag of springs, under the pressure of its bile.
-TEST_F(ShippedScenes, AGallBladderOfAnImageIsPressed) {
-  ASSERT_TRUE(fs::exists(LIVER)) << "fetch it with deploy/fetch_liver.sh";
-  const std::string file = (folder / "gall_bladder.h5").string();
-  ASSERT_EQ(palpate("import " + test::quoted(LIVER) + " --keep 85,85 --tetrahedra-mm 4 --largest --out " +
-                    test::quoted(file)),
-            0)
-      << log;
-  const auto summary = simulate("gall_bladder", "--set body.gall_bladder.file=" + test::quoted(file));
+class GallBladder : public ShippedScenes {
+ protected:
+  /// @param keys  of simulate @return its summary
+  nlohmann::json with_bladder(const std::string& scene, const std::string& keys = {}) {
+    const std::string file = (folder / "gall_bladder.h5").string();
+    import_part("85,85 --tetrahedra-mm 4 --largest", file);
+    return simulate(scene, "--set body.gall_bladder.file=" + test::quoted(file) + keys);
+  }
+};
+
+TEST_F(GallBladder, IsOpenedByAScalpel) {
+  const auto summary = with_bladder("open_gall_bladder");
+  const auto& scalpel = summary["tools"]["scalpel"];
+  EXPECT_GT(scalpel["cut_area_mm2"].get<double>(), 20) << "a centimetre of its wall";
+  EXPECT_NEAR(scalpel["cut_work"].get<double>(), 120e-6 * scalpel["cut_area_mm2"].get<double>(), 1e-9);
+  EXPECT_LT(scalpel["force_peak"].get<double>(), 1);
+  EXPECT_EQ(summary["bodies"]["gall_bladder"]["fragments"].get<int>(), 1);
+  EXPECT_LT(summary["energy"]["balance_error"].get<double>(), 0.001);
+  EXPECT_TRUE(summary["warnings"].empty()) << summary["warnings"];
+}
+
+TEST_F(GallBladder, OfAnImageIsPressed) {
+  const auto summary = with_bladder("gall_bladder");
   const auto& finger = summary["tools"]["finger"];
   // A dent of 5 mm by a ball of 5 mm: some 2 pi R d p = 0.2 N at the most.
   EXPECT_GT(finger["force_peak"].get<double>(), 0.05);
@@ -272,17 +290,12 @@ TEST_F(ShippedScenes, AGallBladderOfAnImageIsPressed) {
 }
 
 /// With liver and gall bladder.
-class Dissection : public ShippedScenes {
+class Dissection : public GallBladder {
  protected:
   nlohmann::json dissect(const std::string& scene) {
-    if (!fs::exists(LIVER)) throw std::runtime_error("fetch the liver with deploy/fetch_liver.sh");
-    const std::string liver = (folder / "liver.h5").string(), bag = (folder / "bag.h5").string();
-    const std::string image = "import " + test::quoted(LIVER);
-    EXPECT_EQ(palpate(image + " --keep 255,255 --tetrahedra-mm 17 --out " + test::quoted(liver)), 0) << log;
-    EXPECT_EQ(palpate(image + " --keep 85,85 --tetrahedra-mm 4 --largest --out " + test::quoted(bag)), 0)
-        << log;
-    return simulate(scene, "--set body.liver.file=" + test::quoted(liver) +
-                               " --set body.gall_bladder.file=" + test::quoted(bag));
+    const std::string liver = (folder / "liver.h5").string();
+    import_part("255,255 --tetrahedra-mm 17", liver);
+    return with_bladder(scene, " --set body.liver.file=" + test::quoted(liver));
   }
 };
 

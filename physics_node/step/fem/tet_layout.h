@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "physics_node/body/tet_model.h"
-#include "physics_node/mesh/tet_net.h"
+#include "physics_node/mesh/simplex_net.h"
 
 namespace palpate::physics {
 

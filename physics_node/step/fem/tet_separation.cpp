@@ -1,4 +1,4 @@
-// How a body of tetrahedra takes the copies of nodes that a cut makes (mesh/tet_net.h).
+// How a body of tetrahedra takes the copies of nodes that a cut makes (mesh/simplex_net.h).
 //
 // A copy has the displacement and velocity of the node that it splits off from, and each of both the quarters of its
 // own tetrahedra: mass, momentum and angular momentum stay as they are but for rounding, and so does the energy of

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "physics_node/mesh/tet_net.h"
+#include "physics_node/mesh/simplex_net.h"
 #include "physics_node/step/books.h"
 #include "physics_node/step/explicit_step.h"
 #include "physics_node/step/fem/tet_kernel.h"
@@ -22,6 +22,8 @@ namespace palpate::physics {
 template <class Real>
 class Tetrahedra {
  public:
+  using Net = TetNet;
+
   /// @param model  renumbered; every tetrahedron has a volume and a material
   /// @param set    that this machine runs; avx2 and avx512 give the same bits, sse2 others
   /// @param most_copies  of nodes that cuts may make; of first order

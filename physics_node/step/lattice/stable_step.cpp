@@ -53,7 +53,12 @@ StiffestMode stiffest_mode_anyhow(const Body& body) {
 }
 
 StiffestMode stiffest_mode(const Body& body) {
-  if (is_surface_of_springs(body)) return stiffest_mode_of_surface(*body.mesh->springs, body.inverse_mass);
+  if (is_surface_of_springs(body)) {
+    const StiffestMode whole = stiffest_mode_of_surface(*body.mesh->springs, body.inverse_mass);
+    if (!body.mesh->triangles) return whole;
+    const StiffestMode cut = stiffest_mode_of_loose_triangles(*body.mesh->springs);
+    return {std::max(whole.omega2, cut.omega2), std::max(whole.gamma, cut.gamma)};
+  }
   if (body.mesh && body.mesh->net) return stiffest_mode_when_cut(body.mesh->model);
   if (body.mesh) return stiffest_mode_of_tetrahedra(body.mesh->model);
   if (body.solid) return stiffest_mode_of_hexahedra(body);

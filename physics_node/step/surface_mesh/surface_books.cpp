@@ -34,7 +34,7 @@ void SurfaceSprings<Real>::push(Index node, const Vec3& dv, double dt) noexcept 
 
 template <class Real>
 typename SurfaceSprings<Real>::Saved SurfaceSprings<Real>::saved() const {
-  return {.u = ZeroedArray<Real>(4 * n_nodes())};
+  return {.u = ZeroedArray<Real>(4 * capacity())};
 }
 
 template <class Real>
@@ -124,7 +124,7 @@ double SurfaceSprings<Real>::gamma() noexcept {
   look_at_springs({});
   double largest = 0;
   for (std::size_t n = 0; n < n_nodes(); ++n)
-    largest = std::max(largest, (2 * membrane_.beta * stiffness(n) + membrane_.drag) * inverse_mass_[n]);
+    largest = std::max(largest, (2 * membrane_.beta * stiffness(n) + drag_[n]) * inverse_mass_[n]);
   return largest;
 }
 
@@ -137,15 +137,15 @@ double SurfaceSprings<Real>::volume() noexcept {
 template <class Real>
 double SurfaceSprings<Real>::pressure() noexcept {
   look_at_volume({});
-  return pressure_;
+  return leaks_ ? 0 : pressure_;
 }
 
 template <class Real>
 double SurfaceSprings<Real>::largest_stretch() noexcept {
   look_at_springs({});
   double largest = 1;
-  for (std::size_t s = 0; s < springs_.size(); ++s)
-    largest = std::max(largest, static_cast<double>(now_[s].length / springs_[s].length));
+  for (std::size_t s = 0; s < joints_.springs.size(); ++s)
+    largest = std::max(largest, static_cast<double>(now_[s].length / joints_.springs[s].length));
   return largest;
 }
 

@@ -1,5 +1,6 @@
 #include "physics_node/step/surface_mesh/surface_spectrum.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -72,6 +73,29 @@ double largest(const SpringSurface& surface, const std::vector<double>& inverse_
 }
 
 }  // namespace
+
+StiffestMode stiffest_mode_of_loose_triangles(const SpringSurface& surface) {
+  const Membrane& membrane = surface.membrane;
+  const auto at = [&](Index node) { return surface.mesh.nodes[static_cast<std::size_t>(node)]; };
+  double most = 0;
+  for (const MeshTriangle& t : surface.mesh.triangles) {
+    // Both k = E t A / L^2 and m = rho t A / 3 go with t A, which cancels.
+    Eigen::Matrix<double, 9, 9> K = Eigen::Matrix<double, 9, 9>::Zero();
+    for (int a = 0; a < 3; ++a) {
+      const int b = (a + 1) % 3;
+      const Vec3 side = at(t[static_cast<std::size_t>(b)]) - at(t[static_cast<std::size_t>(a)]);
+      const double length2 = side.squaredNorm();
+      const Eigen::Matrix3d k = membrane.modulus / (length2 * length2) * side * side.transpose();
+      K.block<3, 3>(3 * a, 3 * a) += k, K.block<3, 3>(3 * b, 3 * b) += k;
+      K.block<3, 3>(3 * a, 3 * b) -= k, K.block<3, 3>(3 * b, 3 * a) -= k;
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 9, 9>> solver(K, Eigen::EigenvaluesOnly);
+    most = std::max(most, 3 / membrane.density * solver.eigenvalues()[8]);
+  }
+  double heaviest = 0;  // node of all, by its drag, which its copies share by their mass
+  for (const double mass : surface.mass) heaviest = std::max(heaviest, membrane.drag / mass);
+  return {most, membrane.beta * most + heaviest};
+}
 
 StiffestMode stiffest_mode_of_surface(const SpringSurface& surface, const std::vector<double>& inverse_mass) {
   SurfaceSprings<double> springs(surface, inverse_mass);

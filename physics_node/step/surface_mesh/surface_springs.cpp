@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "physics_node/step/fem/four_array.h"
+#include "physics_node/step/surface_mesh/surface_spectrum.h"
 
 namespace palpate::physics {
 namespace {
@@ -23,48 +24,68 @@ double sum_of(const std::vector<double>& parts) { return std::accumulate(parts.b
 
 template <class Real>
 SurfaceSprings<Real>::SurfaceSprings(const SpringSurface& surface, const std::vector<double>& inverse_mass)
-    : membrane_(surface.membrane),
-      rest_volume_(surface.volume),
-      triangles_(surface.mesh.triangles),
-      inverse_mass_(inverse_mass) {
-  const std::size_t n = n_nodes();
+    : membrane_(surface.membrane), rest_volume_(surface.volume), inverse_mass_(inverse_mass) {
   Eigen::AlignedBox3d box;
   for (const Vec3& x : surface.mesh.nodes) box.extend(x);
+  rest_.reserve(capacity());
   for (const Vec3& x : surface.mesh.nodes) rest_.push_back(x - box.center());
-  begin_.assign(n + 1, 0), around_begin_.assign(n + 1, 0);
+  drag_.assign(capacity(), membrane_.drag);
+  list_springs(surface);
+  u_ = ZeroedArray<Real>(4 * capacity(), 0), v_ = ZeroedArray<Real>(4 * capacity(), 1);
+  if (capacity() > n_nodes()) prepare_for_cuts(surface);
+  const std::size_t most_springs = joints_.springs.capacity();
+  now_.resize(most_springs), pulls_.resize(most_springs);
+  x_ = rest_;
+  x_.resize(capacity(), Vec3::Zero());
+  area_.resize(joints_.triangles.size());
+  damping_.assign(capacity(), Vec3::Zero()), damping_before_ = damping_;
+  elastic_.resize(pieces_of(most_springs));
+  volumes_.resize(pieces_of(joints_.triangles.size()));
+  ledger_.resize(pieces_of(capacity()));
+  omega2_at_rest_ = omega2();
+  if (capacity() > n_nodes())
+    omega2_at_rest_ = std::max(omega2_at_rest_, stiffest_mode_of_loose_triangles(surface).omega2);
+}
+
+/// At each node its springs, in their order, and its triangles.
+template <class Real>
+void SurfaceSprings<Real>::list_springs(const SpringSurface& surface) {
+  const bool may_be_cut = capacity() > n_nodes();
+  joints_.triangles = surface.mesh.triangles;
+  std::vector<std::size_t> n_springs(capacity(), 0), n_triangles(capacity(), 0);
+  // Why: room for the springs of all its triangles alone
+  joints_.springs.reserve(may_be_cut ? 3 * joints_.triangles.size() : surface.springs.size());
   for (const SurfaceSpring& spring : surface.springs) {
     const auto [a, b] = spring.node;
     const Vec3 d = rest_[static_cast<std::size_t>(b)] - rest_[static_cast<std::size_t>(a)];
-    springs_.push_back({.rest = Four::Zero(),
-                        .node = spring.node,
-                        .k = static_cast<Real>(spring.k),
-                        .length = static_cast<Real>(spring.length)});
-    springs_.back().rest.template head<3>() = d.array().cast<Real>();
-    for (const Index node : spring.node) ++begin_[static_cast<std::size_t>(node) + 1];
+    joints_.springs.push_back({.rest = Four::Zero(),
+                               .node = spring.node,
+                               .k = static_cast<Real>(spring.k),
+                               .length = static_cast<Real>(spring.length)});
+    joints_.springs.back().rest.template head<3>() = d.array().cast<Real>();
+    for (const Index node : spring.node) ++n_springs[static_cast<std::size_t>(node)];
   }
-  for (const MeshTriangle& corners : triangles_)
-    for (const Index node : corners) ++around_begin_[static_cast<std::size_t>(node) + 1];
-  for (auto* begin : {&begin_, &around_begin_})
-    std::partial_sum(begin->begin(), begin->end(), begin->begin());
-  incident_.resize(begin_.back()), around_.resize(around_begin_.back());
-  std::vector<std::size_t> next = begin_, next_around = around_begin_;
-  for (std::size_t s = 0; s < springs_.size(); ++s)
-    for (std::size_t end = 0; end < 2; ++end)
-      incident_[next[static_cast<std::size_t>(springs_[s].node[end])]++] = {end == 0 ? 1.0 : -1.0,
-                                                                            static_cast<Index>(s)};
-  for (std::size_t t = 0; t < triangles_.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k)
-      around_[next_around[static_cast<std::size_t>(triangles_[t][k])]++] = {
-          static_cast<Index>(t), {triangles_[t][(k + 1) % 3], triangles_[t][(k + 2) % 3]}};
-  u_ = ZeroedArray<Real>(4 * n, 0), v_ = ZeroedArray<Real>(4 * n, 1);
-  now_.resize(springs_.size()), pulls_.resize(springs_.size());
-  x_ = rest_;
-  area_.resize(triangles_.size());
-  damping_.assign(n, Vec3::Zero()), damping_before_ = damping_;
-  elastic_.resize(pieces_of(springs_.size()));
-  volumes_.resize(pieces_of(triangles_.size()));
-  ledger_.resize(pieces_of(n));
-  omega2_at_rest_ = omega2();
+  for (const MeshTriangle& corners : joints_.triangles)
+    for (const Index node : corners) ++n_triangles[static_cast<std::size_t>(node)];
+  std::size_t at = 0, around_at = 0;
+  for (std::size_t n = 0; n < n_nodes(); ++n) {
+    joints_.of_node.push_back({at, at}), joints_.around_node.push_back({around_at, around_at});
+    at += may_be_cut ? 2 * n_triangles[n] : n_springs[n];
+    around_at += n_triangles[n];
+  }
+  joints_.of_node.resize(capacity()), joints_.around_node.resize(capacity());
+  joints_.incident.resize(at), joints_.around.resize(around_at);
+  for (std::size_t s = 0; s < joints_.springs.size(); ++s)
+    for (std::size_t end = 0; end < 2; ++end) {
+      Range& of = joints_.of_node[static_cast<std::size_t>(joints_.springs[s].node[end])];
+      joints_.incident[of.end++] = {end == 0 ? 1.0 : -1.0, static_cast<Index>(s)};
+    }
+  for (std::size_t t = 0; t < joints_.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const MeshTriangle& of = joints_.triangles[t];
+      Range& range = joints_.around_node[static_cast<std::size_t>(of[k])];
+      joints_.around[range.end++] = {static_cast<Index>(t), {of[(k + 1) % 3], of[(k + 2) % 3]}};
+    }
 }
 
 template <class Real>
@@ -81,10 +102,10 @@ void SurfaceSprings<Real>::each(const ExplicitStep& step, std::size_t n, const W
 template <class Real>
 void SurfaceSprings<Real>::look_at_springs(const ExplicitStep& step) noexcept {
   const auto beta = static_cast<Real>(membrane_.beta);
-  each(step, springs_.size(), [&](std::size_t p, std::size_t begin, std::size_t end) {
+  each(step, joints_.springs.size(), [&](std::size_t p, std::size_t begin, std::size_t end) {
     double elastic = 0;
     for (std::size_t s = begin; s < end; ++s) {
-      const Spring& spring = springs_[s];
+      const Spring& spring = joints_.springs[s];
       SpringNow& now = now_[s];
       const auto at = [&](const ZeroedArray<Real>& four, std::size_t which) {
         return Eigen::Map<const Four>(four.data() + 4 * static_cast<std::size_t>(spring.node[which]));
@@ -110,11 +131,11 @@ void SurfaceSprings<Real>::look_at_volume(const ExplicitStep& step) noexcept {
   each(step, n_nodes(), [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) x_[n] = rest_[n] + vector_at(u_, n);
   });
-  each(step, triangles_.size(), [&](std::size_t p, std::size_t begin, std::size_t end) {
+  each(step, joints_.triangles.size(), [&](std::size_t p, std::size_t begin, std::size_t end) {
     double volume = 0;
     for (std::size_t t = begin; t < end; ++t) {
       const auto at = [&](std::size_t k) -> const Vec3& {
-        return x_[static_cast<std::size_t>(triangles_[t][k])];
+        return x_[static_cast<std::size_t>(joints_.triangles[t][k])];
       };
       area_[t] = 0.5 * (at(1) - at(0)).cross(at(2) - at(0));
       volume += at(0).dot(area_[t]);
@@ -129,35 +150,35 @@ void SurfaceSprings<Real>::look_at_volume(const ExplicitStep& step) noexcept {
 template <class Real>
 Vec3 SurfaceSprings<Real>::swelling(std::size_t node) const noexcept {
   Vec3 sum = Vec3::Zero();
-  for (std::size_t t = around_begin_[node]; t < around_begin_[node + 1]; ++t)
-    sum += area_[static_cast<std::size_t>(around_[t].triangle)];
+  for (std::size_t t = joints_.around_node[node].begin; t < joints_.around_node[node].end; ++t)
+    sum += area_[static_cast<std::size_t>(joints_.around[t].triangle)];
   return sum / 3;
 }
 
 template <class Real>
 typename SurfaceSprings<Real>::Felt SurfaceSprings<Real>::felt(std::size_t node) const noexcept {
   Pull sum;
-  for (std::size_t i = begin_[node]; i < begin_[node + 1]; ++i) {
-    const auto [sign, spring] = incident_[i];
+  for (std::size_t i = joints_.of_node[node].begin; i < joints_.of_node[node].end; ++i) {
+    const auto [sign, spring] = joints_.incident[i];
     const Pull& pull = pulls_[static_cast<std::size_t>(spring)];
     sum.elastic += sign * pull.elastic;
     sum.damping += sign * pull.damping;
   }
   Felt felt{sum.elastic.template head<3>().matrix(), sum.damping.template head<3>().matrix()};
   if (is_filled()) felt.elastic += pressure_ * swelling(node);
-  felt.damping -= membrane_.drag * vector_at(v_, node);
+  felt.damping -= drag_[node] * vector_at(v_, node);
   return felt;
 }
 
 template <class Real>
 double SurfaceSprings<Real>::stiffness(std::size_t node) const noexcept {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  for (std::size_t i = begin_[node]; i < begin_[node + 1]; ++i) {
-    const auto s = static_cast<std::size_t>(incident_[i].spring);
+  for (std::size_t i = joints_.of_node[node].begin; i < joints_.of_node[node].end; ++i) {
+    const auto s = static_cast<std::size_t>(joints_.incident[i].spring);
     const SpringNow& now = now_[s];
     const Vec3 u = now.u.template head<3>().template cast<double>().matrix();
     const double across = now.tension > 0 ? static_cast<double>(now.tension / now.length) : 0.0;
-    sum += (static_cast<double>(springs_[s].k) - across) * u * u.transpose() +
+    sum += (static_cast<double>(joints_.springs[s].k) - across) * u * u.transpose() +
            across * Eigen::Matrix3d::Identity();
   }
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
@@ -175,10 +196,10 @@ template <class Real>
 typename SurfaceSprings<Real>::Fastest SurfaceSprings<Real>::fastest(std::size_t node) const noexcept {
   Fastest sum{2 * stiffness(node), 0};
   if (is_filled()) {
-    for (std::size_t t = around_begin_[node]; t < around_begin_[node + 1]; ++t)
+    for (std::size_t t = joints_.around_node[node].begin; t < joints_.around_node[node].end; ++t)
       sum.of_nodes += std::abs(pressure_) / 3 *
-                      (x_[static_cast<std::size_t>(around_[t].others[1])] -
-                       x_[static_cast<std::size_t>(around_[t].others[0])])
+                      (x_[static_cast<std::size_t>(joints_.around[t].others[1])] -
+                       x_[static_cast<std::size_t>(joints_.around[t].others[0])])
                           .norm();
     sum.of_content = membrane_.content_modulus / rest_volume_ * swelling(node).squaredNorm();
   }
@@ -224,7 +245,7 @@ void SurfaceSprings<Real>::book(const ExplicitStep& step) noexcept {
   watch_ = {};
   watch_.elastic = elastic();
   watch_.fallen_before = given_by_pressure();
-  if (membrane_.pressure != 0) look_at_volume(step);  // where it is now
+  if (is_filled() && membrane_.pressure != 0) look_at_volume(step);  // where it is now
   watch_.fallen = given_by_pressure();
   double speed2 = 0;
   Fastest fastest;

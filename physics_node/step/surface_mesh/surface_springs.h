@@ -16,11 +16,14 @@ namespace palpate::physics {
 /// Symplectic Euler, and its energy is that of the leapfrog: see lattice/element_step.h. The damper and the drag are
 /// booked by their forces on the nodes at either end of a step, which is exact; what that would give in place of taking
 /// is `numerical`. What the pressure at rest gives counts with what gravity gives.
+/// Where it may be cut, its triangles part along their edges (surface_separation.cpp); once two have, what it was filled with has gone.
 /// Cost of a step: a pass over springs, one over nodes and their springs; where it is filled, one more over nodes and triangles.
 template <class Real>
 class SurfaceSprings {
  public:
-  /// @param inverse_mass  of each node, 0: held [1/kg]
+  using Net = TriangleNet;
+
+  /// @param inverse_mass  of each node, 0: held; where it may be cut with room for copies, whatever that holds [1/kg]
   SurfaceSprings(const SpringSurface& surface, const std::vector<double>& inverse_mass);
 
   /// A step. Of ExplicitStep `verlet`, `exact` and `struck` mean nothing here. Allocates, locks and throws nothing.
@@ -47,6 +50,16 @@ class SurfaceSprings {
   void bring_back(const Saved& from) noexcept;
   /// Begins the books anew.
   void forget() noexcept;
+
+  /// Takes copies of nodes, and the corners of triangles as they are now. Allocates nothing.
+  /// @param splits  since the last call @return elastic energy that there is more now [J]
+  double separate(std::span<const NodeSplit> splits, const TriangleNet& net) noexcept;
+  /// What of a saved state belongs to a copy.
+  void copy_saved(Saved& saved, Index node, Index copy) const noexcept;
+  /// As loaded.
+  void rejoin() noexcept;
+  /// By its triangles [kg].
+  double mass(Index node, const TriangleNet& net) const noexcept;
 
   Energies energies(const Vec3& gravity) noexcept;
   Losses losses() const noexcept { return {.viscous = viscous_, .numerical = numerical_}; }
@@ -96,6 +109,18 @@ class SurfaceSprings {
     Index triangle = 0;
     std::array<Index, 2> others{};
   };
+  struct Range {
+    std::size_t begin = 0, end = 0;
+  };
+  /// What of it a cut changes.
+  struct Joints {
+    std::vector<Spring> springs;
+    std::vector<MeshTriangle> triangles;
+    std::vector<Range> of_node, around_node;  // of incident, around
+    std::vector<Incident> incident;
+    std::vector<Around> around;
+    std::vector<Index> spring_of;  // of each side of each triangle; EMPTY: it is not cut
+  };
   /// What one node feels.
   struct Felt {
     Vec3 elastic = Vec3::Zero();  // of springs and pressure [N]
@@ -111,7 +136,7 @@ class SurfaceSprings {
     double kinetic = 0, between = 0, fallen = 0, fallen_before = 0, speed2 = 0, of_damper = 0, numerical = 0;
     Fastest fastest;
   };
-  bool is_filled() const noexcept { return physics::is_filled(membrane_); }
+  bool is_filled() const noexcept { return !leaks_ && physics::is_filled(membrane_); }
   template <class Work>
   static void each(const ExplicitStep& step, std::size_t n, const Work& work) noexcept;
   void look_at_springs(const ExplicitStep& step) noexcept;
@@ -125,17 +150,22 @@ class SurfaceSprings {
   void look(const ExplicitStep& step) noexcept;
   double elastic() const noexcept;
   double given_by_pressure() const noexcept;
-  std::size_t n_nodes() const noexcept { return inverse_mass_.size(); }
+  std::size_t n_nodes() const noexcept { return rest_.size(); }
+  std::size_t capacity() const noexcept { return inverse_mass_.size(); }
+  void list_springs(const SpringSurface& surface);
+  void prepare_for_cuts(const SpringSurface& surface);
+  void part_spring(std::size_t triangle, std::size_t side, const TriangleNet& net) noexcept;
+  void list_anew(Index origin, const TriangleNet& net) noexcept;
 
   Membrane membrane_;
   double rest_volume_ = 0;  // [m^3]
-  std::vector<Spring> springs_;
-  std::vector<std::size_t> begin_;  // of incident_, by node
-  std::vector<Incident> incident_;
-  std::vector<Vec3> rest_;  // from the middle of its box, so that no digits are lost [m]
-  std::vector<MeshTriangle> triangles_;
-  std::vector<std::size_t> around_begin_;  // of around_, by node
-  std::vector<Around> around_;
+  Joints joints_, loaded_;  // loaded_: EMPTY where it is not cut
+  std::vector<Vec3> rest_;  // of nodes in use, from the middle of its box, so that no digits are lost [m]
+  std::vector<double> area_at_rest_;  // of triangles; EMPTY where it is not cut [m^2]
+  std::vector<double> drag_;          // b of nodes, which copies share by their mass [N s/m]
+  std::vector<Index> copied_;         // nodes of one as loaded, while they are listed
+  std::vector<std::uint8_t> wanted_;  // of nodes as loaded: to be listed
+  bool leaks_ = false;
   std::vector<double> inverse_mass_;
   double omega2_at_rest_ = 0;
 

@@ -12,7 +12,8 @@ TEST(RandomCuts, LoseNothingAndAreTheSameAfterAReset) {
   std::int64_t opened = 0;
   // Of cells and springs the seventh was another after a reset: the number of steps was kept until a moment whose rounding went by how
   // long the world had run, and lists of pairs were as wide as those before.
-  for (const CutKind kind : {CutKind::tetrahedra, CutKind::cells, CutKind::springs, CutKind::parts})
+  for (const CutKind kind :
+       {CutKind::tetrahedra, CutKind::cells, CutKind::springs, CutKind::parts, CutKind::surfaces})
     for (const std::uint64_t seed : {2U, 7U}) {
       const CutResult result = run_cuts(kind, seed, folder.path());
       EXPECT_EQ(faults(result), "") << result.kind << " " << seed;

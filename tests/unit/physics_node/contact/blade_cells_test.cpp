@@ -53,7 +53,7 @@ double parted_across(const World& world, const Vec3& normal) {
   const TetNet& net = net_of(world);
   const auto piece = [&](Index t) { return world.fragments(0)->label(net.corners(t)[0]); };
   double area = 0;
-  for (Index t = 0; t < net.n_tets(); ++t)
+  for (Index t = 0; t < net.n_elements(); ++t)
     for (std::size_t f = 0; f < 4; ++f) {
       if (!net.is_open(t, f) || piece(t) != 0 || piece(net.beyond(t, f)) == 0) continue;
       const MeshTriangle face = net.face(t, f);
@@ -132,8 +132,8 @@ TEST(BladeCells, LieNoFartherApartThanTheEdgeReaches) {
       ++joined;
       EXPECT_LE((cells.rest(cell) - cells.rest(other)).norm(), cells.spacing());
     });
-  const std::size_t skin = cells.all().size() - static_cast<std::size_t>(net.n_tets());
-  EXPECT_EQ(joined, 4 * static_cast<std::size_t>(net.n_tets()) + skin)
+  const std::size_t skin = cells.all().size() - static_cast<std::size_t>(net.n_elements());
+  EXPECT_EQ(joined, 4 * static_cast<std::size_t>(net.n_elements()) + skin)
       << "each face has two sides, and a skin";
 }
 

@@ -25,6 +25,15 @@ TEST(Closedness, IsLostWithOneFacet) {
   EXPECT_FALSE(is_closed(surface));
 }
 
+/// A slit whose lips lie on each other: two facets have a corner of their own where the others have one.
+TEST(Closedness, IsLostWithAnOpenEdge) {
+  Surface surface = cube();
+  const std::uint32_t corner = surface.corners.front()[0];
+  surface.position.push_back(surface.position[corner]);
+  surface.corners.front()[0] = static_cast<std::uint32_t>(surface.position.size() - 1);
+  EXPECT_FALSE(is_closed(surface));
+}
+
 TEST(Closedness, IsLostWhenTurnedInsideOut) {
   Surface surface = cube();
   for (auto& c : surface.corners) std::swap(c[1], c[3]);

@@ -44,7 +44,7 @@ void open_some(TetNet& net, const TetModel& model, bool at_random) {
       x += model.mesh.nodes[static_cast<std::size_t>(net.origin(node))].x() / 4;
     return x > 0.0075;
   };
-  for (Index t = 0; t < net.n_tets(); ++t)
+  for (Index t = 0; t < net.n_elements(); ++t)
     for (std::size_t f = 0; f < 4; ++f) {
       const Index u = net.beyond(t, f);
       if (u > t && (at_random ? random() % 4 == 0 : right(t) != right(u))) net.open(t, u);
@@ -54,7 +54,9 @@ void open_some(TetNet& net, const TetModel& model, bool at_random) {
 template <class Real>
 struct PartedBody {
   explicit PartedBody(const Parting& p, bool held = false)
-      : model(model_for(p, held)), net(model.mesh, plenty), tets(model, instruction_set(), plenty) {}
+      : model(model_for(p, held)),
+        net(model.mesh.tets, model.mesh.nodes.size(), plenty),
+        tets(model, instruction_set(), plenty) {}
   double part(bool at_random) {
     net.begin();
     open_some(net, model, at_random);

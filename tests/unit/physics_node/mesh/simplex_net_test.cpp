@@ -1,7 +1,7 @@
 // A mesh that comes apart along its faces: what is closed stays closed, what hangs together is what joined faces connect,
 // whatever the order in which they were opened.
 
-#include "physics_node/mesh/tet_net.h"
+#include "physics_node/mesh/simplex_net.h"
 
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ using Pair = std::pair<Index, Index>;
 std::vector<Pair> pairs_across(const TetMesh& mesh, const TetNet& net,
                                const std::function<bool(const Vec3&)>& above) {
   std::vector<Pair> pairs;
-  for (Index t = 0; t < net.n_tets(); ++t)
+  for (Index t = 0; t < net.n_elements(); ++t)
     for (std::size_t f = 0; f < 4; ++f)
       if (const Index u = net.beyond(t, f); u > t && above(centre_of(mesh, t)) != above(centre_of(mesh, u)))
         pairs.emplace_back(t, u);
@@ -50,7 +50,7 @@ struct Skin {
 };
 Skin skin_of(const TetNet& net) {
   Skin skin;
-  for (Index t = 0; t < net.n_tets(); ++t)
+  for (Index t = 0; t < net.n_elements(); ++t)
     for (std::size_t f = 0; f < 4; ++f) {
       if (!net.is_exposed(t, f)) continue;
       ++skin.faces;
@@ -85,7 +85,7 @@ int pieces_of(const TetNet& net) {
     return root[static_cast<std::size_t>(n)] == n ? n : find(root[static_cast<std::size_t>(n)]);
   };
   std::set<Index> used;
-  for (Index t = 0; t < net.n_tets(); ++t)
+  for (Index t = 0; t < net.n_elements(); ++t)
     for (const Index node : net.corners(t)) {
       root[static_cast<std::size_t>(find(node))] = find(net.corners(t)[0]);
       used.insert(node);
@@ -99,7 +99,7 @@ int pieces_of(const TetNet& net) {
 std::vector<std::size_t> classes_of(const TetNet& net) {
   std::map<Index, std::size_t> first;
   std::vector<std::size_t> classes;
-  for (Index t = 0; t < net.n_tets(); ++t)
+  for (Index t = 0; t < net.n_elements(); ++t)
     for (const Index node : net.corners(t))
       classes.push_back(first.try_emplace(node, classes.size()).first->second);
   return classes;
@@ -107,7 +107,7 @@ std::vector<std::size_t> classes_of(const TetNet& net) {
 
 TEST(TetNet, BeginsWithTheSkinOfTheMesh) {
   const TetMesh mesh = box();
-  const TetNet net(mesh, plenty);
+  const TetNet net(mesh.tets, mesh.nodes.size(), plenty);
   const Skin skin = skin_of(net);
   EXPECT_EQ(skin.faces, static_cast<int>(outer_faces(mesh).triangles.size()));
   EXPECT_TRUE(is_closed(skin));
@@ -118,8 +118,8 @@ TEST(TetNet, BeginsWithTheSkinOfTheMesh) {
 
 TEST(TetNet, OpensNothingByOneFaceAlone) {
   const TetMesh mesh = box();
-  TetNet net(mesh, plenty);
-  for (Index t = 0; t < net.n_tets(); ++t)
+  TetNet net(mesh.tets, mesh.nodes.size(), plenty);
+  for (Index t = 0; t < net.n_elements(); ++t)
     for (std::size_t f = 0; f < 4; ++f) {
       if (net.beyond(t, f) == TetNet::none) continue;
       const MeshTriangle face = net.face(t, f);
@@ -135,7 +135,7 @@ TEST(TetNet, OpensNothingByOneFaceAlone) {
 
 TEST(TetNet, PartsABoxByAPlane) {
   const TetMesh mesh = box();
-  TetNet net(mesh, plenty);
+  TetNet net(mesh.tets, mesh.nodes.size(), plenty);
   for (const auto& [t, u] :
        pairs_across(mesh, net, [](const Vec3& x) { return x.dot(Vec3(1, 0.3, 0.2)) > 4; }))
     ASSERT_TRUE(net.open(t, u));
@@ -144,14 +144,14 @@ TEST(TetNet, PartsABoxByAPlane) {
   EXPECT_TRUE(is_closed(skin));
   EXPECT_TRUE(is_simple(skin));
   EXPECT_EQ(euler(skin), 4) << "two balls";
-  for (Index t = 0; t < net.n_tets(); ++t)
+  for (Index t = 0; t < net.n_elements(); ++t)
     for (std::size_t c = 0; c < 4; ++c)
       EXPECT_EQ(net.origin(net.corners(t)[c]), mesh.tets[static_cast<std::size_t>(t)][c]);
 }
 
 TEST(TetNet, LeavesWhatIsCutHalfWayInOnePiece) {
   const TetMesh mesh = box();
-  TetNet net(mesh, plenty);
+  TetNet net(mesh.tets, mesh.nodes.size(), plenty);
   const auto right = [](const Vec3& x) { return x.x() > 3; };
   for (const auto& [t, u] : pairs_across(mesh, net, right))
     if (centre_of(mesh, t).y() < 2.5) net.open(t, u);
@@ -164,7 +164,7 @@ TEST(TetNet, LeavesWhatIsCutHalfWayInOnePiece) {
 
 TEST(TetNet, CutsOutWhatABallHolds) {
   const TetMesh mesh = box({8, 8, 8});
-  TetNet net(mesh, plenty);
+  TetNet net(mesh.tets, mesh.nodes.size(), plenty);
   for (const auto& [t, u] :
        pairs_across(mesh, net, [](const Vec3& x) { return (x - Vec3(4, 4, 4)).norm() < 2.4; }))
     net.open(t, u);
@@ -175,9 +175,9 @@ TEST(TetNet, CutsOutWhatABallHolds) {
 /// At random faces until none is left, and the same once more in another order.
 TEST(TetNet, EndsWithEveryTetrahedronAloneWhateverTheOrder) {
   const TetMesh mesh = box({4, 3, 3});
-  TetNet net(mesh, plenty);
+  TetNet net(mesh.tets, mesh.nodes.size(), plenty);
   std::vector<Pair> all;
-  for (Index t = 0; t < net.n_tets(); ++t)
+  for (Index t = 0; t < net.n_elements(); ++t)
     for (std::size_t f = 0; f < 4; ++f)
       if (net.beyond(t, f) > t) all.emplace_back(t, net.beyond(t, f));
   std::vector<std::vector<std::size_t>> half;
@@ -194,8 +194,8 @@ TEST(TetNet, EndsWithEveryTetrahedronAloneWhateverTheOrder) {
   EXPECT_EQ(half[0], half[1]);
   EXPECT_EQ(half[0], half[2]);
   for (const auto& [t, u] : all) net.open(t, u);
-  EXPECT_EQ(net.n_nodes(), 4 * net.n_tets());
-  EXPECT_EQ(pieces_of(net), net.n_tets());
+  EXPECT_EQ(net.n_nodes(), 4 * net.n_elements());
+  EXPECT_EQ(pieces_of(net), net.n_elements());
   net.reset();
   EXPECT_EQ(net.n_copies(), 0);
   EXPECT_EQ(euler(skin_of(net)), 2);
@@ -203,7 +203,7 @@ TEST(TetNet, EndsWithEveryTetrahedronAloneWhateverTheOrder) {
 
 TEST(TetNet, TellsWhatSplitInTheOrderInWhichItDid) {
   const TetMesh mesh = box();
-  TetNet net(mesh, plenty);
+  TetNet net(mesh.tets, mesh.nodes.size(), plenty);
   const auto pairs = pairs_across(mesh, net, [](const Vec3& x) { return x.x() > 3; });
   Index next = net.n_loaded();
   std::size_t told = 0;
@@ -223,7 +223,7 @@ TEST(TetNet, TellsWhatSplitInTheOrderInWhichItDid) {
 
 TEST(TetNet, KeepsAFaceJoinedThatItHasNoRoomToOpen) {
   const TetMesh mesh = box();
-  TetNet net(mesh, 10);
+  TetNet net(mesh.tets, mesh.nodes.size(), 10);
   for (const auto& [t, u] : pairs_across(mesh, net, [](const Vec3& x) { return x.x() > 3; })) net.open(t, u);
   EXPECT_GT(net.left_out(), 0U);
   EXPECT_LE(net.n_copies(), 10);
