@@ -40,9 +40,8 @@ class ShippedScenes : public CommandRun {
   /// Of a patient's labelled abdomen.
   void import_part(const std::string& part, const std::string& file) {
     if (!fs::exists(LIVER)) throw std::runtime_error("fetch the liver with deploy/fetch_liver.sh");
-    const std::string command =
-        "import " + test::quoted(LIVER) + " --keep " + part + " --out " + test::quoted(file);
-    EXPECT_EQ(palpate(command), 0) << log;
+    const std::string of = "import " + test::quoted(LIVER) + " --keep " + part;
+    EXPECT_EQ(palpate(of + " --out " + test::quoted(file)), 0) << log;
   }
 };
 
@@ -259,7 +258,6 @@ TEST_F(ShippedScenes, ALiverOfAnImageIsPalpated) {
 /// A patient's gall bladder as a bag of springs, under the pressure of its bile.
 class GallBladder : public ShippedScenes {
  protected:
-  /// @param keys  of simulate @return its summary
   nlohmann::json with_bladder(const std::string& scene, const std::string& keys = {}) {
     const std::string file = (folder / "gall_bladder.h5").string();
     import_part("85,85 --tetrahedra-mm 4 --largest", file);
@@ -270,10 +268,9 @@ class GallBladder : public ShippedScenes {
 TEST_F(GallBladder, IsOpenedByAScalpel) {
   const auto summary = with_bladder("open_gall_bladder");
   const auto& scalpel = summary["tools"]["scalpel"];
-  EXPECT_GT(scalpel["cut_area_mm2"].get<double>(), 20) << "a centimetre of its wall";
+  EXPECT_GT(scalpel["cut_area_mm2"].get<double>(), 20);
   EXPECT_NEAR(scalpel["cut_work"].get<double>(), 120e-6 * scalpel["cut_area_mm2"].get<double>(), 1e-9);
   EXPECT_LT(scalpel["force_peak"].get<double>(), 1);
-  EXPECT_EQ(summary["bodies"]["gall_bladder"]["fragments"].get<int>(), 1);
   EXPECT_LT(summary["energy"]["balance_error"].get<double>(), 0.001);
   EXPECT_TRUE(summary["warnings"].empty()) << summary["warnings"];
 }
