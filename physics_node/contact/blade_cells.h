@@ -65,9 +65,8 @@ class BladeCells {
   /// How many nodes have split in two.
   Index splits() const noexcept {
     if (hexes_ != nullptr) return hexes_->n_copies();
-    return body_->body().mesh && body_->body().mesh->copies() != nullptr
-               ? body_->body().mesh->copies()->n_copies()
-               : 0;
+    if (tets_ != nullptr) return tets_->n_copies();
+    return triangles_ != nullptr ? triangles_->n_copies() : 0;
   }
   /// How thick a surface is; 0: it is none [m]
   double wall() const noexcept {
