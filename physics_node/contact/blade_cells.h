@@ -82,6 +82,7 @@ class BladeCells {
     return mean(of, [this](Index node) { return body_->velocity(node); });
   }
   Vec3 corner(Index node) const noexcept { return body_->position(node); }
+  Vec3 rest_corner(Index node) const noexcept { return body_->body().rest_position(node); }
   /// Calls visit(other) for each that it hangs together with.
   template <class Visit>
   void each_joined(Index cell, const Visit& visit) const noexcept {

@@ -31,7 +31,7 @@ BladeEdge::BladeEdge(double length, std::size_t n_strips, double stiffness)
     : stiffness_(stiffness), strips_(length, n_strips) {}
 
 void BladeEdge::let_go() noexcept {
-  for (BladeStrip& strip : strips_) strip = {};
+  strips_.let_go();
   bites_ = false;
   slot_ = lag_ = lag_before_ = aside_ = 0;
   coming_ = purse_ = from_tissue_ = 0;
@@ -42,6 +42,7 @@ void BladeEdge::let_go() noexcept {
 /// sides, which are no farther apart than a spacing.
 void BladeEdge::touch(BladeLinks& links, const BladeFrame& frame) noexcept {
   if (!seen_) return;
+  if (links.wall() > 0) return touch_wall(links);
   const double h = links.spacing();
   const std::span<const BladeLinks::Node> nodes = links.nodes();
   for (const BladeLinks::Link& link : links.links()) {
@@ -54,6 +55,18 @@ void BladeEdge::touch(BladeLinks& links, const BladeFrame& frame) noexcept {
       if (strip.bites && strip.q <= at.q) return;
       if (strip.bites && strip.ahead > 0) return;  // it has pressed before this step
       strip = {.bites = true, .q = at.q, .r = slot_};
+    });
+  }
+}
+
+/// A surface is met by what strips have of it before them: one that has some of it ahead goes with the edge until it is there.
+void BladeEdge::touch_wall(const BladeLinks& links) noexcept {
+  const double h = links.spacing();
+  for (const BladeLinks::Link& link : links.links()) {
+    const BladeLinks::Crossing& at = link.now;
+    if (!at.is || at.q < lag_ || at.q > lag_ + h) continue;
+    strips_.each_near(at.p, 0.5 * h, [&](BladeStrip& strip) {
+      if (!strip.bites) strip = {.bites = true, .q = lag_, .r = slot_};
     });
   }
 }
@@ -123,11 +136,7 @@ void BladeEdge::find_blade(const BladeStrands& strands, double dt) noexcept {
 /// The force of a strip, and how far it has to go on for that.
 void BladeEdge::slide(BladeStrip& strip, BladeOutcome& done) const noexcept {
   strip.ahead = strip.across = 0;
-  if (!strip.bites) return;
-  if (strip.cover == 0) {
-    strip.q = std::max(strip.q, lag_);
-    return;
-  }
+  if (!strip.bites || strip.cover == 0) return;
   const double k = hold_of(strip), most = most_force(strip);
   strip.ahead = std::max(0.0, k * (lag_ - strip.q));
   strip.across = k * (aside_ - strip.r);
@@ -192,6 +201,7 @@ BladeOutcome BladeEdge::step(BladeLinks& links, BladeStrands& strands, const Bla
   strands.meet(frame, lag_before_, stiffness_, dt);
   find_blade(strands, dt);
   for (BladeStrip& strip : strips_) slide(strip, done);
+  strips_.go_on_uncovered(lag_, links.wall() > 0 ? links.spacing() : 0);
   purse_ -= done.released;
   press(links, frame, dt, done);
   strands.slide(frame, lag_, done);

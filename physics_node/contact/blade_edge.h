@@ -51,6 +51,7 @@ class BladeEdge {
 
  private:
   void touch(BladeLinks& links, const BladeFrame& frame) noexcept;
+  void touch_wall(const BladeLinks& links) noexcept;
   void find_slot() noexcept;
   void soften(BladeLinks& links, double dt) noexcept;
   /// Of a strip on the tissue, all of which is before it [N/m].

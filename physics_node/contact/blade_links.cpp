@@ -26,6 +26,7 @@ BladeLinks::BladeLinks(const BodyModel& body, double length)
   side_.assign(number_.size(), 0);
   nodes_.reserve(most_nodes);
   links_.reserve(most_links);
+  if (cells_.wall() > 0) wall_pieces_.reserve(most_nodes);
 }
 
 void BladeLinks::look_around(const BladeFrame& frame, const EdgePlace& edge) noexcept {
@@ -189,6 +190,7 @@ BladeLinks::Section BladeLinks::section_of(Index cell) const noexcept {
 
 void BladeLinks::measure_sections(const BladeFrame& frame, double s) noexcept {
   frame_ = frame, plane_ = s;
+  if (cells_.wall() > 0) return measure_wall();
   for (Link& link : links_) {
     if (!link.now.is) continue;
     for (const std::uint32_t end : {link.a, link.b}) {
@@ -198,6 +200,34 @@ void BladeLinks::measure_sections(const BladeFrame& frame, double s) noexcept {
       link.now.low = std::min(link.now.low, section.low),
       link.now.high = std::max(link.now.high, section.high);
     }
+  }
+}
+
+void BladeLinks::measure_wall() noexcept {
+  wall_pieces_.clear();
+  for (const Node& node : nodes_) {
+    if (!cells_.is_element(node.cell)) continue;
+    std::array<Vec3, 3> at, rest;
+    for (std::size_t c = 0; c < 3; ++c) {
+      at[c] = frame_.coordinates(cells_.corner(node.of.of[c]));
+      rest[c] = cells_.rest_corner(node.of.of[c]);
+    }
+    WallPiece piece;
+    std::array<Vec3, 2> now;
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < 3 && n < 2; ++i) {
+      const std::size_t j = (i + 1) % 3;
+      const double below = at[i].z() - plane_, above = at[j].z() - plane_;
+      if ((below < 0) == (above < 0)) continue;
+      const double t = below / (below - above);
+      now[n] = at[i] + t * (at[j] - at[i]), piece.rest[n] = rest[i] + t * (rest[j] - rest[i]);
+      piece.p[n] = now[n].x(), piece.q[n] = now[n].y();
+      ++n;
+    }
+    const double length = n == 2 ? (now[1] - now[0]).norm() : 0.0;
+    if (length < tiny * h_) continue;
+    piece.unstrained = (piece.rest[1] - piece.rest[0]).norm() / length;
+    wall_pieces_.push_back(piece);
   }
 }
 

@@ -13,6 +13,7 @@
 // On which side a cell lies is settled once, before the edge comes to it: one that lies in the plane, and is moved to and fro,
 // stays with the lip that it belongs to.
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -88,6 +89,13 @@ class BladeLinks {
   void measure_sections(const BladeFrame& frame, double s) noexcept;
   /// The same of all that hangs together with a link along the edge, as far as `end`: p of the tissue's skin, or beyond `end`.
   double skin_along(const Link& link, double end) const noexcept;
+  /// Of a surface what the plane has of its triangles, since measure_sections().
+  struct WallPiece {
+    std::array<double, 2> p{}, q{};  // of its ends [m]
+    std::array<Vec3, 2> rest{};      // and where these are at rest [m]
+    double unstrained = 1;           // its length at rest by that now
+  };
+  std::span<const WallPiece> wall_pieces() const noexcept { return wall_pieces_; }
   /// From the pulls or the forces of all nodes, by how much these give way.
   void give_way_to_pulls() noexcept;
   void give_way_to_forces() noexcept;
@@ -122,6 +130,7 @@ class BladeLinks {
   /// Does a cell hang together with what lies on the other side of the plane, or has nothing parted it?
   bool hangs_across(Index cell) const noexcept;
   void join_islands(const EdgePlace& edge) noexcept;
+  void measure_wall() noexcept;
   void settle_side(Node& node, const EdgePlace& edge) noexcept;
 
   BladeCells cells_;
@@ -134,6 +143,7 @@ class BladeLinks {
   std::vector<std::int8_t> side_;     // of what is around, by cell; 0: not settled
   std::vector<Node> nodes_;
   std::vector<Link> links_;
+  std::vector<WallPiece> wall_pieces_;
   Index splits_ = 0;                              // of the body, when nodes_ asked for theirs
   Vec3 tip_ = Vec3::Zero(), end_ = Vec3::Zero();  // where it looked around last [m]
   double when_ = -1e9;                            // [s]

@@ -49,6 +49,10 @@ class BladeStrips {
   auto begin() const noexcept { return strips_.begin(); }
   auto end() const noexcept { return strips_.end(); }
   double length() const noexcept { return length_; }
+  void let_go() noexcept {
+    for (BladeStrip& strip : strips_) strip = {};
+    unpaid_ = 0;
+  }
   double width() const noexcept { return width_; }  // of one
   double middle(const BladeStrip& strip) const noexcept {
     return (static_cast<double>(&strip - strips_.data()) + 0.5) * width_;
@@ -69,6 +73,10 @@ class BladeStrips {
   void carry(const BladeLinks& links, const BladeFrame& frame) noexcept;
   /// Of a step of dt: `unstrained` and `even`.
   void compare_with_rest(const BladeLinks& links, double dt) noexcept;
+
+  /// Those that bite and have nothing before them go with the blade, but not beyond those that have within `reach` along the edge: a wall
+  /// that comes from one to the next is met where it is.
+  void go_on_uncovered(double lag, double reach) noexcept;
 
   /// Calls visit(strip) for all of which any part is within `reach` of p.
   template <class Visit>
@@ -112,12 +120,12 @@ class BladeStrips {
   static double weight(double d) noexcept {
     return std::max(0.0, d < 0 ? 1 + d / passed_by : 1 - d / ahead_reach);
   }
-  void cover_wall(const BladeLinks& links) noexcept;
-  void compare_way_with_rest(const BladeLinks& links, double dt) noexcept;
+  void cover_wall(const BladeLinks& links, double dt) noexcept;
   void stay_before_elements(const BladeLinks& links) noexcept;
   void count_passed(BladeStrip& strip, const Vec3& front, const Vec3& B) noexcept;
 
   double length_, width_;
+  double unpaid_ = 0;  // of a wall, which goes from strip to strip, as BladeStrip::unpaid [m^2]
   std::vector<BladeStrip> strips_;
 };
 
