@@ -231,6 +231,37 @@ INSTANTIATE_TEST_SUITE_P(Walls, CutWall,
                          testing::Values(Wall{0.005, 0.05, 200}, Wall{0.0025, 0.05, 400},
                                          Wall{0.0025, 0.2, 400}, Wall{0.0025, 0.05, 800}));
 
+/// Nearer to each other than the triangles are large.
+TEST(PartedBag, BearsWithBothOfItsWallsWhatTheyTake) {
+  Recipe recipe = tough_bag({16, 12, 1}, 0.0025);
+  recipe.material.replace(recipe.material.find("200"), 3, "800");
+  recipe.body = "fixed = [\"-y\", \"+y\"]";
+  LedBlade cut(with_scalpel(recipe), Vec3(0.014, 0.0003, 0.015));
+  cut.along(Vec3(0.014, 0.0003, -0.006), 0.1);
+  cut.along(Vec3(0.005, 0.0003, -0.006), 0.05);
+  const LedBlade::Stroke steady = cut.stroke(Vec3(-0.014, 0.0003, -0.006), 0.05);
+  EXPECT_NEAR(steady.force - steady.viscous, 2 * toughness * wall, 0.1 * 2 * toughness * wall);
+  EXPECT_NEAR(steady.opened, 2 * wall, 0.1 * 2 * wall);
+  EXPECT_EQ(topology_of(net_of(cut.world.body(0))).loops, 2);
+  EXPECT_LT(cut.world.ledger().balance_error(), 1e-3);
+}
+
+/// Right through, a third of its wall along the edge, of which it pays for half: it parts before all of its thickness is behind.
+TEST(PartedBag, IsPaidForAllTheWayRound) {
+  Recipe recipe = tough_bag({12, 8, 6}, 0.0025);
+  recipe.material.replace(recipe.material.find("200"), 3, "1600");
+  recipe.body = "fixed = [\"-y\", \"+y\"]";
+  LedBlade cut(with_scalpel(recipe, 40), Vec3(0.030, 0.0003, -0.020));
+  cut.along(Vec3(-0.030, 0.0003, -0.020), 0.1);
+  const double round = 2 * (0.030 + 0.015);
+  EXPECT_GT(cut.book().cut_area(), 0.8 * round * wall);
+  EXPECT_LT(cut.book().cut_area(), 1.02 * round * wall);
+  const Topology2 now = topology_of(net_of(cut.world.body(0)));
+  EXPECT_EQ(now.pieces, 2);
+  EXPECT_EQ(now.loops, 2);
+  EXPECT_LT(cut.world.ledger().balance_error(), 2e-3);
+}
+
 /// Cut all the way round, its lid comes off, and both pieces keep what they weigh.
 TEST(PartedBag, LosesItsLid) {
   Recipe recipe = tough_bag({16, 12, 8}, 0.0025);

@@ -268,7 +268,7 @@ class GallBladder : public ShippedScenes {
 TEST_F(GallBladder, IsOpenedByAScalpel) {
   const auto summary = with_bladder("open_gall_bladder");
   const auto& scalpel = summary["tools"]["scalpel"];
-  EXPECT_GT(scalpel["cut_area_mm2"].get<double>(), 20);
+  EXPECT_GT(scalpel["cut_area_mm2"].get<double>(), 15);
   EXPECT_NEAR(scalpel["cut_work"].get<double>(), 120e-6 * scalpel["cut_area_mm2"].get<double>(), 1e-9);
   EXPECT_LT(scalpel["force_peak"].get<double>(), 1);
   EXPECT_LT(summary["energy"]["balance_error"].get<double>(), 0.001);
