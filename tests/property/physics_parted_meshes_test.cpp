@@ -50,13 +50,6 @@ std::vector<EdgeGone> inner_faces(const TetNet& net, unsigned seed) {
   return all;
 }
 
-/// Lists so that its smallest is first.
-std::array<Index, 3> turned(std::array<Index, 3> face) {
-  std::rotate(face.begin(), std::ranges::min_element(face), face.end());
-  return face;
-}
-using Faces = std::multiset<std::array<Index, 3>>;
-
 Faces exposed_faces(const TetNet& net) {
   Faces faces;
   for (Index t = 0; t < net.n_elements(); ++t)
@@ -64,28 +57,6 @@ Faces exposed_faces(const TetNet& net) {
       if (net.is_exposed(t, f)) faces.insert(turned(net.face(t, f)));
   return faces;
 }
-Faces faces_of(const Surface& surface) {
-  Faces faces;
-  for (const auto& f : surface.facets)
-    faces.insert(turned({surface.cell[f[0]], surface.cell[f[1]], surface.cell[f[2]]}));
-  return faces;
-}
-Faces faces_of(const Boundary& boundary) {
-  Faces faces;
-  for (std::uint32_t f = 0; f < boundary.most_facets(); ++f)
-    if (boundary.exists(f))
-      faces.insert(turned({boundary.mass(f, 0), boundary.mass(f, 1), boundary.mass(f, 2)}));
-  return faces;
-}
-Faces faces_of(const ContactBody& contact) {
-  Faces faces;
-  for (const auto& k : contact.facets()->all()) {
-    const auto& cell = contact.candidates().cell();
-    if (k[0] != k[1]) faces.insert(turned({cell[k[0]], cell[k[1]], cell[k[2]]}));
-  }
-  return faces;
-}
-
 /// Cut by cut, at random, until it is in crumbs.
 class PartedMesh : public testing::Test {
  protected:

@@ -6,11 +6,14 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 #include <span>
 #include <vector>
 
 #include "physics_node/boundary/boundary.h"
 #include "physics_node/boundary/filled_volumes.h"
+#include "physics_node/boundary/surface.h"
+#include "physics_node/collision/contact_body.h"
 #include "physics_node/fragments/fragments.h"
 #include "physics_node/fragments/measure_fragments.h"
 #include "physics_node/step/body_model.h"
@@ -75,6 +78,36 @@ inline void expect_to_go_back(BodyModel& moving, std::span<const EdgeGone> faces
   moving.restore();
   EXPECT_TRUE(moving.events().none());
   body.each_node([&](Index node) { EXPECT_EQ(moving.displacement(node), before[body.origin(node)]); });
+}
+
+/// So that its smallest is first.
+inline std::array<Index, 3> turned(std::array<Index, 3> face) {
+  std::rotate(face.begin(), std::ranges::min_element(face), face.end());
+  return face;
+}
+using Faces = std::multiset<std::array<Index, 3>>;
+
+/// Triangles, as the eye, a tool and another body know them.
+inline Faces faces_of(const Surface& surface) {
+  Faces faces;
+  for (const auto& f : surface.facets)
+    faces.insert(turned({surface.cell[f[0]], surface.cell[f[1]], surface.cell[f[2]]}));
+  return faces;
+}
+inline Faces faces_of(const Boundary& boundary) {
+  Faces faces;
+  for (std::uint32_t f = 0; f < boundary.most_facets(); ++f)
+    if (boundary.exists(f))
+      faces.insert(turned({boundary.mass(f, 0), boundary.mass(f, 1), boundary.mass(f, 2)}));
+  return faces;
+}
+inline Faces faces_of(const ContactBody& contact) {
+  Faces faces;
+  for (const auto& k : contact.facets()->all()) {
+    const auto& cell = contact.candidates().cell();
+    if (k[0] != k[1]) faces.insert(turned({cell[k[0]], cell[k[1]], cell[k[2]]}));
+  }
+  return faces;
 }
 
 /// Until nothing waits any more.
