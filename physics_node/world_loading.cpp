@@ -60,8 +60,7 @@ std::vector<double> inverse_masses_when_cut(const Body& body) {
   if (body.mesh && body.mesh->triangles) {
     const SpringSurface& surface = *body.mesh->springs;
     for (const MeshTriangle& t : surface.mesh.triangles) {
-      const double third =
-          surface.membrane.density * surface.membrane.thickness * area_of(surface.mesh, t) / 3;
+      const double third = mass_share(surface.membrane, area_of(surface.mesh, t));
       for (const Index node : t)
         if (double& w = inverse[static_cast<std::size_t>(node)]; w > 0) w = std::max(w, 1 / third);
     }

@@ -42,7 +42,8 @@ double mass_of(const physics::Body& body) {
   return sum;
 }
 
-/// Edges that facets do not go as often one way as the other; of a bag, which a cut opens, those that they go twice one way.
+/// Edges that facets do not go as often one way as the other; of a bag, which a cut opens, those that they go twice one
+/// way.
 std::int64_t open_edges_of(const physics::BodyModel& moving) {
   const physics::Surface surface = make_surface(moving, std::nullopt, 0);
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> gone, ways;

@@ -165,8 +165,9 @@ inline bool any_springs_lose(const Body& body) {
          std::any_of(body.laws.begin(), body.laws.end(), [](const ElementLaw& law) { return law.drag > 0; });
 }
 
-/// For a body that a tool of the scene cuts: of tetrahedra of first order, of surfaces of springs and of cells of finite elements all of whose materials
-/// say how tough they are, room for the copies of their nodes. @throws InputError  more elements at a node than SimplexNet has room for
+/// For a body that a tool of the scene cuts: of tetrahedra of first order, of surfaces of springs and of cells of finite
+/// elements all of whose materials say how tough they are, room for the copies of their nodes.
+/// @throws InputError  more elements at a node than SimplexNet has room for
 void make_ready_for_cuts(const BodySpec& spec, const std::vector<MaterialSpec>& materials, Body& body);
 
 /// Builds a body's lattice or mesh, its laws, held masses and handle. Held are the masses within a quarter of a grid step of a face; where

@@ -22,14 +22,13 @@ SpringSurface spring_surface(TriangleMesh mesh, const Membrane& membrane) {
   for (const MeshTriangle& corners : surface.mesh.triangles) {
     area.push_back(area_of(surface.mesh, corners));
     for (const Index node : corners)
-      surface.mass[static_cast<std::size_t>(node)] += membrane.density * membrane.thickness * area.back() / 3;
+      surface.mass[static_cast<std::size_t>(node)] += mass_share(membrane, area.back());
   }
   for (const MeshEdge& edge : edges_of(surface.mesh)) {
     SurfaceSpring spring{.node = edge.node};
     spring.length = (place(surface.mesh, edge.node[1]) - place(surface.mesh, edge.node[0])).norm();
     for (const Index t : edge.triangle)
-      spring.k += membrane.modulus * membrane.thickness * area[static_cast<std::size_t>(t)] /
-                  (spring.length * spring.length);
+      spring.k += spring_share(membrane, area[static_cast<std::size_t>(t)], spring.length);
     surface.springs.push_back(spring);
   }
   return surface;

@@ -39,6 +39,14 @@ inline bool is_filled(const Membrane& membrane) noexcept {
   return membrane.pressure != 0 || membrane.content_modulus != 0;
 }
 
+/// What a triangle of this area gives each of its springs [N/m], and each of its nodes [kg].
+inline double spring_share(const Membrane& membrane, double area, double length) noexcept {
+  return membrane.modulus * membrane.thickness * area / (length * length);
+}
+inline double mass_share(const Membrane& membrane, double area) noexcept {
+  return membrane.density * membrane.thickness * area / 3;
+}
+
 struct SpringSurface {
   TriangleMesh mesh;
   Membrane membrane;

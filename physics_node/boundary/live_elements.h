@@ -12,8 +12,8 @@
 
 namespace palpate::physics {
 
-/// Of a mesh that may be cut it holds the faces that can be touched, of a surface all triangles; of another, in which nothing breaks, nothing. Of cells that may be
-/// cut also those that have been.
+/// Of a mesh that may be cut it holds the faces that can be touched, of a surface all triangles; of another, in which
+/// nothing breaks, nothing. Of cells that may be cut also those that have been.
 class LiveElements {
  public:
   /// Those alive now.

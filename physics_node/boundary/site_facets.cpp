@@ -142,17 +142,30 @@ class FccSites final : public SiteFacets {
   SiteNumbers numbers_;
 };
 
-class MeshSites final : public SiteFacets {
+/// The elements of a mesh that may be cut.
+template <class Net>
+class NetSites : public SiteFacets {
  public:
-  explicit MeshSites(const Topology& moving) : net_(*moving.body().mesh->net) {}
+  explicit NetSites(const Net& net) : net_(net) {}
 
   std::size_t n_sites() const noexcept override { return static_cast<std::size_t>(net_.n_elements()); }
 
   std::size_t around(Index mass, std::span<std::uint32_t, most_around> sites) const noexcept override {
     std::size_t n = 0;
-    net_.each_around(mass, [&](Index tet, std::size_t) { sites[n++] = static_cast<std::uint32_t>(tet); });
+    net_.each_around(mass,
+                     [&](Index element, std::size_t) { sites[n++] = static_cast<std::uint32_t>(element); });
     return n;
   }
+
+  bool is_rigid(std::uint32_t) const noexcept override { return false; }
+
+ protected:
+  const Net& net_;
+};
+
+class MeshSites final : public NetSites<TetNet> {
+ public:
+  using NetSites::NetSites;
 
   std::size_t facets_of(std::uint32_t site, std::span<Corners, most_facets> out) const noexcept override {
     std::size_t n = 0;
@@ -179,44 +192,26 @@ class MeshSites final : public SiteFacets {
     }
     return SiteFacets::across(site, masses);
   }
-
-  bool is_rigid(std::uint32_t) const noexcept override { return false; }
-
- private:
-  const TetNet& net_;
 };
 
 /// The triangles of a surface, none of which ever goes: those at a cut have other corners than before.
-class SurfaceSites final : public SiteFacets {
+class SurfaceSites final : public NetSites<TriangleNet> {
  public:
-  explicit SurfaceSites(const Topology& moving) : net_(*moving.body().mesh->triangles) {}
-
-  std::size_t n_sites() const noexcept override { return static_cast<std::size_t>(net_.n_elements()); }
-
-  std::size_t around(Index mass, std::span<std::uint32_t, most_around> sites) const noexcept override {
-    std::size_t n = 0;
-    net_.each_around(mass,
-                     [&](Index triangle, std::size_t) { sites[n++] = static_cast<std::uint32_t>(triangle); });
-    return n;
-  }
+  using NetSites::NetSites;
 
   std::size_t facets_of(std::uint32_t site, std::span<Corners, most_facets> out) const noexcept override {
     const MeshTriangle& of = net_.corners(static_cast<Index>(site));
     out[0] = {of[0], of[1], of[2], of[2]};
     return 1;
   }
-
-  bool is_rigid(std::uint32_t) const noexcept override { return false; }
-
- private:
-  const TriangleNet& net_;
 };
 
 }  // namespace
 
 std::unique_ptr<SiteFacets> make_site_facets(const Topology& moving) {
-  if (is_surface_of_springs(moving.body())) return std::make_unique<SurfaceSites>(moving);
-  if (moving.body().mesh) return std::make_unique<MeshSites>(moving);
+  const auto& mesh = moving.body().mesh;
+  if (mesh && mesh->triangles) return std::make_unique<SurfaceSites>(*mesh->triangles);
+  if (mesh) return std::make_unique<MeshSites>(*mesh->net);
   if (moving.body().cells) return std::make_unique<VoxelSites>(moving);
   return std::make_unique<FccSites>(moving);
 }

@@ -54,8 +54,8 @@ Surface voxel_surface(const Body& body, const LiveElements& live, std::optional<
 /// masses hold together; a triangle that bounds nothing is a sheet and is shown too. Source: EQUATIONS C-8, C-12.
 Surface fcc_surface(const Body& body, const LiveElements& live, std::uint32_t rgba);
 
-/// The faces of a mesh that can be touched, as triangles; those that a cut has opened darker and redder, and of a surface those along it.
-/// hidden: the faces between two tetrahedra.
+/// The faces of a mesh that can be touched, as triangles; those that a cut has opened darker and redder, and of a
+/// surface those along it. hidden: the faces between two tetrahedra.
 Surface mesh_surface(const Body& body, const LiveElements& live, std::uint32_t rgba);
 
 /// Of flesh under a skin of this colour (0xAABBGGRR).

@@ -117,8 +117,9 @@ Interval within(const BladeLinks::WallPiece& piece, double q, double half) noexc
 
 }  // namespace
 
-/// Of a surface an edge has before it what is within half the wall's thickness of where the plane cuts it, on a strip as much as lies
-/// there: of a wall across the edge its thickness, of one along it all of the strip for as long as that is thick. Two walls count twice.
+/// Of a surface an edge has before it what is within half the wall's thickness of where the plane cuts it, on a strip as
+/// much as lies there: of a wall across the edge its thickness, of one along it all of the strip for as long as that is
+/// thick. Two walls count twice.
 void BladeStrips::cover_wall(const BladeLinks& links, double dt) noexcept {
   constexpr std::size_t most_pieces = 32;
   constexpr double least_ahead =

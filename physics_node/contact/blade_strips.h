@@ -74,8 +74,8 @@ class BladeStrips {
   /// Of a step of dt: `unstrained` and `even`.
   void compare_with_rest(const BladeLinks& links, double dt) noexcept;
 
-  /// Those that bite and have nothing before them go with the blade, but not beyond those that have within `reach` along the edge: a wall
-  /// that comes from one to the next is met where it is.
+  /// Those that bite and have nothing before them go with the blade, but not beyond those that have within `reach` along
+  /// the edge: a wall that comes from one to the next is met where it is.
   void go_on_uncovered(double lag, double reach) noexcept;
 
   /// Calls visit(strip) for all of which any part is within `reach` of p.

@@ -1,6 +1,6 @@
 #pragma once
-// Which elements of a mesh hang together while it is cut along their faces, and which node each of their corners is: tetrahedra, whose
-// faces are triangles, or the triangles of a surface, whose faces are edges.
+// Which elements of a mesh hang together while it is cut along their faces, and which node each of their corners is:
+// tetrahedra, whose faces are triangles, or the triangles of a surface, whose faces are edges.
 //
 // Round a node as it was loaded its elements fall into fans: those that one comes to from each other through faces
 // at the node that are still joined. Every fan has a node of its own. When a face that is opened parts a fan, the
@@ -8,8 +8,8 @@
 // the two sides of an open face have corners of their own where the cut has gone on beyond them, and share those at
 // its end; a face alone opens nothing. No element comes, goes or changes its shape, and each fan keeps its own
 // share of mass.
-// Source: Nienhuys & van der Stappen 2001, cuts along faces; fans: as the links of Dick, Georgii & Westermann 2011. Of surfaces: Mendoza &
-// Laugier, facets that part, EQUATIONS C-24 and C-28.
+// Source: Nienhuys & van der Stappen 2001, cuts along faces; fans: as the links of Dick, Georgii & Westermann 2011. Of
+// surfaces: Mendoza & Laugier, facets that part, EQUATIONS C-24 and C-28.
 
 #include <cstdint>
 #include <span>
@@ -20,7 +20,8 @@
 
 namespace palpate::physics {
 
-/// What an element of N corners is: the corners of each of its faces, anticlockwise from outside, and which one each does not have.
+/// What an element of N corners is: the corners of each of its faces, anticlockwise from outside, and which one each
+/// does not have.
 template <std::size_t N>
 struct Simplex;
 template <>
@@ -59,8 +60,11 @@ class SimplexNet : public NodeCopies {
     const Index other = other_[N * at(element) + face];
     return other == none ? none : other / static_cast<Index>(N);
   }
+  /// Which face of a it has in common with b; n_faces: none.
+  std::size_t face_between(Index a, Index b) const noexcept;
   bool is_open(Index element, std::size_t face) const noexcept { return open_[N * at(element) + face] != 0; }
-  /// An outer face, or an open one whose sides do not have the same nodes: of a tetrahedron, one that something can touch.
+  /// An outer face, or an open one whose sides do not have the same nodes: of a tetrahedron, one that something can
+  /// touch.
   bool is_exposed(Index element, std::size_t face) const noexcept;
 
   /// Calls visit(element, corner) for each element that has this node, in rising order.
@@ -93,7 +97,6 @@ class SimplexNet : public NodeCopies {
     return {star_.data() + star_begin_[at(loaded)], star_.data() + star_begin_[at(loaded) + 1]};
   }
   void join_faces();
-  std::size_t face_between(Index a, Index b) const noexcept;
   void part(Index node, Index from) noexcept;
   void flood(Index node, Index from) noexcept;
 

@@ -68,26 +68,8 @@ class PartedMesh : public testing::Test {
 };
 
 TEST_F(PartedMesh, IsTouchedSeenAndMetAtTheFacesThatItHas) {
-  Boundary boundary(*moving, 0.02, true);
-  ContactBody contact(*moving, true, true);
-  EXPECT_EQ(faces_of(boundary), exposed_faces(net_of(*moving)));
-  part(20, [&] {
-    bring_up_to_date(boundary);
-    contact.follow_breaks();
-    const Faces truth = exposed_faces(net_of(*moving));
-    ASSERT_EQ(faces_of(boundary), truth);
-    ASSERT_EQ(faces_of(contact), truth);
-    ASSERT_EQ(faces_of(make_surface(*moving, std::nullopt, 0)), truth);
-    ASSERT_EQ(boundary.left_out(), 0u);
-    for (std::size_t n = 0; n < contact.candidates().size(); ++n)
-      ASSERT_EQ(contact.candidates().inverse_mass(n),
-                moving->body().inverse_mass[static_cast<std::size_t>(contact.candidates().cell()[n])]);
-  });
-  moving->reset();
-  boundary.follow(), boundary.update();
-  contact.follow_breaks();
-  EXPECT_EQ(faces_of(boundary), exposed_faces(net_of(*moving)));
-  EXPECT_EQ(faces_of(contact), exposed_faces(net_of(*moving)));
+  expect_known_by_its_faces(*moving, inner_faces(net_of(*moving), 3), 20, {.dt = 1e-5},
+                            [&] { return exposed_faces(net_of(*moving)); });
 }
 
 TEST_F(PartedMesh, FillsWhatItFilled) {

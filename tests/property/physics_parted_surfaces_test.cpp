@@ -109,23 +109,8 @@ class PartedSurface : public testing::Test {
 };
 
 TEST_F(PartedSurface, IsTouchedSeenAndMetAtTheTrianglesThatItHas) {
-  Boundary boundary(*moving, 0.02, true);
-  ContactBody contact(*moving, true, true);
-  EXPECT_EQ(faces_of(boundary), triangles_of(net_of(*moving)));
-  part(20, [&] {
-    bring_up_to_date(boundary);
-    contact.follow_breaks();
-    const Faces truth = triangles_of(net_of(*moving));
-    ASSERT_EQ(faces_of(boundary), truth);
-    ASSERT_EQ(faces_of(contact), truth);
-    ASSERT_EQ(faces_of(make_surface(*moving, std::nullopt, 0)), truth);
-    ASSERT_EQ(boundary.left_out(), 0u);
-  });
-  moving->reset();
-  boundary.follow(), boundary.update();
-  contact.follow_breaks();
-  EXPECT_EQ(faces_of(boundary), triangles_of(net_of(*moving)));
-  EXPECT_EQ(faces_of(contact), triangles_of(net_of(*moving)));
+  expect_known_by_its_faces(*moving, edges_of(net_of(*moving), 3), 20, {.dt = 1e-6},
+                            [&] { return triangles_of(net_of(*moving)); });
 }
 
 /// Euler: of as many pieces without handles, with loops of free edges.
@@ -217,7 +202,8 @@ TEST(PartedBag, BearsWithBothOfItsWallsWhatTheyTake) {
   EXPECT_LT(cut.world.ledger().balance_error(), 1e-3);
 }
 
-/// Right through, a third of its wall along the edge, of which it pays for half: it parts before all of its thickness is behind.
+/// Right through, a third of its wall along the edge, of which it pays for half: it parts before all of its thickness
+/// is behind.
 TEST(PartedBag, IsPaidForAllTheWayRound) {
   Recipe recipe = tough_bag({12, 8, 6}, 0.0025);
   recipe.material.replace(recipe.material.find("200"), 3, "1600");

@@ -1,7 +1,8 @@
 // How a surface of springs takes the copies of nodes that a cut makes (mesh/simplex_net.h).
 //
-// A triangle keeps its own share of every spring at its sides, so where two part there are two springs in the place of one, which
-// together are as stiff and hold as much: EQUATIONS C-26. A node weighs a third of the triangles that are still at it, C-24.
+// A triangle keeps its own share of every spring at its sides, so where two part there are two springs in the place of
+// one, which together are as stiff and hold as much: EQUATIONS C-26. A node weighs a third of the triangles that are
+// still at it, C-24.
 
 #include <algorithm>
 
@@ -10,13 +11,6 @@
 
 namespace palpate::physics {
 namespace {
-
-/// Which side of a triangle has these nodes as loaded.
-std::size_t side_between(const TriangleNet& net, Index triangle, Index neighbour) noexcept {
-  std::size_t side = 0;
-  while (net.beyond(triangle, side) != neighbour) ++side;
-  return side;
-}
 
 bool have_the_same(const TriangleNet::Face& a, const TriangleNet::Face& b) noexcept {
   return (a[0] == b[0] && a[1] == b[1]) || (a[0] == b[1] && a[1] == b[0]);
@@ -51,7 +45,7 @@ void SurfaceSprings<Real>::part_spring(std::size_t triangle, std::size_t side,
                                        const TriangleNet& net) noexcept {
   const Index neighbour = net.beyond(static_cast<Index>(triangle), side);
   const std::size_t other = static_cast<std::size_t>(neighbour),
-                    theirs = side_between(net, neighbour, static_cast<Index>(triangle));
+                    theirs = net.face_between(neighbour, static_cast<Index>(triangle));
   Index& mine = joints_.spring_of[3 * triangle + side];
   Index& of_other = joints_.spring_of[3 * other + theirs];
   const bool parts =
@@ -61,9 +55,7 @@ void SurfaceSprings<Real>::part_spring(std::size_t triangle, std::size_t side,
     joints_.springs.push_back(joints_.springs[static_cast<std::size_t>(mine)]);
     for (const auto& [t, spring] : {std::pair{triangle, mine}, std::pair{other, of_other}}) {
       Spring& one = joints_.springs[static_cast<std::size_t>(spring)];
-      const double length = static_cast<double>(one.length);
-      one.k =
-          static_cast<Real>(membrane_.modulus * membrane_.thickness * area_at_rest_[t] / (length * length));
+      one.k = static_cast<Real>(spring_share(membrane_, area_at_rest_[t], static_cast<double>(one.length)));
     }
   }
   Spring& spring = joints_.springs[static_cast<std::size_t>(mine)];
@@ -103,7 +95,7 @@ void SurfaceSprings<Real>::list_anew(Index origin, const TriangleNet& net) noexc
       }
     });
     at = of.end, around_at = around.end;
-    const double mass = this->mass(node, net);
+    const double mass = mass_at(n);
     inverse_mass_[n] = inverse_mass_[first] > 0 ? 1 / mass : 0;
     drag_[n] = membrane_.drag * mass;
   }
@@ -115,11 +107,10 @@ void SurfaceSprings<Real>::list_anew(Index origin, const TriangleNet& net) noexc
 }
 
 template <class Real>
-double SurfaceSprings<Real>::mass(Index node, const TriangleNet& net) const noexcept {
+double SurfaceSprings<Real>::mass_at(std::size_t node) const noexcept {
   double sum = 0;
-  net.each_corner(node, [&](Index t, std::size_t) {
-    sum += membrane_.density * membrane_.thickness * area_at_rest_[static_cast<std::size_t>(t)] / 3;
-  });
+  for (std::size_t t = joints_.around_node[node].begin; t < joints_.around_node[node].end; ++t)
+    sum += mass_share(membrane_, area_at_rest_[static_cast<std::size_t>(joints_.around[t].triangle)]);
   return sum;
 }
 
@@ -171,27 +162,14 @@ void SurfaceSprings<Real>::copy_saved(Saved& saved, Index node, Index copy) cons
 template <class Real>
 void SurfaceSprings<Real>::rejoin() noexcept {
   if (loaded_.spring_of.empty()) return;
-  joints_.springs.resize(loaded_.springs.size());
-  std::ranges::copy(loaded_.springs, joints_.springs.begin());
-  std::ranges::copy(loaded_.triangles, joints_.triangles.begin());
-  std::ranges::copy(loaded_.of_node, joints_.of_node.begin());
-  std::ranges::copy(loaded_.around_node, joints_.around_node.begin());
-  std::ranges::copy(loaded_.incident, joints_.incident.begin());
-  std::ranges::copy(loaded_.around, joints_.around.begin());
-  std::ranges::copy(loaded_.spring_of, joints_.spring_of.begin());
-  std::size_t n = 0;
-  while (n < n_nodes() && joints_.around_node[n].end > 0) ++n;
-  rest_.resize(n);
+  joints_ = loaded_;  // which has room for it
+  rest_.resize(wanted_.size());
   std::ranges::fill(elastic_, 0.0);
   std::ranges::fill(ledger_, Ledger{});
   leaks_ = false;
-  for (std::size_t i = 0; i < n; ++i) {
-    drag_[i] = membrane_.drag;
-    double mass = 0;
-    for (std::size_t t = joints_.around_node[i].begin; t < joints_.around_node[i].end; ++t)
-      mass += membrane_.density * membrane_.thickness *
-              area_at_rest_[static_cast<std::size_t>(joints_.around[t].triangle)] / 3;
-    if (inverse_mass_[i] > 0) inverse_mass_[i] = 1 / mass;
+  for (std::size_t n = 0; n < n_nodes(); ++n) {
+    drag_[n] = membrane_.drag;
+    if (inverse_mass_[n] > 0) inverse_mass_[n] = 1 / mass_at(n);
   }
 }
 
@@ -200,7 +178,7 @@ void SurfaceSprings<Real>::rejoin() noexcept {
   template double SurfaceSprings<Real>::separate(std::span<const NodeSplit>, const TriangleNet&) noexcept; \
   template void SurfaceSprings<Real>::copy_saved(Saved&, Index, Index) const noexcept;                     \
   template void SurfaceSprings<Real>::rejoin() noexcept;                                                   \
-  template double SurfaceSprings<Real>::mass(Index, const TriangleNet&) const noexcept;
+  template double SurfaceSprings<Real>::mass_at(std::size_t) const noexcept;
 
 PALPATE_SURFACE_SEPARATION_OF(float)
 PALPATE_SURFACE_SEPARATION_OF(double)

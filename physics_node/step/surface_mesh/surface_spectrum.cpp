@@ -97,7 +97,8 @@ StiffestMode stiffest_mode_of_loose_triangles(const SpringSurface& surface) {
   return {most, membrane.beta * most + heaviest};
 }
 
-StiffestMode stiffest_mode_of_surface(const SpringSurface& surface, const std::vector<double>& inverse_mass) {
+StiffestMode stiffest_mode_of_surface(const SpringSurface& surface, std::vector<double> inverse_mass) {
+  inverse_mass.resize(surface.mesh.nodes.size());  // without room for copies: whole, as loaded
   SurfaceSprings<double> springs(surface, inverse_mass);
   const Membrane& membrane = surface.membrane;
   StiffestMode mode{springs.omega2(), springs.gamma()};

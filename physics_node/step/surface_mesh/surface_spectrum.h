@@ -12,8 +12,8 @@ namespace palpate::physics {
 /// finds. Of triangles that differ in size a bound by node takes the neighbours of the smallest for as light: of a
 /// surface cut from an image it is 1.6 times too large.
 /// Cost: at most 60 sweeps over springs and triangles, in double; twice that where it is filled and damped.
-/// @param inverse_mass  of each node, 0: held [1/kg]
-StiffestMode stiffest_mode_of_surface(const SpringSurface& surface, const std::vector<double>& inverse_mass);
+/// @param inverse_mass  of each node, 0: held, and maybe of copies, which are left out [1/kg]
+StiffestMode stiffest_mode_of_surface(const SpringSurface& surface, std::vector<double> inverse_mass);
 
 /// However it is cut: of its triangles each for itself, which no assembly of them exceeds. Without what it is filled with.
 /// Source: Irons & Treharne 1971. Cost: an eigenvalue problem of 9 x 9 for each triangle.

@@ -16,7 +16,8 @@ namespace palpate::physics {
 /// Symplectic Euler, and its energy is that of the leapfrog: see lattice/element_step.h. The damper and the drag are
 /// booked by their forces on the nodes at either end of a step, which is exact; what that would give in place of taking
 /// is `numerical`. What the pressure at rest gives counts with what gravity gives.
-/// Where it may be cut, its triangles part along their edges (surface_separation.cpp); once two have, what it was filled with has gone.
+/// Where it may be cut, its triangles part along their edges (surface_separation.cpp); once two have, what it was filled
+/// with has gone.
 /// Cost of a step: a pass over springs, one over nodes and their springs; where it is filled, one more over nodes and triangles.
 template <class Real>
 class SurfaceSprings {
@@ -58,8 +59,10 @@ class SurfaceSprings {
   void copy_saved(Saved& saved, Index node, Index copy) const noexcept;
   /// As loaded.
   void rejoin() noexcept;
-  /// By its triangles [kg].
-  double mass(Index node, const TriangleNet& net) const noexcept;
+  /// By the triangles that it has since separate() or rejoin() [kg].
+  double mass(Index node, const TriangleNet&) const noexcept {
+    return mass_at(static_cast<std::size_t>(node));
+  }
 
   Energies energies(const Vec3& gravity) noexcept;
   Losses losses() const noexcept { return {.viscous = viscous_, .numerical = numerical_}; }
@@ -156,6 +159,7 @@ class SurfaceSprings {
   void prepare_for_cuts(const SpringSurface& surface);
   void part_spring(std::size_t triangle, std::size_t side, const TriangleNet& net) noexcept;
   void list_anew(Index origin, const TriangleNet& net) noexcept;
+  double mass_at(std::size_t node) const noexcept;
 
   Membrane membrane_;
   double rest_volume_ = 0;  // [m^3]

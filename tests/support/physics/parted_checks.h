@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <vector>
@@ -117,6 +118,32 @@ inline void bring_up_to_date(Boundary& boundary) {
     before = boundary.revision();
     boundary.update();
   }
+}
+
+/// A tool, another body and the eye know it by the faces that it has, after every cut and after a reset.
+/// @param truth  of the body, those now
+template <class Truth>
+void expect_known_by_its_faces(BodyModel& moving, const std::vector<EdgeGone>& faces, int cuts,
+                               const ExplicitStep& step, const Truth& truth) {
+  Boundary boundary(moving, 0.02, true);
+  ContactBody contact(moving, true, true);
+  EXPECT_EQ(faces_of(boundary), truth());
+  part(moving, faces, cuts, step, [&] {
+    bring_up_to_date(boundary);
+    contact.follow_breaks();
+    ASSERT_EQ(faces_of(boundary), truth());
+    ASSERT_EQ(faces_of(contact), truth());
+    ASSERT_EQ(faces_of(make_surface(moving, std::nullopt, 0)), truth());
+    ASSERT_EQ(boundary.left_out(), 0u);
+    for (std::size_t n = 0; n < contact.candidates().size(); ++n)
+      ASSERT_EQ(contact.candidates().inverse_mass(n),
+                moving.body().inverse_mass[static_cast<std::size_t>(contact.candidates().cell()[n])]);
+  });
+  moving.reset();
+  boundary.follow(), boundary.update();
+  contact.follow_breaks();
+  EXPECT_EQ(faces_of(boundary), truth());
+  EXPECT_EQ(faces_of(contact), truth());
 }
 
 }  // namespace palpate::physics::test
