@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/math/angles.h"
 #include "common/math/units.h"
@@ -17,8 +18,8 @@
 namespace palpate {
 namespace {
 
-const std::vector<std::string> tool_shapes = {"point",   "stick",   "cylinder", "cone",  "box",
-                                              "scalpel", "forceps", "knife",    "needle"};
+const std::vector<std::string> tool_shapes = {"point",   "stick",    "cylinder", "cone",  "box",
+                                              "scalpel", "scissors", "forceps",  "knife", "needle"};
 constexpr Range friction_range{.lo = 0, .hi = 2};
 const std::vector<std::string> point_contacts = {"nodes", "faces"};  // in the order of PointContact
 const std::vector<std::string> force_models = {word_of(ForceModel::norton), word_of(ForceModel::tangent),
@@ -42,6 +43,7 @@ std::optional<ToolShape> rigid_shape(const toml::node* word) {
   if (name == "cone") return ToolShape::cone;
   if (name == "box") return ToolShape::box;
   if (name == "scalpel") return ToolShape::scalpel;
+  if (name == "scissors") return ToolShape::scissors;
   if (name == "forceps") return ToolShape::forceps;
   if (name == "needle") return ToolShape::needle;
   return std::nullopt;
@@ -122,6 +124,33 @@ void read_scalpel(TableReader& reader, ToolSpec& spec) {
   read_attitude(reader, spec);
 }
 
+/// All but the length of their blades.
+void read_scissors(TableReader& reader, ToolSpec& spec) {
+  ScissorsSpec& blades = spec.scissors;
+  blades.length = spec.length;
+  blades.opening = rad_from_deg(reader.read_number("opening_deg", {.lo = 10, .hi = 120}).value_or(60));
+  set_if(blades.offset, reader.read_length_mm("offset_mm"));
+  set_if(blades.close_s, reader.read_number("close_s", {.lo = 0.05, .hi = 60}));
+  set_if(blades.friction, reader.read_number("friction", friction_range));
+  read_attitude(reader, spec);
+  if (blades.offset < 0.01 * blades.length)
+    reader.complain(
+        "offset_mm",
+        fmt::format("edges that pass the pivot by {:.4g} mm take any force at their tips; write at least "
+                    "{:.4g}, a hundredth of length_mm",
+                    mm_from_m(blades.offset), mm_from_m(0.01 * blades.length)));
+  if (blades.open_crossing() > 0.9 * blades.closed_crossing())
+    reader.complain(
+        reader.has("offset_mm")     ? "offset_mm"
+        : reader.has("opening_deg") ? "opening_deg"
+                                    : "length_mm",
+        fmt::format("blades of {:.4g} mm that are open by {:.4g} degrees cross within the last tenth of "
+                    "them, as each edge passes "
+                    "the pivot by {:.4g} mm; open them wider, or write offset_mm = {:.2g}",
+                    mm_from_m(blades.length), deg_from_rad(blades.opening), mm_from_m(blades.offset),
+                    mm_from_m(0.5 * blades.length * std::sin(0.5 * blades.opening))));
+}
+
 /// All but its length.
 void read_needle(TableReader& reader, ToolSpec& spec) {
   reader.require("diameter_mm", "give the outer diameter of the needle, such as diameter_mm = 1.2");
@@ -144,6 +173,7 @@ void read_rigid(TableReader& reader, ToolSpec& spec) {
     reader.require("length_mm", "give it a length, such as length_mm = 100");
     set_if(spec.length, reader.read_length_mm("length_mm"));
     if (spec.shape == ToolShape::scalpel) return read_scalpel(reader, spec);
+    if (spec.shape == ToolShape::scissors) return read_scissors(reader, spec);
     if (spec.shape == ToolShape::needle) return read_needle(reader, spec);
     spec.radius = spec.shape == ToolShape::stick ? 0.002 : 0.003;
     set_if(spec.radius, reader.read_length_mm("radius_mm"));
@@ -174,6 +204,8 @@ void read_force_model(TableReader& reader, ToolSpec& spec) {
           ? "a stick is more than a point and feels a wrench; write \"tangent\", \"tissue\" or \"direct\""
       : spec.shape == ToolShape::scalpel
           ? "a scalpel feels what its edge takes; write \"tangent\", or leave it out"
+      : spec.shape == ToolShape::scissors
+          ? "scissors feel what pushes them out of tissue; write \"tangent\", or leave it out"
       : spec.shape == ToolShape::forceps ? "forceps feel what they pull; write \"tangent\", or leave it out"
       : spec.shape == ToolShape::needle
           ? "a rigid needle feels what it takes to go on; write \"tangent\", or leave it out"

@@ -8,13 +8,15 @@
 #include "common/math/vec3.h"
 #include "common/scene/kinds.h"
 #include "common/scene/place.h"
+#include "common/scene/scissors_spec.h"
 
 namespace palpate {
 
 /// A point touches tissue by the plane under it; a body is one of the scene's, driven by masses that the
 /// hand holds; cylinder, cone and box are rigid, and go up from the tip; a scalpel is an edge that goes up from its tip and
-/// toward -x, and cuts; forceps hold what is around their tip; a needle goes up from its tip, and pierces. (A needle that is not rigid is a body.)
-enum class ToolShape { point, stick, body, cylinder, cone, box, scalpel, forceps, needle };
+/// toward -x, and cuts; scissors point down, and cut where their blades cross; forceps hold what is around their tip; a
+/// needle goes up from its tip, and pierces. (A needle that is not rigid is a body.)
+enum class ToolShape { point, stick, body, cylinder, cone, box, scalpel, scissors, forceps, needle };
 
 /// How a point presses: by the masses under it, as in the papers, or as a rigid sphere on sampled faces.
 enum class PointContact { nodes, faces };
@@ -45,6 +47,7 @@ struct ToolSpec {
   double edge = 0;            // of a scalpel: between its edge and the handle [rad]
   double grip = 2;            // of forceps: pull at which tissue slips from between the jaws [N]
   Vec3 size = Vec3::Zero();   // of a box [m]
+  ScissorsSpec scissors;      // of scissors
   /// Where the handle is not turned; of all but points and bodies.
   Eigen::Matrix3d attitude = Eigen::Matrix3d::Identity();
   Place place;
@@ -55,10 +58,13 @@ inline bool is_solid_tip(ToolShape shape) noexcept {
 }
 /// Has it no proxy on a surface, so that the hand feels nothing but a wrench and its slope?
 inline bool feels_slope(ToolShape shape) noexcept {
-  return shape == ToolShape::scalpel || shape == ToolShape::forceps || shape == ToolShape::needle;
+  return shape == ToolShape::scalpel || shape == ToolShape::scissors || shape == ToolShape::forceps ||
+         shape == ToolShape::needle;
 }
 /// Does it part what it goes through?
-inline bool cuts(const ToolSpec& tool) noexcept { return tool.shape == ToolShape::scalpel; }
+inline bool cuts(const ToolSpec& tool) noexcept {
+  return tool.shape == ToolShape::scalpel || tool.shape == ToolShape::scissors;
+}
 /// Does it meet the facets of bodies? One that is a body has masses of its own, which collide.
 inline bool meets_facets(const ToolSpec& tool) { return tool.shape != ToolShape::body; }
 

@@ -109,6 +109,11 @@ std::string tool_text(const ToolSpec& tool, const Scene& scene) {
     return fmt::format("tool         {}: scalpel, edge {:.6g} mm, {:.6g} N/m, device {} (driver {})\n",
                        tool.name, mm_from_m(tool.length), tool.stiffness, tool.device,
                        scene.device(tool.device).driver);
+  if (tool.shape == ToolShape::scissors)
+    return fmt::format(
+        "tool         {}: scissors, blades {:.6g} mm, mouth {:.6g} mm, {:.6g} N/m, device {} (driver {})\n",
+        tool.name, mm_from_m(tool.length), mm_from_m(tool.scissors.mouth()), tool.stiffness, tool.device,
+        scene.device(tool.device).driver);
   if (tool.shape == ToolShape::needle)
     return fmt::format("tool         {}: needle {:.6g} x {:.6g} mm, {:.6g} N/m, device {} (driver {})\n",
                        tool.name, 2 * mm_from_m(tool.radius), mm_from_m(tool.length), tool.stiffness,

@@ -41,7 +41,7 @@ void BladeEdge::let_go() noexcept {
 /// A free strip that has come to an element in this step bites where that is. Between elements it bites with those at its
 /// sides, which are no farther apart than a spacing.
 void BladeEdge::touch(BladeLinks& links, const BladeFrame& frame) noexcept {
-  if (!seen_) return;
+  if (!seen_ || !sharp_) return;
   if (links.wall() > 0) return touch_wall(links);
   const double h = links.spacing();
   const std::span<const BladeLinks::Node> nodes = links.nodes();
@@ -59,7 +59,8 @@ void BladeEdge::touch(BladeLinks& links, const BladeFrame& frame) noexcept {
   }
 }
 
-/// A surface is met by what strips have of it before them: one that has some of it ahead goes with the edge until it is there.
+/// A surface is met by what strips have of it before them: one that has some of it ahead goes with the edge until it
+/// is there.
 void BladeEdge::touch_wall(const BladeLinks& links) noexcept {
   const double h = links.spacing();
   for (const BladeLinks::Link& link : links.links()) {
@@ -87,7 +88,7 @@ void BladeEdge::share_released(const BladeLinks& links, double dt) noexcept {
 
 /// How softly what they hold gives way in a step: g.
 void BladeEdge::soften(BladeLinks& links, double dt) noexcept {
-  const double k = hold();
+  const double k = borne_ * hold();
   const std::span<BladeLinks::Node> nodes = links.nodes();
   for (BladeStrip& strip : strips_) strip.softness = 0;
   strips_.each_held(
@@ -128,23 +129,24 @@ void BladeEdge::find_blade(const BladeStrands& strands, double dt) noexcept {
   double high = std::min(0.0, std::max(lag_before_, low) + fastest_ * dt);
   for (int n = 0; n < 50 && low < high; ++n) {
     const double middle = 0.5 * (low + high);
-    (hold_ahead(middle) + strands.hold_ahead(middle) < -stiffness_ * middle ? low : high) = middle;
+    const double force = borne_ * (hold_ahead(middle) + strands.hold_ahead(middle));
+    (force < -stiffness_ * middle ? low : high) = middle;
   }
   lag_ = 0.5 * (low + high);
 }
 
 /// The force of a strip, and how far it has to go on for that.
-void BladeEdge::slide(BladeStrip& strip, BladeOutcome& done) const noexcept {
+void BladeEdge::slide(BladeStrip& strip, bool through, BladeOutcome& done) const noexcept {
   strip.ahead = strip.across = 0;
   if (!strip.bites || strip.cover == 0) return;
   const double k = hold_of(strip), most = most_force(strip);
   strip.ahead = std::max(0.0, k * (lag_ - strip.q));
   strip.across = k * (aside_ - strip.r);
-  if (strip.ahead <= most) return;
-  const double on = lag_ - strip.q - most / k;
+  if (strip.ahead <= most && !through) return;
+  const double on = through ? std::max(0.0, lag_ - strip.q) : lag_ - strip.q - most / k;
   strip.q += on;
   strip.slid += on;
-  strip.ahead = most;
+  strip.ahead = through ? 0 : most;
   const double area = width_at_rest(strip) * on;
   strip.booked += area;
   done.area += area;
@@ -158,7 +160,8 @@ void BladeEdge::press(BladeLinks& links, const BladeFrame& frame, double dt, Bla
   strips_.each_held(
       links, &BladeLinks::Link::now,
       [&](const BladeLinks::Link& link, const BladeLinks::Crossing& at, BladeStrip& strip, double w) {
-        const Vec3 force = w / strip.weight * (strip.ahead * frame.ahead + strip.across * frame.side);
+        const Vec3 force =
+            w / strip.weight * (borne_ * strip.ahead * frame.ahead + strip.across * frame.side);
         nodes[link.a].force += (1 - at.t) * force;
         nodes[link.b].force += at.t * force;
       });
@@ -183,8 +186,8 @@ void BladeEdge::press(BladeLinks& links, const BladeFrame& frame, double dt, Bla
   }
 }
 
-BladeOutcome BladeEdge::step(BladeLinks& links, BladeStrands& strands, const BladeFrame& frame, double dt,
-                             std::vector<EdgeGone>& cuts) noexcept {
+BladeOutcome BladeEdge::advance(BladeLinks& links, BladeStrands& strands, const BladeFrame& frame, double dt,
+                                std::vector<EdgeGone>& cuts, bool through) noexcept {
   BladeOutcome done;
   links.update(frame, place());
   strips_.follow(links, frame);
@@ -199,13 +202,21 @@ BladeOutcome BladeEdge::step(BladeLinks& links, BladeStrands& strands, const Bla
   share_released(links, dt);
   soften(links, dt);
   strands.meet(frame, lag_before_, stiffness_, dt);
-  find_blade(strands, dt);
-  for (BladeStrip& strip : strips_) slide(strip, done);
+  if (through)
+    lag_ = aside_ = 0;
+  else
+    find_blade(strands, dt);
+  for (BladeStrip& strip : strips_) {
+    slide(strip, through, done);
+    done.thrust += strip.ahead;
+  }
   strips_.go_on_uncovered(lag_, links.wall() > 0 ? links.spacing() : 0);
   purse_ -= done.released;
   press(links, frame, dt, done);
-  strands.slide(frame, lag_, done);
-  cut(links, frame.side, cuts);
+  strands.slide(frame, lag_, borne_, done);
+  if (sharp_) cut(links, frame.side, through, cuts);
+  if (through)  // they hold on to what is before them there
+    for (BladeStrip& strip : strips_) strip.held_q = strip.q;
   links.remember();
   bites_ = std::ranges::any_of(strips_, [](const BladeStrip& strip) { return strip.bites; });
   before_ = frame;
@@ -223,10 +234,11 @@ void BladeEdge::find_slot() noexcept {
 }
 
 /// Elements that the edge has passed, and those that its body has come to lie in.
-void BladeEdge::cut(BladeLinks& links, const Vec3& side, std::vector<EdgeGone>& cuts) noexcept {
+void BladeEdge::cut(BladeLinks& links, const Vec3& side, bool through, std::vector<EdgeGone>& cuts) noexcept {
   const std::array<float, 3> normal{static_cast<float>(side.x()), static_cast<float>(side.y()),
                                     static_cast<float>(side.z())};
-  const double passed = BladeStrips::passed_by * links.spacing(), behind = cut_behind * links.spacing();
+  const double passed = through ? 0 : BladeStrips::passed_by * links.spacing(),
+               behind = cut_behind * links.spacing();
   const std::span<const BladeLinks::Node> nodes = links.nodes();
   for (BladeLinks::Link& link : links.links()) {
     const BladeLinks::Crossing& at = link.now;
@@ -234,7 +246,8 @@ void BladeEdge::cut(BladeLinks& links, const Vec3& side, std::vector<EdgeGone>& 
     const BladeStrip& strip = strips_.at(at.p);
     const bool has_come =
         strip.bites || strip.follows;  // or did before this step, and there is nothing ahead any more
-    if (!has_come || at.q >= strip.q - passed || at.q < strip.q - behind) continue;
+    if (!has_come || at.q >= strip.q - passed || at.q < strip.q - behind - (through ? strip.slid : 0))
+      continue;
     if (links.sever(link))
       cuts.push_back({nodes[link.a].cell, nodes[link.b].cell, {static_cast<float>(at.t), normal}});
   }

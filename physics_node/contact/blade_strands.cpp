@@ -222,7 +222,7 @@ std::size_t BladeStrands::n_pushes() const noexcept {
   return n;
 }
 
-void BladeStrands::slide(const BladeFrame& frame, double lag, BladeOutcome& done) noexcept {
+void BladeStrands::slide(const BladeFrame& frame, double lag, double borne, BladeOutcome& done) noexcept {
   for (const Near& near : near_) {
     if (!near.bites) continue;
     const Slide slide = slide_of(near, lag);
@@ -232,12 +232,13 @@ void BladeStrands::slide(const BladeFrame& frame, double lag, BladeOutcome& done
     const double share = through ? left : std::min(left, share_at(near.passed + slide.on) - (1 - left));
     const Strand& strand = strand_of(near);
     const double takes = std::max(0.0, share) * strand.cut_work;
-    const Vec3 force = slide.force * near.push;
+    const Vec3 force = borne * slide.force * near.push;
     of_[near.connection].pushes.push_back({near.strand, near.at, force, std::max(0.0, share)});
     done.area += std::max(0.0, share) * strand.area;
     done.work += (1 - near.pays) * takes;
     done.released += near.pays * takes;
     done.force += force;
+    done.thrust += slide.force;
     done.moment += (near.x - frame.tip).cross(force);
     done.power += force.dot((1 - near.at) * near.v_before.node + near.at * near.v_before.foot);
   }

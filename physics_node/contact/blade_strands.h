@@ -32,6 +32,7 @@ namespace palpate::physics {
 struct BladeOutcome {
   Vec3 force = Vec3::Zero();   // on it [N]
   Vec3 moment = Vec3::Zero();  // of that, about the tip [N m]
+  double thrust = 0;           // of it ahead, and of what the tool holds tissue against by itself [N]
   double work = 0;             // of going on, which the hand pays [J]
   double released = 0;         // and that which tissue pays [J]
   double area = 0;             // opened [m^2]
@@ -57,8 +58,8 @@ class BladeStrands {
   double lowest() const noexcept;              // where the edge is farthest behind in any, or 0 [m]
   double hold_ahead(double q) const noexcept;  // what all press with when the blade is there [N]
   double held() const noexcept;                // how stiffly they hold it [N/m]
-  /// The blade is there: slides, and finds pushes().
-  void slide(const BladeFrame& frame, double lag, BladeOutcome& done) noexcept;
+  /// The blade is there: slides, and finds pushes(). @param borne  share of the force that strands bear, and the hand
+  void slide(const BladeFrame& frame, double lag, double borne, BladeOutcome& done) noexcept;
   std::size_t n_pushes() const noexcept;
   void let_go() noexcept;
 

@@ -35,18 +35,20 @@ const char* kind_and_remedy(const Body& body) {
 }
 
 void refuse_uncut(const ToolSpec& tool, const Body& body) {
+  const bool one = tool.shape == ToolShape::scalpel;
   if (!is_of_a_kind_to_cut(body))
     throw InputError(
-        fmt::format("{}: shape = \"scalpel\" cuts springs, surfaces of springs, finite elements of first "
+        fmt::format("{}: shape = \"{}\" {} springs, surfaces of springs, finite elements of first "
                     "order that are elastic, and what a "
                     "[[connection]] "
                     "joins, and \"{}\" is {}",
-                    tool.place.text(), body.name, kind_and_remedy(body)));
+                    tool.place.text(), one ? "scalpel" : "scissors", one ? "cuts" : "cut", body.name,
+                    kind_and_remedy(body)));
   if (std::ranges::any_of(body.laws, [](const ElementLaw& law) { return law.cut_toughness <= 0; }))
     throw InputError(
-        fmt::format("{}: shape = \"scalpel\" needs to know how tough \"{}\" is; give each of its materials "
+        fmt::format("{}: shape = \"{}\" {} to know how tough \"{}\" is; give each of its materials "
                     "cut_toughness_J_per_m2, such as 190 of a liver",
-                    tool.place.text(), body.name));
+                    tool.place.text(), one ? "scalpel" : "scissors", one ? "needs" : "need", body.name));
 }
 
 std::vector<std::size_t> passed_bodies(const BodyModels& bodies) {
@@ -56,12 +58,17 @@ std::vector<std::size_t> passed_bodies(const BodyModels& bodies) {
   return passed;
 }
 
+double edge_of(const ToolSpec& tool) {
+  return tool.shape == ToolShape::scissors ? tool.scissors.mouth() : tool.length;
+}
+
 std::size_t strips_of(const ToolSpec& tool, const BodyModels& bodies) {
-  double finest = tool.length;
+  const double length = edge_of(tool);
+  double finest = length;
   for (const auto& body : bodies)
     finest = std::min(finest, is_cut(body->body()) ? BladeCells(*body).spacing() : body->body().spacing());
-  return static_cast<std::size_t>(std::clamp(std::ceil(strips_a_spacing * tool.length / finest), 1.0,
-                                             static_cast<double>(BladeStrips::most)));
+  return static_cast<std::size_t>(
+      std::clamp(std::ceil(strips_a_spacing * length / finest), 1.0, static_cast<double>(BladeStrips::most)));
 }
 
 }  // namespace
@@ -74,13 +81,14 @@ BladeTool::BladeTool(const ToolSpec& tool, std::uint32_t index, const BodyModels
       edge_(tool.edge),
       stiffness_(tool.stiffness),
       play_(period),
-      strands_(connections, tool.length),
-      inside_(touchable, passed_bodies(bodies), tool.length),
-      blade_(tool.length, strips_of(tool, bodies), tool.stiffness) {
+      strands_(connections, edge_of(tool)),
+      inside_(touchable, passed_bodies(bodies), edge_of(tool)),
+      blade_(edge_of(tool), strips_of(tool, bodies), tool.stiffness) {
+  if (tool.shape == ToolShape::scissors) scissors_.emplace(tool.scissors);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const Body& body = bodies[b]->body();
     if (connections.empty() || is_lattice_of_springs(body)) refuse_uncut(tool, body);
-    if (is_cut(body)) bodies_.push_back({b, BladeLinks(*bodies[b], tool.length)});
+    if (is_cut(body)) bodies_.push_back({b, BladeLinks(*bodies[b], edge_of(tool))});
   }
   forces_.reserve(8 * BladeLinks::most_nodes);
   cuts_.reserve(most_cuts);
@@ -88,9 +96,17 @@ BladeTool::BladeTool(const ToolSpec& tool, std::uint32_t index, const BodyModels
 
 BladeFrame BladeTool::frame_at(double share) const noexcept {
   const Eigen::Matrix3d axes = play_.attitude(share).toRotationMatrix() * attitude_;
-  const double c = std::cos(edge_), s = std::sin(edge_);
   BladeFrame frame;
-  frame.tip = play_.at(share).x;
+  if (scissors_) {
+    const ScissorsSpec& blades = scissors_->spec();
+    frame.along = axes.col(0);
+    frame.ahead = -axes.col(2);
+    frame.side = axes.col(1);
+    frame.tip = tip_at(share) - scissors_->left() * frame.ahead - 0.5 * blades.mouth() * frame.along;
+    return frame;
+  }
+  const double c = std::cos(edge_), s = std::sin(edge_);
+  frame.tip = tip_at(share);
   frame.along = axes * Vec3(-s, 0, c);
   frame.ahead = axes * Vec3(-c, 0, -s);
   frame.side = frame.along.cross(frame.ahead);
@@ -100,6 +116,7 @@ BladeFrame BladeTool::frame_at(double share) const noexcept {
 void BladeTool::reset() noexcept {
   play_.reset();
   let_go();
+  if (scissors_) scissors_->reset();
   for (OfBody& body : bodies_) body.links.reset();
   inside_.reset();
   engaged_ = near_ = false;
@@ -115,9 +132,16 @@ void BladeTool::take(const ToolState* state, double dt) noexcept {
   const ToolState hand = state != nullptr ? numbered(*state) : ToolState{};
   if (!play_.take(state != nullptr ? &hand : nullptr, dt)) let_go();
   keep_ = spring_left(keep_, state != nullptr, dt);
-  if (state == nullptr) return;
+  if (state == nullptr) {
+    if (scissors_) scissors_->stand();
+    return;
+  }
   note(*state);
   engaged_ = state->engaged != 0;
+  if (!scissors_) return;
+  const bool closed = scissors_->close();
+  scissors_->press(engaged_ && (state->buttons & 1U) != 0);
+  stops_ = closed && !scissors_->close() && blade_.bites();
 }
 
 void BladeTool::find_contact(double t) noexcept {
@@ -126,9 +150,9 @@ void BladeTool::find_contact(double t) noexcept {
   forces_.clear();
   cuts_.clear();
   if (!play_.seen()) return;
-  if (!engaged_) let_go(), inside_.let_go();
+  if (!bites()) let_go(), inside_.let_go();
   const BladeFrame frame = frame_at(0);
-  hand_ = frame.tip;
+  hand_ = tip_at(0);
   std::size_t most = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     if (blade_.bites() && b != touched_) continue;
@@ -140,9 +164,13 @@ void BladeTool::find_contact(double t) noexcept {
     touched_ = b;
   }
   near_ = most > 0;
-  if (engaged_) strands_.gather(frame, blade_.place().lag, play_.way(), t), inside_.follow(frame);
+  if (!cuts_now()) strands_.let_go();
+  if (cuts_now())
+    strands_.gather(frame, blade_.place().lag,
+                    play_.way() + (scissors_ ? scissors_->spec().speed() * frame_dt_ : 0), t),
+        inside_.follow(frame);
   book().passed_unfelt(inside_.areas());
-  if (!near_ && !strands_.is_near()) blade_.let_go();
+  if (!near_ && !strands_.is_near()) blade_.let_go(), stops_ = false;
 }
 
 void BladeTool::begin_step() noexcept {
@@ -156,30 +184,50 @@ double BladeTool::press(double dt) noexcept {
   cuts_.clear();
   strands_.clear_pushes();
   done_ = {};
-  frame_ = frame_at(frame_dt_ > 0 ? elapsed_ / frame_dt_ : 1.0);
-  hand_ = frame_.tip;
-  if (!may_press() || keep_ == 0) return 0;
+  const double share = frame_dt_ > 0 ? elapsed_ / frame_dt_ : 1.0;
+  const bool press = may_press() && keep_ > 0;  // before the blades of scissors have met
+  if (scissors_ && !stops_) scissors_->step(dt);
+  stops_ |= press && scissors_ && scissors_->way() > 0 && !scissors_->close();
+  blade_.set_sharp(cuts_now());
+  frame_ = frame_at(share);
+  hand_ = tip_at(share);
+  if (!press) return 0;
+  const double led = play_.at(share).v.dot(frame_.ahead) * dt, lag = blade_.place().lag;
+  if (scissors_) blade_.set_gripped(scissors_->gripped(led));
   blade_.set_stiffness(keep_ * stiffness_);
   BladeLinks& links = near_ ? bodies_[touched_].links : nothing_;
   const bool limits = links.parts_nodes() && frame_dt_ > 0;
   blade_.set_fastest(limits ? links.spacing() / frame_dt_ : std::numeric_limits<double>::max());
-  done_ = blade_.step(links, strands_, frame_, dt, cuts_);
+  done_ = stops_ ? blade_.go_through(links, strands_, frame_, dt, cuts_)
+                 : blade_.step(links, strands_, frame_, dt, cuts_);
   for (const BladeLinks::Node& node : links.nodes()) {
     if (node.force.isZero(0)) continue;
     for (const Index at : node.of.list())
       forces_.push_back({at, node.force / static_cast<double>(node.of.n)});
   }
   book().cut(done_.area, done_.work + done_.released);
+  if (scissors_) book_handles(led, lag);
   return done_.power;
 }
 
+/// Handles pay what the hand does not: the crossing's own way, and that part of the hand's which friction takes. When
+/// they stop, for what is left to cut the hand's spring gives what it holds first.
+void BladeTool::book_handles(double led, double lag) noexcept {
+  const double taken = std::max(0.0, led) * scissors_->gripped(led);
+  const double work = stops_ ? std::max(0.0, done_.work - 0.5 * keep_ * stiffness_ * lag * lag)
+                             : done_.thrust * (scissors_->way() + taken);
+  if (cuts_now()) book().closed(scissors_->torque(done_.thrust), work);
+  stops_ = false;
+}
+
 Wrench BladeTool::wrench() const noexcept {
-  return {-done_.force, -done_.moment + (hand_ - set_point_).cross(-done_.force)};
+  return {-done_.force, -done_.moment + (frame_.tip - set_point_).cross(-done_.force)};
 }
 
 void BladeTool::write_wrench(ToolWrench& out, std::uint64_t frame, std::int64_t now_ns,
                              double t) const noexcept {
   begin_wrench(out, wrench(), frame, now_ns, t);
+  if (scissors_) out.stretch = -scissors_->left();
   Mat6 K = Mat6::Zero();
   K.topLeftCorner<3, 3>() = blade_.felt_ahead(strands_) * frame_.ahead * frame_.ahead.transpose() +
                             blade_.felt_across() * frame_.side * frame_.side.transpose();

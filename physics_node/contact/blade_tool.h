@@ -3,18 +3,24 @@
 // connections, and what it passes is cut (blade_edge.h, blade_strands.h). No mass is lost.
 // What the hand pays is the tissue's toughness times the area that has been opened.
 //
+// Scissors: the same, with an edge as long as their mouth that stands across it where the two blades cross, and goes on
+// as these close (scissor_blades.h). What pushes tissue out of the mouth, friction on the blades takes as far as it
+// can: the hand feels the rest, and the handles all of it. When they stop all that they have passed is cut.
+//
 // The hand is told the force of the frame's last step and how its spring would change that: of two ways, as the edge slides along itself.
 // While physics hears nothing the blade stands, and after Hands::silence its spring lets go, within 200 ms.
 // Limits: it cuts one body at a time, that which most of its edge is near; flanks do not rub, what lies
 // beside the blade does not press on it, and bodies that it cannot cut it passes unfelt, and counts that.
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "physics_node/contact/blade_edge.h"
 #include "physics_node/contact/blade_inside.h"
 #include "physics_node/contact/hand_play.h"
 #include "physics_node/contact/pressing_tool.h"
+#include "physics_node/contact/scissor_blades.h"
 
 namespace palpate::physics {
 
@@ -32,7 +38,7 @@ class BladeTool final : public PressingTool {
   void reset() noexcept override;
 
   std::span<const NodalForce> forces() const noexcept override { return forces_; }
-  bool may_press() const noexcept override { return engaged_ && (near_ || strands_.is_near()); }
+  bool may_press() const noexcept override { return bites() && (near_ || strands_.is_near()); }
   std::size_t touched_body() const noexcept override { return near_ ? bodies_[touched_].number : 0; }
   bool follows_steps() const noexcept override { return true; }
   void begin_step() noexcept override;
@@ -64,11 +70,18 @@ class BladeTool final : public PressingTool {
     std::size_t number = 0;
     BladeLinks links;
   };
+  /// Does it cut what it comes to? Scissors only as they close.
+  bool cuts_now() const noexcept { return engaged_ && (!scissors_ || scissors_->close() || stops_); }
+  /// Or is still where it has cut, from where they go on if they close again.
+  bool bites() const noexcept { return cuts_now() || (engaged_ && blade_.bites()); }
   BladeFrame frame_at(double share) const noexcept;
-  void let_go() noexcept { blade_.let_go(), strands_.let_go(); }
+  Vec3 tip_at(double share) const noexcept { return play_.at(share).x; }
+  void let_go() noexcept { blade_.let_go(), strands_.let_go(), stops_ = false; }
+  void book_handles(double led, double lag) noexcept;
 
   Eigen::Matrix3d attitude_;
   double edge_, stiffness_;
+  std::optional<ScissorBlades> scissors_;
   HandPlay play_;
   std::vector<OfBody> bodies_;  // that it cuts
   BladeLinks nothing_;          // where none of them is near
@@ -76,6 +89,7 @@ class BladeTool final : public PressingTool {
   BladeInside inside_;
   BladeEdge blade_;
   bool engaged_ = false, near_ = false;
+  bool stops_ = false;                 // scissors have closed until now
   double keep_ = 1;                    // of the spring, after silence
   double frame_dt_ = 0, elapsed_ = 0;  // of it [s]
   std::size_t touched_ = 0;            // of bodies_

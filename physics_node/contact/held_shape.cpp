@@ -21,11 +21,12 @@ HeldShape held_shape(const ToolSpec& tool) {
       return {RigidShape::box(0.5 * tool.size), tool.attitude};
     case ToolShape::body:
     case ToolShape::scalpel:
+    case ToolShape::scissors:
     case ToolShape::forceps:
     case ToolShape::needle:
       break;
   }
-  PALPATE_CHECK(false, "a body has elements of its own, a scalpel an edge, forceps jaws");
+  PALPATE_CHECK(false, "a body has elements of its own, a scalpel an edge, scissors two, forceps jaws");
   return {RigidShape::sphere(tool.radius)};
 }
 

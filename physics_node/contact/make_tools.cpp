@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "common/error/error.h"
 #include "common/scene/connection_spec.h"
 #include "common/scene/device_spec.h"
@@ -53,16 +56,26 @@ void add_tissue(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
   add_pressing(std::move(tool), bodies, box);
 }
 
-void add_scalpel(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
-                 const std::vector<TouchableBody>& touchable, const Connections& connections, Toolbox& box) {
+void add_blade(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
+               const std::vector<TouchableBody>& touchable, const Connections& connections, Toolbox& box) {
   const ToolSpec& spec = scene.tools[n];
-  refuse_implicit(scene, spec, "a scalpel cuts step by step");
+  const bool one = spec.shape == ToolShape::scalpel;
+  refuse_implicit(scene, spec, one ? "a scalpel cuts step by step" : "scissors cut step by step");
   for (const ConnectionSpec& joint : scene.connections)
     if (!joint.cut_toughness)
       throw InputError(
-          fmt::format("{}: shape = \"scalpel\" needs to know how tough connection \"{}\" is; give that "
+          fmt::format("{}: shape = \"{}\" {} to know how tough connection \"{}\" is; give that "
                       "cut_toughness_J_per_m2, such as 100",
-                      spec.place.text(), joint.name));
+                      spec.place.text(), one ? "scalpel" : "scissors", one ? "needs" : "need", joint.name));
+  double finest = HUGE_VAL;
+  for (const auto& body : bodies) finest = std::min(finest, body->body().spacing());
+  const ScissorsSpec& blades = spec.scissors;
+  const double way = blades.speed() / scene.physics->frame_Hz;
+  if (!one && way > finest)
+    throw InputError(fmt::format(
+        "{}: scissors that close in {:g} s go on by {:.3g} mm in a frame, beyond cells of {:.3g} mm; write "
+        "close_s = {:.2g} or more, or a higher frame_Hz",
+        spec.place.text(), blades.close_s, 1e3 * way, 1e3 * finest, 1.05 * blades.close_s * way / finest));
   auto blade = std::make_unique<BladeTool>(spec, n, bodies, touchable, connections,
                                            1 / scene.device(spec.device).rate_Hz);
   add_pressing(std::move(blade), bodies, box);
@@ -116,8 +129,8 @@ Toolbox make_tools(const Scene& scene, const BodyModels& bodies, const std::vect
       add_tissue(scene, n, bodies, touchable, box);
     else if (spec.shape == ToolShape::point)
       add_point(scene, n, bodies, touchable, box);
-    else if (spec.shape == ToolShape::scalpel)
-      add_scalpel(scene, n, bodies, touchable, connections, box);
+    else if (cuts(spec))
+      add_blade(scene, n, bodies, touchable, connections, box);
     else if (spec.shape == ToolShape::forceps)
       add_forceps(scene, n, bodies, box);
     else if (spec.shape == ToolShape::needle)

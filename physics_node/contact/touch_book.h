@@ -25,6 +25,10 @@ class TouchBook {
   }
   /// A step of a blade. @param area  that it has opened [m^2] @param work  that this took [J]
   void cut(double area, double work) noexcept { cut_area_ += area, cut_work_ += work; }
+  /// A step of scissors. @param torque  of the handles [N m] @param work  of closing them [J]
+  void closed(double torque, double work) noexcept {
+    handle_torque_ = std::max(handle_torque_, torque), handle_work_ += work;
+  }
   /// A step of a needle. @param depth  of it in tissue [m] @param rubbed  work of its shaft [J] @param entered  the force with which it came
   /// through a surface; 0: it did not [N]
   void pierced(double depth, double rubbed, double entered) noexcept {
@@ -41,9 +45,11 @@ class TouchBook {
   std::span<const double> passed_unfelt() const noexcept { return passed_; }  // by body; EMPTY: none ever
   double cut_area() const noexcept { return cut_area_; }                      // opened by a blade [m^2]
   double cut_work() const noexcept { return cut_work_; }  // that this took, of the hand or of the tissue [J]
-  double deepest() const noexcept { return deepest_; }    // of a needle in tissue [m]
-  double rubbed() const noexcept { return rubbed_; }      // by its shaft [J]
-  int punctures() const noexcept { return punctures_; }   // surfaces that it has come through
+  double handle_torque() const noexcept { return handle_torque_; }    // of scissors, the most [N m]
+  double handle_work() const noexcept { return handle_work_; }        // of closing them [J]
+  double deepest() const noexcept { return deepest_; }                // of a needle in tissue [m]
+  double rubbed() const noexcept { return rubbed_; }                  // by its shaft [J]
+  int punctures() const noexcept { return punctures_; }               // surfaces that it has come through
   double puncture_force() const noexcept { return puncture_force_; }  // the most that took [N]
   /// Root mean square of the force on the hand over that of the force that tissue bore, of all frames; none:
   /// tissue bore nothing.
@@ -65,6 +71,7 @@ class TouchBook {
   double hand_work_ = 0, tissue_work_ = 0;  // [J]
   std::span<const double> passed_;
   double cut_area_ = 0, cut_work_ = 0;                    // [m^2], [J]
+  double handle_torque_ = 0, handle_work_ = 0;            // [N m], [J]
   double deepest_ = 0, rubbed_ = 0, puncture_force_ = 0;  // [m], [J], [N]
   int punctures_ = 0;
   double felt2_ = 0, borne2_ = 0, off2_ = 0;  // sums over frames [N^2]

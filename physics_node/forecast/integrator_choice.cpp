@@ -35,6 +35,8 @@ std::string what_needs_steps(const Scene& scene) {
     if (is_solid_tip(tool.shape)) return fmt::format("tool \"{}\" presses faces step by step", tool.name);
     if (tool.shape == ToolShape::scalpel)
       return fmt::format("tool \"{}\" is a scalpel, which cuts step by step", tool.name);
+    if (tool.shape == ToolShape::scissors)
+      return fmt::format("tool \"{}\" is a pair of scissors, which cut step by step", tool.name);
     if (tool.shape == ToolShape::forceps)
       return fmt::format("tool \"{}\" is a pair of forceps, which hold step by step", tool.name);
     if (tool.shape == ToolShape::needle)

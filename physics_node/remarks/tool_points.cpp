@@ -45,6 +45,16 @@ std::vector<Vec3> tool_points(const ToolSpec& tool, const Scene& scene, const Bo
   if (tool.shape == ToolShape::point || tool.shape == ToolShape::forceps || tool.shape == ToolShape::needle)
     return {Vec3::Zero()};
   std::vector<Vec3> points;
+  if (tool.shape == ToolShape::scissors) {
+    const ScissorsSpec& blades = tool.scissors;
+    const double deep = blades.closed_crossing() - blades.open_crossing(), half = 0.5 * blades.mouth();
+    const int along = std::max(1, static_cast<int>(std::ceil(deep / apart))),
+              across = std::max(1, static_cast<int>(std::ceil(half / apart)));
+    for (int z = 0; z <= along; ++z)
+      for (int x = -across; x <= across; ++x)
+        points.push_back(tool.attitude * Vec3(half * x / across, 0, deep * z / along));
+    return points;
+  }
   if (tool.shape == ToolShape::stick || tool.shape == ToolShape::scalpel) {
     const Vec3 axis =
         tool.attitude * (tool.shape == ToolShape::stick ? Vec3(-Vec3::UnitZ())

@@ -110,6 +110,10 @@ nlohmann::json touch_part(const Tool& tool, const Scene& scene) {
     part["cut_area_mm2"] = 1e6 * tool.book().cut_area();
     part["cut_work"] = tool.book().cut_work();
   }
+  if (tool.book().handle_torque() > 0) {
+    part["handle_torque_peak"] = tool.book().handle_torque();
+    part["handle_work"] = tool.book().handle_work();
+  }
   const auto passed = tool.book().passed_unfelt();
   for (std::size_t b = 0; b < passed.size(); ++b)
     if (passed[b] > 0) part["passed_unfelt_mm2"][scene.bodies[b].name] = 1e6 * passed[b];

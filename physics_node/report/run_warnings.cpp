@@ -163,7 +163,7 @@ const Kind kinds[] = {
          list += fmt::format("{}\"{}\" went through {:.0f} mm^2 of \"{}\"", list.empty() ? "" : ", ",
                              w.scene().tools[n].name, 1e6 * area, w.body(b).body().name);
        });
-       return "a scalpel passes what it cannot cut unfelt: " + list;
+       return "an edge passes what it cannot cut unfelt: " + list;
      }},
 };
 static_assert(std::size(kinds) <= most_warning_kinds);

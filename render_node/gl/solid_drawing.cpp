@@ -156,23 +156,17 @@ void SolidDrawing::shape_box(const Eigen::Vector3f& size) {
   upload(vertices, indices);
 }
 
-void SolidDrawing::shape_blade(float length, float angle) {
-  const float c = length * std::cos(angle), s = length * std::sin(angle);
-  const float top = c + 0.3F * length, back = 0.25F * c, thick = 0.02F * length;
-  const float neck = std::min(0.25F * length, s + back), end = top + 3 * length;
-  std::vector<SolidVertex> vertices;
-  std::vector<std::uint32_t> indices;
-  const auto face = [&](std::span<const std::array<float, 3>> corners, const std::array<float, 3>& normal) {
-    const auto first = static_cast<std::uint32_t>(vertices.size());
-    for (const auto& corner : corners) vertices.push_back({corner, normal});
-    for (std::uint32_t n = 2; n < corners.size(); ++n)
-      indices.insert(indices.end(), {first, first + n - 1, first + n});
-  };
-  using Outline = std::array<std::array<float, 2>, 4>;  // x, z
-  const auto add = [&](const Outline& outline, float half) {
+namespace {
+
+/// Prisms along y, of outlines in the plane of x and z.
+class Prisms {
+ public:
+  using Outline = std::array<std::array<float, 2>, 4>;  // x, z; clockwise where x is to the right and z up
+
+  void add(const Outline& outline, float low, float high) {
     std::array<std::array<float, 3>, 4> left, right;
     for (std::size_t n = 0; n < 4; ++n)
-      left[n] = {outline[n][0], -half, outline[n][1]}, right[n] = {outline[n][0], half, outline[n][1]};
+      left[n] = {outline[n][0], low, outline[n][1]}, right[n] = {outline[n][0], high, outline[n][1]};
     face(left, {0, -1, 0});
     face(right, {0, 1, 0});
     for (std::size_t n = 0; n < 4; ++n) {
@@ -180,11 +174,46 @@ void SolidDrawing::shape_blade(float length, float angle) {
       const float dx = left[m][0] - left[n][0], dz = left[m][2] - left[n][2], way = std::hypot(dx, dz);
       if (way > 0) face(std::array{left[n], left[m], right[m], right[n]}, {-dz / way, 0, dx / way});
     }
-  };
-  // Why from the edge to the back in this order: normals point outward.
-  add({{{0, 0}, {-s, c}, {-s, top}, {back, top}}}, thick);
-  add({{{back - neck, top}, {back - neck, end}, {back, end}, {back, top}}}, 2 * thick);
-  upload(vertices, indices);
+  }
+
+  std::vector<SolidVertex> vertices;
+  std::vector<std::uint32_t> indices;
+
+ private:
+  void face(std::span<const std::array<float, 3>> corners, const std::array<float, 3>& normal) {
+    const auto first = static_cast<std::uint32_t>(vertices.size());
+    for (const auto& corner : corners) vertices.push_back({corner, normal});
+    for (std::uint32_t n = 2; n < corners.size(); ++n)
+      indices.insert(indices.end(), {first, first + n - 1, first + n});
+  }
+};
+
+}  // namespace
+
+void SolidDrawing::shape_blade(float length, float angle) {
+  const float c = length * std::cos(angle), s = length * std::sin(angle);
+  const float top = c + 0.3F * length, back = 0.25F * c, thick = 0.02F * length;
+  const float neck = std::min(0.25F * length, s + back), end = top + 3 * length;
+  Prisms prisms;
+  prisms.add({{{0, 0}, {-s, c}, {-s, top}, {back, top}}}, -thick, thick);
+  prisms.add({{{back - neck, top}, {back - neck, end}, {back, end}, {back, top}}}, -2 * thick, 2 * thick);
+  upload(prisms.vertices, prisms.indices);
+}
+
+void SolidDrawing::shape_scissor(float length, float offset, bool other) {
+  const float top = 0.15F * length, back = 0.12F * length, end = 2.5F * length, half = 0.05F * length;
+  const float thick = 0.04F * length;
+  const Prisms::Outline blade = {
+      {{-offset, -length}, {-offset, top}, {back, top}, {0.6F * back, -0.6F * length}}};
+  const Prisms::Outline arm = {{{-half, top}, {-half, end}, {half, end}, {half, top}}};
+  Prisms prisms;
+  for (const Prisms::Outline& outline : {blade, arm}) {
+    Prisms::Outline own = outline;
+    if (other)
+      for (std::size_t n = 0; n < 4; ++n) own[n] = {-outline[(4 - n) % 4][0], outline[(4 - n) % 4][1]};
+    prisms.add(own, other ? -thick : 0, other ? 0 : thick);
+  }
+  upload(prisms.vertices, prisms.indices);
 }
 
 void SolidDrawing::draw(const LitProgram& program, const Eigen::Matrix4f& pose,

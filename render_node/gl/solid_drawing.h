@@ -46,6 +46,9 @@ class SolidDrawing {
   void shape_box(const Eigen::Vector3f& size);
   /// A blade in the plane of x and z, whose edge goes from the origin up and toward -x. [m] @param angle  from z [rad]
   void shape_blade(float length, float angle);
+  /// A blade of scissors in the plane of x and z, closed: its pivot is the origin, its edge points along -z and looks
+  /// toward -x, the other's mirrored. [m] @param offset  by which the edge passes the pivot
+  void shape_scissor(float length, float offset, bool other);
   void draw(const LitProgram& program, const Eigen::Matrix4f& pose, const Eigen::Vector3f& rgb) const;
   const Eigen::AlignedBox3f& box() const noexcept { return box_; }  // round its shape
 

@@ -58,8 +58,9 @@ ToolDrawing::ToolDrawing(const ToolSpec& spec, const DeviceSpec& device, std::op
     axis_ = up;
     length_ = spec.shape == ToolShape::box ? size_.z() : spec.length;
   }
-  if (spec.shape == ToolShape::scalpel) {
+  if (cuts(spec)) {
     attitude_ = spec.attitude;
+    scissors_ = spec.scissors;
     axis_ = up;
     length_ = spec.length;
     edge_ = spec.edge;
@@ -81,6 +82,9 @@ void ToolDrawing::shape(double size) {
     stick_.shape_box(size_.cast<float>());
   else if (shape_ == ToolShape::scalpel)
     stick_.shape_blade(length, static_cast<float>(edge_));
+  else if (shape_ == ToolShape::scissors)
+    stick_.shape_scissor(length, static_cast<float>(scissors_.offset), false),
+        other_.shape_scissor(length, static_cast<float>(scissors_.offset), true);
   else if (shape_ == ToolShape::needle)
     stick_.shape(needle_outline(radius, length));
   else if (shape_ == ToolShape::cylinder)
@@ -103,6 +107,7 @@ void ToolDrawing::place(const ToolView& view, const ViewModel& model, const Want
     placed_.stick = pose_along(at, axis);
     if (shape_ == ToolShape::box || shape_ == ToolShape::scalpel)
       placed_.stick->topLeftCorner<3, 3>() = (view.attitude * attitude_).cast<float>();
+    if (shape_ == ToolShape::scissors) place_blades(at, view);
   }
   const bool presses = view.n_contacts > 0 && view.force.norm() > 0;
   const double length = wanted.force ? view.force.norm() * wanted.metres_per_newton : 0;
@@ -117,6 +122,20 @@ void ToolDrawing::place(const ToolView& view, const ViewModel& model, const Want
   // Why: a thin tool's own radius would be too small to see.
   const double radius = body_ ? 0.05 * wanted.size : std::max(radius_, 0.03 * wanted.size);
   touch_ = {(presses ? pushed : at).cast<float>(), static_cast<float>(radius), presses};
+}
+
+/// Open as far as physics says, the pivot above the tip where the tips meet when they are closed.
+void ToolDrawing::place_blades(const Eigen::Vector3d& tip, const ToolView& view) {
+  const double closed = scissors_.closed_crossing();
+  const double half = 0.5 * scissors_.angle(closed + std::min(0.0, view.stretch));
+  Eigen::Isometry3d pivot = Eigen::Isometry3d::Identity();
+  pivot.linear() = (view.attitude * attitude_).matrix();
+  pivot.translation() = tip + closed * pivot.linear().col(2);
+  const auto turned = [&](double by) -> Eigen::Matrix4f {
+    return (pivot * Eigen::AngleAxisd(by, Eigen::Vector3d::UnitY())).matrix().cast<float>();
+  };
+  placed_.stick = turned(-half);
+  placed_.other = turned(half);
 }
 
 /// Where tissue pushes a tool that is drawn with its tip at `at`. A point is pushed there; of a body and of a stick the wrench
@@ -136,6 +155,7 @@ void ToolDrawing::draw(const LitProgram& program) const {
     if (placed_.wire) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
     program.finish(0.30F, 1.0F);
     stick_.draw(program, *placed_.stick, steel);
+    if (placed_.other) other_.draw(program, *placed_.other, steel);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   }
   if (!placed_.arrow) return;
@@ -156,6 +176,7 @@ void ToolDrawing::draw(const LitProgram& program) const {
 PixelBoxes ToolDrawing::changed_pixels(const Lens& lens) {
   PixelBoxes now;
   if (placed_.stick) add_pieces(lens, stick_.box(), *placed_.stick, now);
+  if (placed_.other) add_pieces(lens, other_.box(), *placed_.other, now);
   if (placed_.arrow) add_pieces(lens, arrow_.box(), *placed_.arrow, now);
   PixelBoxes changed;
   if (placed_ != seen_) {

@@ -41,10 +41,12 @@ class ToolDrawing {
   PixelBoxes changed_pixels(const Lens& lens);
 
  private:
+  void place_blades(const Eigen::Vector3d& tip, const ToolView& view);
   Eigen::Vector3d pushed_at(const ToolView& view, const ViewModel& model, const Eigen::Vector3d& at,
                             const Eigen::Vector3d& axis) const;
   struct Placed {
     std::optional<Eigen::Matrix4f> stick, arrow;  // poses; nothing: not drawn
+    std::optional<Eigen::Matrix4f> other;         // of the other blade of scissors
     float arrow_length = 0;
     bool wire = false;
     friend bool operator==(const Placed&, const Placed&) = default;
@@ -58,10 +60,11 @@ class ToolDrawing {
   double edge_ = 0;       // of a scalpel: from its handle [rad]
   Eigen::Vector3d size_ = Eigen::Vector3d::Zero();  // of a box [m]
   Eigen::Matrix3d attitude_ =
-      Eigen::Matrix3d::Identity();  // of a box or a blade, where the handle is not turned
+      Eigen::Matrix3d::Identity();  // of a box or of blades, where the handle is not turned
   double force_limit_ = 0;          // [N]
   bool at_hand_ = false;            // is where the hand is, not at the proxy
-  SolidDrawing stick_, arrow_;
+  ScissorsSpec scissors_;
+  SolidDrawing stick_, other_, arrow_;
   Placed placed_, seen_;  // now, and when changed_pixels() was last asked
   PixelBoxes seen_pixels_;
   std::optional<Touch> touch_;

@@ -64,6 +64,7 @@ void ViewModel::take(const ToolWrench& wrench) {
   tool.moment = vec(wrench.moment);
   tool.set_point = vec(wrench.set_point);
   tool.tip_in_tissue = vec(wrench.tip);
+  tool.stretch = wrench.stretch;
   tool.n_contacts = wrench.n_contacts;
   tool.attitude = Eigen::Quaterniond(wrench.q_WT[0], wrench.q_WT[1], wrench.q_WT[2], wrench.q_WT[3]);
   t_ = wrench.t;

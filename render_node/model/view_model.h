@@ -29,6 +29,7 @@ struct ToolView {
   Vec3 moment = Vec3::Zero();                                    // about the set point [N m]
   Vec3 set_point = Vec3::Zero();                                 // [m]
   Vec3 tip_in_tissue = Vec3::Zero();                             // of the tool, where physics has it [m]
+  double stretch = 0;                                            // as in ToolWrench [m]
   std::uint32_t n_contacts = 0;
   double energy = 0;  // given to the hand so far [J]
   double path_s = 0;  // of a simulated hand, from when its forces are on to the end; 0: there is none [s]

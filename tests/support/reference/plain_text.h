@@ -36,8 +36,12 @@ concept Listed = std::is_aggregate_v<T> || std::is_same_v<T, Scene>;
 template <class T>
 constexpr std::size_t n_members() {
   if constexpr (requires {
-                  T{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+                  T{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
                 })
+    return 22;
+  else if constexpr (requires {
+                       T{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+                     })
     return 21;
   else if constexpr (requires {
                        T{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
@@ -93,11 +97,11 @@ constexpr std::size_t n_members<Scene>() {
   return 17;
 }
 
-/// use(member...) for each of up to 21 members.
+/// use(member...) for each of up to 22 members.
 template <class T, class Use>
 void with_members(const T& x, Use use) {
   constexpr std::size_t n = n_members<T>();
-  static_assert(n >= 1 && n <= 21, "more members than are named here");
+  static_assert(n >= 1 && n <= 22, "more members than are named here");
   if constexpr (n == 1) {
     const auto& [a] = x;
     use(a);
@@ -181,6 +185,10 @@ void with_members(const T& x, Use use) {
   if constexpr (n == 21) {
     const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, o, p, q, r, s, t, u, v] = x;
     use(a, b, c, d, e, f, g, h, i, j, k, l, m, o, p, q, r, s, t, u, v);
+  }
+  if constexpr (n == 22) {
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, o, p, q, r, s, t, u, v, w] = x;
+    use(a, b, c, d, e, f, g, h, i, j, k, l, m, o, p, q, r, s, t, u, v, w);
   }
 }
 

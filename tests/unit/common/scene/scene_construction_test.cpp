@@ -195,7 +195,8 @@ INSTANTIATE_TEST_SUITE_P(
         {knife_tool(knife, "body = \"b\"\n[[tool]]\nname = \"u\"\ndevice = \"hand\"\nbody = \"b\"\n"), "21:8",
          "body \"b\" is tool \"t\" already; give each tool a body of its own"},
         {knife_tool(knife, "shape = \"rod\"\n"), "17:9",
-         "is \"rod\"; write \"point\", \"stick\", \"cylinder\", \"cone\", \"box\", \"scalpel\", \"forceps\", "
+         "is \"rod\"; write \"point\", \"stick\", \"cylinder\", \"cone\", \"box\", \"scalpel\", "
+         "\"scissors\", \"forceps\", "
          "\"knife\" or "
          "\"needle\", "
          "or body = "},

@@ -168,7 +168,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::ValuesIn(std::vector<Mistake>{
         {"shape = \"point\"", "shape = \"rod\"", "74:9",
          "\"shape\" in [[tool]] \"tip\" is \"rod\"; write \"point\", \"stick\", \"cylinder\", \"cone\", "
-         "\"box\", \"scalpel\", \"forceps\", \"knife\" or \"needle\", or "
+         "\"box\", \"scalpel\", \"scissors\", \"forceps\", \"knife\" or \"needle\", or "
          "body = the name of a [[body]]"},
         {"shape = \"point\"", "shape = \"stick\"", "72:1",
          "[[tool]] \"tip\" lacks \"length_mm\"; give it a length"},

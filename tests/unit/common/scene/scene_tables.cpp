@@ -126,6 +126,7 @@ std::vector<SceneTable> all_tables() {
       tool("cylinder", "name = \"t\"\nshape = \"cylinder\"\nlength_mm = 9\n"),
       tool("cone", "name = \"t\"\nshape = \"cone\"\nlength_mm = 9\n"),
       tool("scalpel", "name = \"t\"\nshape = \"scalpel\"\nlength_mm = 9\n"),
+      tool("scissors", "name = \"t\"\nshape = \"scissors\"\nlength_mm = 40\n"),
       tool("forceps", "name = \"t\"\nshape = \"forceps\"\n"),
       tool("rigid needle",
            "name = \"t\"\nshape = \"needle\"\nrigid = true\nlength_mm = 9\ndiameter_mm = 1\n"),

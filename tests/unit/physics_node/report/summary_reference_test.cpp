@@ -118,6 +118,7 @@ void add_joined(Keys& keys) {
 void add_cut(Keys& keys) {
   World world(pressed_slab());
   world.tool(0).book().cut(1e-6, 1e-4);
+  world.tool(0).book().closed(0.01, 1e-4);
   world.tool(0).book().pierced(0.01, 1e-4, 0.1);
   add_keys(keys, world, nullptr);
 }
