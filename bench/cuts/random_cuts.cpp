@@ -51,8 +51,7 @@ void add_stroke(Dice& dice, double length, double edge, RandomCuts& cuts) {
   const double sway = dice.chance(0.2) ? dice.between(-0.5, 0.5) : 0;  // it turns about its edge meanwhile
   const auto pose = [&](double gone, bool engaged) {
     double at = begin + gone;
-    if (at > end) at = end - (at - end);
-    if (at < back) at = back + (back - at);
+    if (const double past = at - end; past > 0) at = back + std::abs(end - past - back);
     const Eigen::Quaterniond swayed(Eigen::AngleAxisd(sway * gone / way, along));
     cuts.path.push_back({middle + at * ahead, swayed * turn, engaged});
   };
