@@ -35,20 +35,18 @@ const char* kind_and_remedy(const Body& body) {
 }
 
 void refuse_uncut(const ToolSpec& tool, const Body& body) {
-  const bool one = tool.shape == ToolShape::scalpel;
   if (!is_of_a_kind_to_cut(body))
     throw InputError(
-        fmt::format("{}: shape = \"{}\" {} springs, surfaces of springs, finite elements of first "
+        fmt::format("{}: shape = \"{}\" cuts springs, surfaces of springs, finite elements of first "
                     "order that are elastic, and what a "
                     "[[connection]] "
                     "joins, and \"{}\" is {}",
-                    tool.place.text(), one ? "scalpel" : "scissors", one ? "cuts" : "cut", body.name,
-                    kind_and_remedy(body)));
+                    tool.place.text(), blade_name(tool), body.name, kind_and_remedy(body)));
   if (std::ranges::any_of(body.laws, [](const ElementLaw& law) { return law.cut_toughness <= 0; }))
     throw InputError(
-        fmt::format("{}: shape = \"{}\" {} to know how tough \"{}\" is; give each of its materials "
+        fmt::format("{}: shape = \"{}\" needs to know how tough \"{}\" is; give each of its materials "
                     "cut_toughness_J_per_m2, such as 190 of a liver",
-                    tool.place.text(), one ? "scalpel" : "scissors", one ? "needs" : "need", body.name));
+                    tool.place.text(), blade_name(tool), body.name));
 }
 
 std::vector<std::size_t> passed_bodies(const BodyModels& bodies) {
@@ -72,6 +70,10 @@ std::size_t strips_of(const ToolSpec& tool, const BodyModels& bodies) {
 }
 
 }  // namespace
+
+const char* blade_name(const ToolSpec& tool) noexcept {
+  return tool.shape == ToolShape::scissors ? "scissors" : "scalpel";
+}
 
 BladeTool::BladeTool(const ToolSpec& tool, std::uint32_t index, const BodyModels& bodies,
                      const std::vector<TouchableBody>& touchable, const Connections& connections,
@@ -139,9 +141,9 @@ void BladeTool::take(const ToolState* state, double dt) noexcept {
   note(*state);
   engaged_ = state->engaged != 0;
   if (!scissors_) return;
-  const bool closed = scissors_->close();
+  const bool closed_until_now = scissors_->closing();
   scissors_->press(engaged_ && (state->buttons & 1U) != 0);
-  stops_ = closed && !scissors_->close() && blade_.bites();
+  stops_ = closed_until_now && !scissors_->closing() && blade_.bites();
 }
 
 void BladeTool::find_contact(double t) noexcept {
@@ -164,11 +166,13 @@ void BladeTool::find_contact(double t) noexcept {
     touched_ = b;
   }
   near_ = most > 0;
-  if (!cuts_now()) strands_.let_go();
-  if (cuts_now())
-    strands_.gather(frame, blade_.place().lag,
-                    play_.way() + (scissors_ ? scissors_->spec().speed() * frame_dt_ : 0), t),
-        inside_.follow(frame);
+  if (cuts_now()) {
+    const double closes = scissors_ ? scissors_->spec().speed() * frame_dt_ : 0.0;
+    strands_.gather(frame, blade_.place().lag, play_.way() + closes, t);
+    inside_.follow(frame);
+  } else {
+    strands_.let_go();
+  }
   book().passed_unfelt(inside_.areas());
   if (!near_ && !strands_.is_near()) blade_.let_go(), stops_ = false;
 }
@@ -187,12 +191,12 @@ double BladeTool::press(double dt) noexcept {
   const double share = frame_dt_ > 0 ? elapsed_ / frame_dt_ : 1.0;
   const bool press = may_press() && keep_ > 0;  // before the blades of scissors have met
   if (scissors_ && !stops_) scissors_->step(dt);
-  stops_ |= press && scissors_ && scissors_->way() > 0 && !scissors_->close();
+  stops_ |= press && scissors_ && scissors_->way() > 0 && !scissors_->closing();
   blade_.set_sharp(cuts_now());
   frame_ = frame_at(share);
   hand_ = tip_at(share);
   if (!press) return 0;
-  const double led = play_.at(share).v.dot(frame_.ahead) * dt, lag = blade_.place().lag;
+  const double lag = blade_.place().lag, led = std::max(0.0, play_.at(share).v.dot(frame_.ahead) * dt);
   if (scissors_) blade_.set_gripped(scissors_->gripped(led));
   blade_.set_stiffness(keep_ * stiffness_);
   BladeLinks& links = near_ ? bodies_[touched_].links : nothing_;
@@ -206,18 +210,17 @@ double BladeTool::press(double dt) noexcept {
       forces_.push_back({at, node.force / static_cast<double>(node.of.n)});
   }
   book().cut(done_.area, done_.work + done_.released);
-  if (scissors_) book_handles(led, lag);
+  if (scissors_ && cuts_now()) book_handles(led, lag);
+  stops_ = false;
   return done_.power;
 }
 
 /// Handles pay what the hand does not: the crossing's own way, and that part of the hand's which friction takes. When
 /// they stop, for what is left to cut the hand's spring gives what it holds first.
 void BladeTool::book_handles(double led, double lag) noexcept {
-  const double taken = std::max(0.0, led) * scissors_->gripped(led);
   const double work = stops_ ? std::max(0.0, done_.work - 0.5 * keep_ * stiffness_ * lag * lag)
-                             : done_.thrust * (scissors_->way() + taken);
-  if (cuts_now()) book().closed(scissors_->torque(done_.thrust), work);
-  stops_ = false;
+                             : done_.thrust * (scissors_->way() + led * scissors_->gripped(led));
+  book().closed(scissors_->torque(done_.thrust), work);
 }
 
 Wrench BladeTool::wrench() const noexcept {

@@ -24,6 +24,9 @@
 
 namespace palpate::physics {
 
+/// What the scene calls it.
+const char* blade_name(const ToolSpec& tool) noexcept;
+
 class BladeTool final : public PressingTool {
  public:
   /// @param bodies, touchable, connections  all of a scene, which outlive this
@@ -71,7 +74,7 @@ class BladeTool final : public PressingTool {
     BladeLinks links;
   };
   /// Does it cut what it comes to? Scissors only as they close.
-  bool cuts_now() const noexcept { return engaged_ && (!scissors_ || scissors_->close() || stops_); }
+  bool cuts_now() const noexcept { return engaged_ && (!scissors_ || scissors_->closing() || stops_); }
   /// Or is still where it has cut, from where they go on if they close again.
   bool bites() const noexcept { return cuts_now() || (engaged_ && blade_.bites()); }
   BladeFrame frame_at(double share) const noexcept;

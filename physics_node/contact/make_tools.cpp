@@ -56,26 +56,31 @@ void add_tissue(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
   add_pressing(std::move(tool), bodies, box);
 }
 
-void add_blade(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
-               const std::vector<TouchableBody>& touchable, const Connections& connections, Toolbox& box) {
-  const ToolSpec& spec = scene.tools[n];
-  const bool one = spec.shape == ToolShape::scalpel;
-  refuse_implicit(scene, spec, one ? "a scalpel cuts step by step" : "scissors cut step by step");
-  for (const ConnectionSpec& joint : scene.connections)
-    if (!joint.cut_toughness)
-      throw InputError(
-          fmt::format("{}: shape = \"{}\" {} to know how tough connection \"{}\" is; give that "
-                      "cut_toughness_J_per_m2, such as 100",
-                      spec.place.text(), one ? "scalpel" : "scissors", one ? "needs" : "need", joint.name));
+/// @throws InputError  scissors that would go on by more than a cell in a frame, past what is listed for it
+void refuse_skipping(const Scene& scene, const ToolSpec& spec, const BodyModels& bodies) {
   double finest = HUGE_VAL;
   for (const auto& body : bodies) finest = std::min(finest, body->body().spacing());
   const ScissorsSpec& blades = spec.scissors;
   const double way = blades.speed() / scene.physics->frame_Hz;
-  if (!one && way > finest)
-    throw InputError(fmt::format(
-        "{}: scissors that close in {:g} s go on by {:.3g} mm in a frame, beyond cells of {:.3g} mm; write "
-        "close_s = {:.2g} or more, or a higher frame_Hz",
-        spec.place.text(), blades.close_s, 1e3 * way, 1e3 * finest, 1.05 * blades.close_s * way / finest));
+  if (way <= finest) return;
+  throw InputError(fmt::format(
+      "{}: scissors that close in {:g} s go on by {:.3g} mm in a frame, beyond cells of {:.3g} mm; write "
+      "close_s = {:.2g} or more, or a higher frame_Hz",
+      spec.place.text(), blades.close_s, 1e3 * way, 1e3 * finest, 1.05 * blades.close_s * way / finest));
+}
+
+void add_blade(const Scene& scene, std::uint32_t n, const BodyModels& bodies,
+               const std::vector<TouchableBody>& touchable, const Connections& connections, Toolbox& box) {
+  const ToolSpec& spec = scene.tools[n];
+  const bool scissors = spec.shape == ToolShape::scissors;
+  refuse_implicit(scene, spec, scissors ? "scissors cut step by step" : "a scalpel cuts step by step");
+  for (const ConnectionSpec& joint : scene.connections)
+    if (!joint.cut_toughness)
+      throw InputError(
+          fmt::format("{}: shape = \"{}\" needs to know how tough connection \"{}\" is; give that "
+                      "cut_toughness_J_per_m2, such as 100",
+                      spec.place.text(), blade_name(spec), joint.name));
+  if (scissors) refuse_skipping(scene, spec, bodies);
   auto blade = std::make_unique<BladeTool>(spec, n, bodies, touchable, connections,
                                            1 / scene.device(spec.device).rate_Hz);
   add_pressing(std::move(blade), bodies, box);

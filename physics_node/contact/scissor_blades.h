@@ -27,15 +27,15 @@ class ScissorBlades {
   void reset() noexcept { *this = ScissorBlades(spec_); }
 
   /// Will they go on in the next step?
-  bool close() const noexcept { return pressed_ && crossing_ < spec_.closed_crossing(); }
+  bool closing() const noexcept { return pressed_ && crossing_ < spec_.closed_crossing(); }
   double crossing() const noexcept { return crossing_; }  // from the pivot [m]
   double way() const noexcept { return way_; }            // of that, in the last step [m]
   /// How far it has to go until they are closed [m].
   double left() const noexcept { return spec_.closed_crossing() - crossing_; }
   /// Share of the force that friction takes. What the hand goes on by itself it does not hold tissue against.
-  /// @param led  way of the hand ahead in the last step [m]
+  /// @param led  way of the hand ahead in the last step, 0 or more [m]
   double gripped(double led) const noexcept {
-    const double own = std::max(0.0, way_), all = own + std::max(0.0, led);
+    const double own = std::max(0.0, way_), all = own + led;
     return spec_.gripped(crossing_) * (all > 0 ? own / all : 1.0);
   }
   /// That it takes of the handles to press with so much where the blades cross [N m].
