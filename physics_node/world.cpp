@@ -333,6 +333,7 @@ void World::frame(std::span<const std::optional<ToolState>> tools) noexcept {
   for (LedTool* tool : toolbox_.led) tool->end_frame(collisions_.get(), frame_dt_);
   for (auto& tool : toolbox_.tools) tool->book().frame(tool->borne());
   guard();
+  if (!books_between_.empty()) follow_strokes();
   if (collisions_ && collisions_->bodies_are_near()) inside_->look_now_and_then();
   if (may_sleep())
     for (auto& body : bodies_) body->sleep_and_wake(frame_dt_);
@@ -342,23 +343,14 @@ void World::frame(std::span<const std::optional<ToolState>> tools) noexcept {
 }
 
 void World::reset() noexcept {
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    bodies_[b]->reset();
-    if (fragments_[b]) fragments_[b]->update(*bodies_[b]);
-    touchable_[b].surface->follow();
-  }
+  for (auto& body : bodies_) body->reset();
   for (auto& connection : connections_) connection->reset();
-  strides_.restart();
   for (auto& tool : toolbox_.tools) tool->reset(), tool->book() = {};
-  if (collisions_) collisions_->restart();
-  if (inside_) inside_->restart();
   n_substeps_ = std::max(1, n_substeps_ >> guard_.recoveries());
   held_substeps_ = held_until_ = since_reset_ = 0;
-  stiffening_ = 1;
   dt_ = frame_dt_ / n_substeps_;
   guard_.reset();
-  pressed_ = pressed_before_ = false;
-  restart_ledger();
+  start_anew();
 }
 
 std::uint64_t World::facets_left_out() const noexcept {

@@ -35,6 +35,10 @@ class World {
   void frame(std::span<const std::optional<ToolState>> tools) noexcept;
 
   void reset() noexcept;
+  /// Tissue and the books of tools as they were when the last stroke of a blade began to cut, to the bit; all tools let go. A stroke
+  /// goes on until no blade has met anything for 0.2 s. Once: the stroke before is not known.
+  /// @return false: nothing has been cut since the start, a reset or the last time
+  bool undo() noexcept;
 
   const Scene& scene() const { return scene_; }
   double t() const { return t_; }
@@ -104,6 +108,11 @@ class World {
   void book_solved(double dt) noexcept;
   double press(double dt) noexcept;
   double cut(PressingTool& tool) noexcept;
+  void begin_stroke() noexcept;
+  void follow_strokes() noexcept;
+  void note_books(std::vector<TouchBook>& books) const noexcept;
+  /// Bodies have been set somewhere else.
+  void start_anew() noexcept;
   double power(const PressingTool& tool) const noexcept;
   void take_tools(std::span<const std::optional<ToolState>> tools) noexcept;
   void find_contacts() noexcept;
@@ -161,6 +170,10 @@ class World {
   bool any_breaks_ = false;
   bool near_ = false;                              // bodies or fragments may touch in this frame
   bool pressed_ = false, pressed_before_ = false;  // by a tool, in this frame and in the one before
+  double unmet_ = 0;                               // for how long no blade has met anything [s]
+  bool in_stroke_ = false, can_undo_ = false;  // a blade is in what it cuts; what was before is remembered
+  std::vector<TouchBook> books_between_,
+      books_before_;  // of tools, when no blade last met anything; and before the stroke; EMPTY: none cuts
   Guard guard_;
 };
 

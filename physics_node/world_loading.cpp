@@ -160,6 +160,10 @@ World::World(const Scene& scene, int spare_cores) : scene_(scene) {
   }
   join_bodies();
   toolbox_ = make_tools(scene_, bodies_, touchable_, connections_);
+  if (std::ranges::any_of(scene.tools, cuts)) {
+    books_between_.resize(toolbox_.tools.size());
+    books_before_ = books_between_;
+  }
   if (scene.contact->enabled && may_collide(bodies_))
     collisions_ = std::make_unique<Collisions>(bodies_, fragments_, *scene.contact);
   if (collisions_)

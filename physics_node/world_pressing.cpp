@@ -64,6 +64,11 @@ void World::book_solved(double dt) noexcept {
 /// Once the tool's forces have moved the masses on: the books of what is cut are of where they are.
 /// @return what the hand pays [J]
 double World::cut(PressingTool& tool) noexcept {
+  bool cuts_strands = false;
+  for (std::size_t c = 0; c < connections_.size(); ++c)
+    cuts_strands = cuts_strands ||
+                   std::ranges::any_of(tool.pushes(c), [](const StrandPush& push) { return push.cuts > 0; });
+  if (cuts_strands || !tool.cuts().empty()) begin_stroke();
   if (!tool.cuts().empty()) {
     BodyModel& body = *bodies_[tool.touched_body()];
     const Losses before = body.losses();

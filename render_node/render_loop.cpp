@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "common/error/error.h"
+#include "common/message/tissue_reset.h"
 #include "common/process/stop_flag.h"
 #include "common/report/json_file.h"
 #include "common/report/log.h"
@@ -250,6 +251,7 @@ int run_window(const NodeOptions& options, const Scene& given) {
       wire.command(CommandKind::colour, 0, std::string(name_of(commanded)));
     }
     if (wishes.reset) reset(scene, model, wire);
+    if (wishes.undo) wire.command(CommandKind::reset, 0, std::string(last_stroke));
     if (wishes.picture) window.say(keep(*wishes.picture, options.out));
     for (auto& pointer : window.pointers()) wire.point(pointer.message(now_ns()));
     fare.drew(model.t());

@@ -57,17 +57,37 @@ std::int64_t open_edges_of(const physics::BodyModel& moving) {
   return std::ranges::count_if(gone, [](const auto& edge) { return edge.second != 0; });
 }
 
-/// @return of the state after each frame
-std::vector<std::uint64_t> lead(physics::World& world, const std::vector<BladePose>& path,
-                                bool& stays_finite) {
+/// Of the state after each frame.
+struct Led {
   std::vector<std::uint64_t> hashes;
+  std::size_t last_stroke = 0;  // frames until it cuts; 0: none does
+};
+
+Led lead(physics::World& world, const std::vector<BladePose>& path, bool& stays_finite) {
+  Led led;
+  std::int64_t strokes = world.report().strokes;
   for (std::size_t n = 0; n < path.size(); ++n) {
     const std::optional<ToolState> hand = hand_at(path, n);
     world.frame(std::span(&hand, 1));
     stays_finite = stays_finite && world.body(0).is_finite();
-    hashes.push_back(world.state_hash());
+    led.hashes.push_back(world.state_hash());
+    if (world.report().strokes > strokes) led.last_stroke = n + 1;
+    strokes = world.report().strokes;
   }
-  return hashes;
+  return led;
+}
+
+/// @param until  frames that have led to this
+bool undoes(physics::World& world, const std::vector<BladePose>& path, std::size_t until) {
+  if (until == 0) return !world.undo();
+  if (!world.undo()) return false;
+  const std::uint64_t late = world.state_hash();
+  const double area = world.tool(0).book().cut_area();
+  world.reset();
+  bool finite = true;
+  lead(world, {path.begin(), path.begin() + static_cast<std::ptrdiff_t>(until)}, finite);
+  return world.undo() && world.state_hash() == late && world.tool(0).book().cut_area() == area &&
+         !world.undo();
 }
 
 double share(double part, double whole) { return whole > 0 ? part / whole : part; }
@@ -85,7 +105,7 @@ CutResult run_cuts(CutKind kind, std::uint64_t seed, const std::string& folder) 
   r.strokes = cuts.strokes;
   r.gives_way = cuts.toughness / cuts.modulus / cuts.edge;
   const double mass = mass_of(moving.body());
-  const std::vector<std::uint64_t> hashes = lead(world, cuts.path, r.finite);
+  const Led led = lead(world, cuts.path, r.finite);
   const physics::EnergyLedger ledger = world.ledger();
   r.area = world.tool(0).book().cut_area();
   r.opened = moving.breaks();
@@ -105,11 +125,12 @@ CutResult run_cuts(CutKind kind, std::uint64_t seed, const std::string& folder) 
   if (kind != CutKind::springs) r.open_edges = open_edges_of(moving);
   r.restored = world.report().restored;
   r.cpu_s = watch.cpu_s();
+  r.undoes = undoes(world, cuts.path, led.last_stroke);
   world.reset();
   bool again_finite = true;
-  const std::vector<std::uint64_t> again = lead(world, cuts.path, again_finite);
-  const auto [first, other] = std::ranges::mismatch(hashes, again);
-  if (first != hashes.end()) r.other_from = first - hashes.begin();
+  const Led again = lead(world, cuts.path, again_finite);
+  const auto [first, other] = std::ranges::mismatch(led.hashes, again.hashes);
+  if (first != led.hashes.end()) r.other_from = first - led.hashes.begin();
   return r;
 }
 
@@ -127,6 +148,7 @@ std::string faults(const CutResult& r) {
   add(r.open_edges > 0, fmt::format("{} open edges", r.open_edges));
   add(r.restored > 0, fmt::format("restored {} times", r.restored));
   add(r.other_from >= 0, fmt::format("after a reset other from frame {} on", r.other_from));
+  add(!r.undoes, "undone to other bits");
   return all;
 }
 
@@ -134,7 +156,7 @@ const std::vector<std::string>& cut_heading() {
   static const std::vector<std::string> heading{
       "kind",    "seed",       "strokes",  "gives_way_cells", "area_mm2",    "opened",        "copies",
       "masses",  "steps",      "mass_off", "momentum_off",    "angular_off", "balance_error", "cut_off",
-      "least_J", "open_edges", "restored", "finite",          "other_from",  "cpu_s"};
+      "least_J", "open_edges", "restored", "finite",          "other_from",  "undoes",        "cpu_s"};
   return heading;
 }
 
@@ -158,6 +180,7 @@ std::vector<std::string> words(const CutResult& r) {
           std::to_string(r.restored),
           r.finite ? "1" : "0",
           std::to_string(r.other_from),
+          r.undoes ? "1" : "0",
           text_of(r.cpu_s)};
 }
 

@@ -25,6 +25,8 @@ struct CutResult {
   bool finite = true;
   std::int64_t other_from =
       -1;  // the first frame after which, done again after a reset, its bits differ; -1: none
+  bool undoes =
+      true;  // undone at its end, and done again and undone as soon as it cuts, the last stroke leaves the same bits
   double cpu_s = 0;
 };
 

@@ -21,10 +21,10 @@ std::string asked_of(const CLI::App& app) {
 
 int main(int argc, char** argv) {
   using namespace palpate;
-  constexpr std::array subcommands = {deploy::add_run,    deploy::add_simulate, deploy::add_replay,
-                                      deploy::add_import, deploy::add_new,      deploy::add_view,
-                                      deploy::add_info,   deploy::add_plot,     deploy::add_doctor,
-                                      deploy::add_bench,  deploy::add_reset,    deploy::add_export};
+  constexpr std::array subcommands = {
+      deploy::add_run,   deploy::add_simulate, deploy::add_replay, deploy::add_import, deploy::add_new,
+      deploy::add_view,  deploy::add_info,     deploy::add_plot,   deploy::add_doctor, deploy::add_bench,
+      deploy::add_reset, deploy::add_undo,     deploy::add_export};
   int exit_code = exit_ok;
   CLI::App app{"palpate: feel soft tissue through a haptic device"};
   add_version(app, "palpate");

@@ -17,6 +17,7 @@ void add_info(CLI::App& app, int& exit_code);
 void add_plot(CLI::App& app, int& exit_code);
 void add_doctor(CLI::App& app, int& exit_code);
 void add_reset(CLI::App& app, int& exit_code);
+void add_undo(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);
 
 }  // namespace palpate::deploy

@@ -39,7 +39,8 @@ Connection::Connection(std::vector<Strand> strands, BodyModel& from, BodyModel& 
       to_(&to),
       left_(strands_.size(), 1.0),
       damping_(strands_.size(), Vec3::Zero()),
-      saved_(Left{left_}, Left{left_}) {
+      saved_(Left{left_}, Left{left_}),
+      marked_{left_} {
   on_from_.reserve(strands_.size());
   on_to_.reserve(3 * strands_.size());
   for (const Strand& strand : strands_) {
@@ -238,14 +239,24 @@ double Connection::energy() const noexcept {
   return sum;
 }
 
-void Connection::save(bool good) noexcept {
-  Left& to = saved_.next(good);
+void Connection::save(bool good) noexcept { note(saved_.next(good)); }
+
+void Connection::note(Left& to) const noexcept {
   std::ranges::copy(left_, to.of.begin());
   to.broken = broken_, to.viscous = viscous(), to.n_torn = n_torn_, to.n_cut = n_cut_;
 }
 
-void Connection::restore() noexcept {
-  const Left& from = saved_.good();
+void Connection::restore() noexcept { bring_back(saved_.good()); }
+
+void Connection::return_to_mark() noexcept {
+  bring_back(marked_);
+  watched_ = watched_viscous_ = pull_ = 0;
+  take_feet();
+  save(false);
+  save(true);
+}
+
+void Connection::bring_back(const Left& from) noexcept {
   std::ranges::copy(from.of, left_.begin());
   broken_ = from.broken, viscous_ = from.viscous, n_torn_ = from.n_torn, n_cut_ = from.n_cut;
   std::ranges::fill(damping_, Vec3::Zero());

@@ -71,6 +71,9 @@ class Connection {
   void save(bool good) noexcept;
   void restore() noexcept;
   void reset() noexcept;
+  /// What is left of strands is remembered, and comes back; once both bodies have come back to theirs (Topology::mark).
+  void mark() noexcept { note(marked_); }
+  void return_to_mark() noexcept;
   std::uint64_t hash(std::uint64_t seed) const noexcept;
 
  private:
@@ -112,7 +115,11 @@ class Connection {
   std::vector<NodalForce> on_from_, on_to_;
   double watched_ = 0, watched_viscous_ = 0, broken_ = 0, viscous_ = 0, pull_ = 0, dt_before_ = 0;
   std::int64_t n_torn_ = 0, n_cut_ = 0;
+  void note(Left& to) const noexcept;
+  void bring_back(const Left& from) noexcept;
+
   GoodState<Left> saved_;
+  Left marked_;
 };
 
 using Connections = std::vector<std::unique_ptr<Connection>>;

@@ -18,6 +18,8 @@ class TouchBook {
   ///   W += (f + f') / 2 . (x' - x) + (m + m') / 2 . turn,   f, m what the hand pressed with, against what it felt
   /// so what swings faster than states come is not seen.
   void hand(const ToolState& state) noexcept;
+  /// The hand is somewhere else when it comes next: nobody knows what it did meanwhile.
+  void lose_hand() noexcept { seen_ = false; }
   /// A step of the tool's forces on tissue, as the ledger has it. @return work [J]
   double tissue(double work) noexcept {
     if (std::isfinite(work)) tissue_work_ += work;

@@ -40,6 +40,10 @@ constexpr double yielding_bytes = 236, yielding_double_bytes = 472;
 constexpr double plastic_bytes = 680, plastic_double_bytes = 1030;
 // Where springs may be cut and neither yield nor break. Counted: live elements, twice more to go back to, and fragments.
 constexpr double cut_bytes = 20;
+// Where a tool cuts, to undo that. Counted, numbers of a mass: places and velocities, of a mesh in double; of springs that yield and of
+// cells that break or yield what they have been through.
+constexpr double marked_numbers = 7, marked_mesh_bytes = 48, marked_plastic_numbers = 18,
+                 marked_failing_numbers = 7, marked_yielding_numbers = 19;
 // A point or a stick feels what breaks open: two sites of 9 bytes a mass, and room for a facet.
 constexpr double felt_bytes = 42;
 // Of a node of a mesh, with what joins nodes while it is made; and of its file while it is read, a byte of it. Measured as above, of 600,000
@@ -153,10 +157,12 @@ std::string what_fits(const BodySpec& body, double share) {
 
 double bytes_of_masses(double masses, const BodySpec& body, const Scene& scene) {
   const bool doubled = scene.physics->precision == Precision::double_;
+  const bool undoes = std::ranges::any_of(scene.tools, cuts);
   if (std::holds_alternative<MeshShape>(body.shape)) {
+    const double marked = undoes ? marked_mesh_bytes : 0;
     if (body.tet_elements == TetElements::second_order)
-      return masses * (doubled ? second_order_double_bytes : second_order_bytes);
-    return masses * (doubled ? mesh_double_bytes : mesh_bytes);
+      return masses * (marked + (doubled ? second_order_double_bytes : second_order_bytes));
+    return masses * (marked + (doubled ? mesh_double_bytes : mesh_bytes));
   }
   bool any_breaks = breaks(body.material, scene);
   bool any_yields = yields(body.material, scene);
@@ -167,7 +173,7 @@ double bytes_of_masses(double masses, const BodySpec& body, const Scene& scene) 
   const bool felt = std::any_of(scene.tools.begin(), scene.tools.end(), meets_facets);
   const bool of_cells = body.model == ElementModel::fem;
   const bool plastic = any_breaks && !of_cells;
-  const bool cut = !any_breaks && !of_cells && std::ranges::any_of(scene.tools, cuts);
+  const bool cut = !any_breaks && !of_cells && undoes;
   const double fem = !of_cells ? 0 : doubled ? fem_double_bytes : fem_bytes;
   const double failing = !any_breaks || !of_cells
                              ? 0
@@ -178,7 +184,13 @@ double bytes_of_masses(double masses, const BodySpec& body, const Scene& scene) 
                                           scene.physics->integrator == Integrator::automatic);
   const double solver = !solved ? 0 : doubled ? solved_double_bytes : solved_bytes;
   const double cutting = cut ? cut_bytes + felt_bytes : 0;
-  return masses * (fem + solver + failing + yielding + cutting +
+  const auto* image = std::get_if<VolumeShape>(&body.shape);
+  const bool in_parts = image != nullptr && image->deformable.awake;  // comes back at rest
+  const double numbers = marked_numbers + (plastic ? marked_plastic_numbers : 0) +
+                         (failing > 0 ? marked_failing_numbers : 0) +
+                         (yielding > 0 ? marked_yielding_numbers : 0);
+  const double marked = undoes && !in_parts ? numbers * (doubled ? 8 : 4) : 0;
+  return masses * (fem + solver + failing + yielding + cutting + marked +
                    (plastic ? (doubled ? plastic_double_bytes : plastic_bytes) + (felt ? felt_bytes : 0.0)
                             : (doubled ? elastic_double_bytes : elastic_bytes)));
 }

@@ -38,6 +38,7 @@ CellNet::CellNet(const Lattice& lattice, std::span<const float> stiffness, std::
   origin_.reserve(most_copies);
   opened_.reserve(cells_.size());
   cuts_.reserve(std::min(2 * most_copies, 3 * cells_.size()));
+  open_faces_.reserve(cuts_.capacity());
   splits_.reserve(most_copies);
 }
 
@@ -91,6 +92,7 @@ bool CellNet::open(Index a, Index b, const FaceCut& cut) noexcept {
     if (open_[at(cell)] == 0) opened_.push_back(cell);
   const bool upwards = f % 2 == 1;
   cut_[3 * at(upwards ? a : b) + f / 2] = static_cast<std::int32_t>(cuts_.size());
+  open_faces_.push_back({upwards ? a : b, f / 2});
   cuts_.push_back({std::clamp(upwards ? cut.share : 1 - cut.share, 0.0F, 1.0F), cut.normal});
   open_[at(a)] = static_cast<std::uint8_t>(open_[at(a)] | 1U << f);
   open_[at(b)] = static_cast<std::uint8_t>(open_[at(b)] | 1U << (f ^ 1U));
@@ -154,6 +156,7 @@ void CellNet::forget_cuts() noexcept {
   parted_.clear();
   opened_.clear();
   cuts_.clear();
+  open_faces_.clear();
   corners_.clear();
   std::ranges::fill(open_, std::uint8_t{0});
   splits_.clear();

@@ -54,6 +54,15 @@ class CellNet {
   bool is_open(Index cell, std::size_t face) const noexcept { return (open_[at(cell)] >> face & 1) != 0; }
   /// Cells with an open face, in the order in which they came to; each once.
   std::span<const Index> opened() const noexcept { return opened_; }
+  /// An open face, between a cell and the next up an axis.
+  struct OpenFace {
+    Index cell = none;
+    std::size_t axis = 0;
+  };
+  /// All of them, in the order in which they were opened.
+  std::span<const OpenFace> open_faces() const noexcept { return open_faces_; }
+  /// No more than these are ever opened.
+  std::size_t most_open() const noexcept { return cuts_.capacity(); }
   /// Where a blade went between a cell and the next up an axis.
   const FaceCut& cut_at(Index cell, std::size_t axis) const noexcept {
     return is_open(cell, 2 * axis + 1) ? cuts_[at(cut_[3 * at(cell) + axis])] : nowhere;
@@ -128,6 +137,7 @@ class CellNet {
   std::vector<std::uint8_t> is_cell_, open_;  // by storage cell; open_: bit f: its face f is
   std::vector<std::int32_t> cut_;             // 3 cell + axis: its number in cuts_
   std::vector<FaceCut> cuts_;
+  std::vector<OpenFace> open_faces_;  // of each of cuts_
   std::vector<Index> cells_, opened_;
   std::vector<std::int32_t> record_;  // by storage cell: its number in parted_; -1: none
   std::vector<Index> parted_;

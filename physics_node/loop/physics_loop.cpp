@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "common/error/error.h"
+#include "common/message/tissue_reset.h"
 #include "common/process/stop_flag.h"
 #include "common/report/json_file.h"
 #include "common/report/log.h"
@@ -98,7 +99,7 @@ bool PhysicsLoop::take_tools() {
 /// What was asked for several times is done once: whoever asks without end shall not hold up the tissue.
 void PhysicsLoop::take_commands() {
   Command command;
-  bool reset = false;
+  bool reset = false, undo = false;
   double steps = 0;
   std::optional<double> threshold;
   std::optional<std::optional<SectionSpec>> section;
@@ -116,7 +117,7 @@ void PhysicsLoop::take_commands() {
         steps = frames_to_go_ = 0;
         break;
       case CommandKind::reset:
-        reset = true;
+        (is_undo(command) ? undo : reset) = true;
         break;
       case CommandKind::threshold:
         threshold = command.value;
@@ -145,6 +146,12 @@ void PhysicsLoop::take_commands() {
   if (steps > 0)
     frames_to_go_ =
         static_cast<int>(std::min(frames_to_go_ + std::floor(steps), static_cast<double>(most_steps)));
+  if (undo && !world_->undo()) {
+    constexpr std::string_view why =
+        "nothing to undo: no blade has cut since the start, a reset or the last undo";
+    log_warn("{}", why);
+    note(why);
+  }
   if (reset) world_->reset();
   if (threshold) appearance_->set_threshold(*threshold);
   if (section) appearance_->set_section(*section);

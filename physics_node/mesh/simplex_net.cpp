@@ -38,6 +38,7 @@ SimplexNet<N>::SimplexNet(const std::vector<Corners>& elements, std::size_t n_no
       star_begin_(n_nodes + 1, 0),
       star_(N * elements.size()),
       seen_(elements.size(), 0) {
+  open_faces_.reserve(most_open());
   join_faces();
   for (const Corners& of : loaded_)
     for (const Index node : of) ++star_begin_[at(node) + 1];
@@ -84,6 +85,7 @@ bool SimplexNet<N>::open(Index a, Index b) noexcept {
   const std::size_t f = face_between(a, b);
   if (f == N || is_open(a, f) || !open_one(N - 1)) return false;
   open_[N * at(a) + f] = open_[at(other_[N * at(a) + f])] = 1;
+  open_faces_.push_back({a, b});
   for (const std::size_t c : Simplex<N>::faces[f]) {
     const Index node = corners_[at(a)][c];
     if (std::ranges::find(corners_[at(b)], node) != corners_[at(b)].end()) part(node, a);
@@ -134,6 +136,7 @@ template <std::size_t N>
 void SimplexNet<N>::reset() noexcept {
   std::ranges::copy(loaded_, corners_.begin());
   std::ranges::fill(open_, std::uint8_t{0});
+  open_faces_.clear();
   forget_copies();
 }
 

@@ -63,6 +63,10 @@ class SimplexNet : public NodeCopies {
   /// Which face of a it has in common with b; n_faces: none.
   std::size_t face_between(Index a, Index b) const noexcept;
   bool is_open(Index element, std::size_t face) const noexcept { return open_[N * at(element) + face] != 0; }
+  /// The elements on both sides of each open face, in the order in which they were opened.
+  std::span<const std::array<Index, 2>> open_faces() const noexcept { return open_faces_; }
+  /// No more than these are ever opened.
+  std::size_t most_open() const noexcept { return open_.size() / 2; }
   /// An outer face, or an open one whose sides do not have the same nodes: of a tetrahedron, one that something can
   /// touch.
   bool is_exposed(Index element, std::size_t face) const noexcept;
@@ -103,6 +107,7 @@ class SimplexNet : public NodeCopies {
   std::vector<Corners> loaded_, corners_;
   std::vector<Index> other_;        // N element + face: the same of the other side
   std::vector<std::uint8_t> open_;  // of each face of each
+  std::vector<std::array<Index, 2>> open_faces_;
   std::vector<std::size_t> star_begin_;
   std::vector<std::uint32_t> star_;  // N element + corner, of each node as loaded
   std::vector<std::uint32_t> seen_;  // of each element: the flood that reached it last

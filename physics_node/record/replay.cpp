@@ -1,5 +1,6 @@
 #include "physics_node/record/replay.h"
 
+#include "common/message/tissue_reset.h"
 #include "common/scene/scene.h"
 #include "common/scene/tool_spec.h"
 
@@ -15,7 +16,9 @@ bool Replay::frame() {
   if (difference_ || frame >= record_.frames() || world_.has_stopped()) return false;
   const auto& commands = record_.commands();
   for (; next_command_ < commands.size() && commands[next_command_].frame <= frame; ++next_command_)
-    if (commands[next_command_].command.kind == CommandKind::reset)
+    if (const Command& command = commands[next_command_].command; is_undo(command))
+      world_.undo();
+    else if (command.kind == CommandKind::reset)
       world_.reset();  // the others move nothing
   record_.inputs(frame, world_.scene().tools, hands_);
   world_.frame(hands_);

@@ -30,10 +30,10 @@ constexpr std::uint64_t most_list_bytes = 1 << 24;   // of settings, and of the 
 /// What a scene cannot need is refused before it is read, so before the file is checked as well.
 void refuse_excess(const std::string& path) {
   const std::map<std::string, std::uint64_t> most = {
-      {"/scene/text", most_scene_bytes},        {"/scene/settings", most_list_bytes},
-      {"/scene/files", most_list_bytes},        {"/session/flushed", most_numbers},
-      {"/session/hashes", most_numbers},        {"/session/commands", most_numbers},
-      {"/session/command_values", most_numbers}};
+      {"/scene/text", most_scene_bytes},         {"/scene/settings", most_list_bytes},
+      {"/scene/files", most_list_bytes},         {"/session/flushed", most_numbers},
+      {"/session/hashes", most_numbers},         {"/session/commands", most_numbers},
+      {"/session/command_values", most_numbers}, {"/session/command_names", most_numbers}};
   for (const DatasetFacts& dataset : list_datasets(path)) {
     const auto known = most.find(dataset.path);
     const bool image = dataset.path.starts_with("/scene/file_");
@@ -102,11 +102,14 @@ SessionRecord::SessionRecord(const std::string& path) : path_(path) {
       if (hashes[n] <= frames_) hashes_.push_back({hashes[n], hashes[n + 1]});
     const auto commands = file_->read<std::uint64_t>("/session/commands");
     const auto values = file_->read<double>("/session/command_values");
-    for (std::size_t n = 0; n < std::min(values.size(), commands.size() / 3); ++n) {
+    const auto names = file_->read<std::uint8_t>("/session/command_names");
+    constexpr std::size_t width = std::tuple_size_v<decltype(Command::name)>;
+    for (std::size_t n = 0; n < std::min({values.size(), commands.size() / 3, names.size() / width}); ++n) {
       RecordedCommand recorded{commands[3 * n], {}};
       recorded.command.kind = static_cast<CommandKind>(commands[3 * n + 1]);
       recorded.command.id = commands[3 * n + 2];
       recorded.command.value = values[n];
+      std::copy_n(names.data() + n * width, width - 1, recorded.command.name.begin());  // the last stays 0
       if (recorded.frame < frames_) commands_.push_back(recorded);
     }
   } catch (const InputError&) {

@@ -192,6 +192,8 @@ nlohmann::json physics_summary(const World& world, const Recorder* recorder, dou
                    {"restored", world.report().restored},
                    {"halved", world.report().halved},
                    {"unsolved", world.report().unsolved}};
+  if (std::ranges::any_of(world.scene().tools, cuts))
+    part["strokes"] = {{"begun", world.report().strokes}, {"undone", world.report().undone}};
   if (const auto why = world.stopped()) part["guard"]["stopped"] = *why;
   if (const Collisions* collisions = world.collisions()) {
     const CollisionTally& tally = collisions->tally();

@@ -4,6 +4,8 @@
 // (mesh/simplex_net.h).
 
 #include <algorithm>
+#include <array>
+#include <optional>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -30,6 +32,10 @@ class MeshBodyModel final : public BodyModel {
         saved_(elements_.saved(), elements_.saved()) {
     NodeMotion::show(NodeField(elements_.displacements()), NodeField(elements_.velocities()));
     Topology::show(net() != nullptr ? Adjacency(body_.mesh->neighbours, *net()) : body_.adjacency());
+    if (body_.may_be_cut) {
+      marked_.emplace().of.resize(capacity());
+      if (net() != nullptr) marked_->open.reserve(net()->most_open());
+    }
     reset();
   }
 
@@ -139,6 +145,32 @@ class MeshBodyModel final : public BodyModel {
     take_copies(net()->splits().subspan(known));
     return opened;
   }
+  void mark() noexcept override {
+    if (!marked_) return;
+    body_.each_node([this](Index node) {
+      marked_->of[static_cast<std::size_t>(node)] = {displacement(node), velocity(node)};
+    });
+    marked_->grown = grown_;
+    if (net() != nullptr) marked_->open.assign(net()->open_faces().begin(), net()->open_faces().end());
+  }
+  void return_to_mark() noexcept override {
+    if (!marked_) return;
+    elements_.forget();
+    rejoin();
+    if (net() != nullptr) {
+      for (const auto& [a, b] : marked_->open) net()->open(a, b);
+      take_copies(net()->splits());
+    }
+    grown_ = marked_->grown;
+    body_.each_node([this](Index node) {
+      const auto& [u, v] = marked_->of[static_cast<std::size_t>(node)];
+      elements_.place(node, u, v);
+    });
+    momentum_ = {};
+    restart_momentum();
+    save(false);
+    save(true);
+  }
   void conditions(std::span<const Index> nodes, std::span<Condition> out) const noexcept override {
     std::fill_n(out.begin(), nodes.size(), Condition{});
   }
@@ -179,6 +211,16 @@ class MeshBodyModel final : public BodyModel {
     else
       return elements_.step(step);
   }
+
+  /// Of a body to come back to.
+  struct Mark {
+    struct Node {
+      Vec3 u = Vec3::Zero(), v = Vec3::Zero();  // displacement [m], velocity [m/s]
+    };
+    std::vector<Node> of;
+    std::vector<std::array<Index, 2>> open;  // elements on both sides of each open face, in their order
+    double grown = 0;                        // [J]
+  };
 
   using Net = typename Elements::Net;
   static constexpr bool may_part = requires(Elements & e, const Net& net) { e.separate({}, net); };
@@ -261,6 +303,7 @@ class MeshBodyModel final : public BodyModel {
   double grown_ = 0;     // elastic energy that parting has made [J]
   int unknown_for_ = 0;  // steps: after a reset, at once and after the next, events tell nothing
   GoodState<typename Elements::Saved> saved_;
+  std::optional<Mark> marked_;  // only of a body that may be cut
 };
 
 }  // namespace palpate::physics

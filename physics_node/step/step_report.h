@@ -40,6 +40,7 @@ struct StepReport {
   std::int64_t halved = 0;     // times the step was halved
   std::int64_t unsolved = 0;   // steps of backward_euler whose equations were not solved to their tolerance
   std::int64_t newton_iterations = 0, cg_iterations = 0;  // of backward_euler, in all
+  std::int64_t strokes = 0, undone = 0;                   // of blades, that have cut; and that were undone
   std::int64_t broken = 0;                                // elements, of themselves or cut
   double least_corner_J = 1;                              // of all bodies: see StepOutcome
   double tool_work = 0;                                   // done by tools on tissue [J]

@@ -40,6 +40,13 @@ class Topology {
   /// @return how many were cut or opened
   virtual std::int64_t cut(std::span<const EdgeGone> elements) noexcept = 0;
 
+  /// Remembers the body as it is, in place of what it remembered before; one that Body::may_be_cut, others nothing.
+  /// Contract: allocates and throws nothing.
+  virtual void mark() noexcept = 0;
+  /// Back to that: places and velocities to the bit, and joined as it was. What is awake in parts comes back to where it rests, as
+  /// joined as it was. Its books begin anew, and events() tell nothing, as after a reset.
+  virtual void return_to_mark() noexcept = 0;
+
  protected:
   explicit Topology(const Body& body) : body_(&body) {}
   /// Once, by the maker: what it steps.

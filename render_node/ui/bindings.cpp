@@ -24,6 +24,7 @@ constexpr Binding table[] = {
      "Backspace",
      "reset: tissue as at the start, a device at fault opened anew",
      {{{GLFW_KEY_BACKSPACE, A::reset}}}},
+    {Part::window, "Z", "undo: tissue as before the last stroke of a blade", {{{GLFW_KEY_Z, A::undo}}}},
     {Part::window, "F12", "save a picture of the window", {{{GLFW_KEY_F12, A::picture}}}},
     {Part::window, "Esc", "close the help, then the window", {{{GLFW_KEY_ESCAPE, A::close}}}},
     {Part::view, "left drag", "turn the view", {}},

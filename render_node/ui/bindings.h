@@ -18,6 +18,7 @@ enum class Action {
   frame_on,
   hundredth_on,
   reset,
+  undo,
   picture,
   close,
   // of the view
@@ -44,7 +45,7 @@ enum class Action {
   roll_left,
   roll_right
 };
-inline constexpr int n_actions = 30;  // with none
+inline constexpr int n_actions = 31;  // with none
 
 /// What a row is about; the headings of the help.
 enum class Part { window, view, tool };

@@ -7,8 +7,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <initializer_list>
 #include <string>
+#include <vector>
 
 #include "common/math/units.h"
 #include "common/scene/body_spec.h"
@@ -89,7 +89,7 @@ struct ActionButton {
 };
 
 /// Buttons of one width, so many a line.
-void buttons(std::initializer_list<ActionButton> all, int a_line, PanelWishes& wishes) {
+void buttons(const std::vector<ActionButton>& all, int a_line, PanelWishes& wishes) {
   const float gap = ImGui::GetStyle().ItemSpacing.x / 2;
   const float width =
       (ImGui::GetContentRegionAvail().x - static_cast<float>(a_line - 1) * gap) / static_cast<float>(a_line);
@@ -161,8 +161,8 @@ void inside_rows(const PanelFacts& facts, InsideControl& inside, PanelWishes& wi
   inside.set_opacity(opacity);
 }
 
-PanelWishes controls(const ViewModel& model, const PanelFacts& facts, ThresholdControl& threshold,
-                     SectionControl& section, InsideControl& inside) {
+PanelWishes controls(const Scene& scene, const ViewModel& model, const PanelFacts& facts,
+                     ThresholdControl& threshold, SectionControl& section, InsideControl& inside) {
   PanelWishes wishes;
   if (threshold.applies()) {
     if (facts.interactive) {
@@ -176,14 +176,16 @@ PanelWishes controls(const ViewModel& model, const PanelFacts& facts, ThresholdC
   }
   section_rows(model, facts, section, wishes);
   inside_rows(facts, inside, wishes);
-  if (facts.interactive)
-    buttons({{facts.paused ? "Go on" : "Pause", Action::pause},
-             {"Step", Action::hundredth_on},
-             {"Help", Action::help},
-             {"Reset", Action::reset},
-             {"Picture", Action::picture},
-             {"Fold", Action::fold}},
-            3, wishes);
+  if (facts.interactive) {
+    std::vector<ActionButton> all{{facts.paused ? "Go on" : "Pause", Action::pause},
+                                  {"Step", Action::hundredth_on},
+                                  {"Help", Action::help},
+                                  {"Reset", Action::reset},
+                                  {"Picture", Action::picture},
+                                  {"Fold", Action::fold}};
+    if (std::ranges::any_of(scene.tools, cuts)) all.push_back({"Undo", Action::undo});
+    buttons(all, 3, wishes);
+  }
   if (facts.interactive || threshold.applies() || section.value() || inside.value()) ImGui::Separator();
   return wishes;
 }
@@ -261,7 +263,7 @@ PanelWishes lay_out_panels(const Scene& scene, const ViewModel& model, const Pan
   row("simulated time", fmt::format("{:.2f} s", facts.t));
   warning_rows(model);
   ImGui::Separator();
-  PanelWishes wishes = controls(model, facts, moved.threshold, moved.section, moved.inside);
+  PanelWishes wishes = controls(scene, model, facts, moved.threshold, moved.section, moved.inside);
   if (facts.pointer != nullptr)
     row("mouse", fmt::format("{} {}", facts.pointer->held() ? "holds" : "lets lie",
                              scene.tools[facts.pointer->tool()].name));

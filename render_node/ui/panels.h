@@ -39,7 +39,7 @@ struct PanelWishes {
   // What of buttons and keys is not the window's own.
   bool paused = false;                   // it should be
   int frames_on = 0, hundredths_on = 0;  // to stand still after: of the tissue; of a second
-  bool reset = false;
+  bool reset = false, undo = false;
   std::optional<Image> picture;  // to be saved: of the window as it is
 };
 

@@ -197,6 +197,9 @@ void Window::perform(Action action, PanelWishes& wishes) {
     case Action::reset:
       wishes.reset = true;
       break;
+    case Action::undo:
+      wishes.undo = true;
+      break;
     case Action::picture:
       wishes.picture.emplace();
       break;

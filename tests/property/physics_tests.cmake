@@ -17,6 +17,7 @@ palpate_test(NAME physics_fast_cells_test KIND property SOURCES physics_fast_cel
 palpate_test(NAME physics_cracks_test KIND property SOURCES physics_cracks_test.cpp LIBS palpate_physics_worlds)
 # Springs that a tool cuts.
 palpate_test(NAME physics_cuts_test KIND property SOURCES physics_cuts_test.cpp LIBS palpate_physics_worlds)
+palpate_test(NAME physics_undo_test KIND property SANITIZERS address SOURCES physics_undo_test.cpp LIBS palpate_physics_worlds)
 palpate_test(NAME physics_parted_meshes_test KIND property SANITIZERS address SOURCES physics_parted_meshes_test.cpp LIBS palpate_physics_worlds)
 palpate_test(NAME physics_parted_cells_test KIND property SANITIZERS address SOURCES physics_parted_cells_test.cpp LIBS palpate_physics_worlds)
 palpate_test(NAME physics_failure_test KIND property SOURCES physics_failure_test.cpp LIBS palpate_physics_worlds)

@@ -57,6 +57,30 @@ class ReplayTest : public CommandRun {
   }
 };
 
+TEST_F(ReplayTest, UndoesAgainWhatAPersonUndid) {
+  const std::string domain = std::to_string(test::own_domain());
+  EXPECT_EQ(palpate("undo --domain " + domain), 2);
+  EXPECT_NE(log.find("no physics node in domain " + domain), std::string::npos) << log;
+  int ended = -1;
+  std::thread session([&] { ended = run("scalpel.toml", "--seconds 9"); });
+  std::this_thread::sleep_for(
+      std::chrono::seconds(6));  // the blade has been led through by then, or is in tissue
+  const int asked = std::system((test::quoted(PALPATE) + " undo --domain " + domain).c_str());
+  session.join();
+  ASSERT_EQ(ended, 0) << log;
+  EXPECT_EQ(asked, 0);
+  const auto live = read_json(out("live/summary.json"));
+  EXPECT_GE(live["strokes"]["begun"], 1);
+  EXPECT_EQ(live["strokes"]["undone"], 1);
+  ASSERT_EQ(palpate("replay " + test::quoted(out("live/record.h5")) + " --out " + test::quoted(out("again"))),
+            0)
+      << log;
+  EXPECT_NE(log.find("all as recorded"), std::string::npos) << log;
+  const auto again = read_json(out("again/summary.json"));
+  EXPECT_EQ(again["state_hash"], live["state_hash"]);
+  EXPECT_EQ(again["strokes"], live["strokes"]);
+}
+
 TEST_F(ReplayTest, RunsALiveSessionWithBreaksAgain) {
   ASSERT_EQ(run("knife_breaks.toml", "--seconds 2"), 0) << log;
   const auto live = read_json(out("live/summary.json"));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "physics_node/step/good_state.h"
 #include "physics_node/step/lattice/awake_region.h"
@@ -11,6 +12,7 @@
 #include "physics_node/step/lattice/hex_marks.h"
 #include "physics_node/step/lattice/hexahedra.h"
 #include "physics_node/step/lattice/implicit_step.h"
+#include "physics_node/step/lattice/marked_state.h"
 #include "physics_node/step/lattice/measure.h"
 #include "physics_node/step/lattice/node_kicks.h"
 #include "physics_node/step/lattice/part_cells.h"
@@ -56,6 +58,7 @@ class LatticeBody final : public BodyModel, private PendingStep {
       region_ = std::make_unique<AwakeRegion<Real>>(body_);
       NodeMotion::show(region_->parts());
     }
+    if (body_.may_be_cut) marked_.emplace(body_, state_);
     begin();
   }
 
@@ -141,9 +144,7 @@ class LatticeBody final : public BodyModel, private PendingStep {
         for (std::size_t i = first; i < last; ++i) sum += Real(0) * (state_.u[a][i] + state_.v[a][i]);
     });
     body_.each_copy([&](Index copy) {
-      for (std::size_t a = 0; a < 3; ++a)
-        sum += Real(0) *
-               (state_.u[a][static_cast<std::size_t>(copy)] + state_.v[a][static_cast<std::size_t>(copy)]);
+      sum += Real(0) * static_cast<Real>((vector_of(state_.u, copy) + vector_of(state_.v, copy)).sum());
     });
     return sum == Real(0);
   }
@@ -227,6 +228,17 @@ class LatticeBody final : public BodyModel, private PendingStep {
     if (region_) region_->follow_cut(body_, state_, net->splits().subspan(known));
     return opened;
   }
+  void mark() noexcept override {
+    if (marked_) marked_->take(body_, state_);
+  }
+  void return_to_mark() noexcept override {
+    if (!marked_) return;
+    reset();
+    if (body_.cell_net() != nullptr) cut(marked_->open());
+    marked_->bring_back(body_, state_);
+    restart_momentum();
+    for (const bool good : {false, true}) save(good);
+  }
   void conditions(std::span<const Index> cells, std::span<Condition> out) const noexcept override {
     for (std::size_t n = 0; n < cells.size(); ++n)
       out[n] = condition_of(body_, state_, adjacency(), cells[n]);
@@ -250,11 +262,13 @@ class LatticeBody final : public BodyModel, private PendingStep {
     if (body_.cell_net() != nullptr) sum.breaks = breaks();
     return sum;
   }
-  Momenta momenta() const override { return momenta_with(state_.v).momenta; }
+  Momenta momenta() const override { return measure_momenta(body_, state_, state_.v).momenta; }
   bool touched() const noexcept override { return momentum_.hits() > 0; }
-  void restart_momentum() noexcept override { momentum_.restart(momenta_with(moving_velocity(state_))); }
+  void restart_momentum() noexcept override {
+    momentum_.restart(measure_momenta(body_, state_, moving_velocity(state_)));
+  }
   MomentumBalance momentum_balance() const override {
-    return momentum_.balance(momenta_with(moving_velocity(state_)).momenta);
+    return momentum_.balance(measure_momenta(body_, state_, moving_velocity(state_)).momenta);
   }
   BodyCounts counts() const override {
     BodyCounts counts = elements_->counts(body_, state_);
@@ -270,8 +284,7 @@ class LatticeBody final : public BodyModel, private PendingStep {
     state_.start_from(body_, start_);
     momentum_ = {};
     restart_momentum();
-    save(false);
-    save(true);
+    for (const bool good : {false, true}) save(good);
   }
 
   StepOutcome integrate(const ExplicitStep& step, std::span<const NodalForce> forces) noexcept {
@@ -338,24 +351,10 @@ class LatticeBody final : public BodyModel, private PendingStep {
     ExplicitStep look = step;
     look.dt = 0;
     const StepOutcome looked = elements_->step(body_, state_, look);
-    return {.broken = looked.broken,
-            .solved = report.converged,
-            .work = report.work,
-            .contact_lost = report.contact_lost,
-            .newton_iterations = report.newton_iterations,
-            .cg_iterations = report.cg_iterations,
-            .least_corner_J = looked.least_corner_J};
-  }
-
-  MomentumAccount::Start momenta_with(const Three<Real>& v) const noexcept {
-    MomentumAccount::Start sum = measure_momenta(body_, state_.u, v);
-    if (state_.dt_before > 0)
-      for (const Index node : state_.fast.node) {
-        const Vec3 mv = node_mass(body_, node) * state_.fast.lead(node);
-        sum.momenta.linear += mv;
-        sum.momenta.angular += position(node).cross(mv);
-      }
-    return sum;
+    StepOutcome outcome{.broken = looked.broken, .solved = report.converged, .work = report.work};
+    outcome.contact_lost = report.contact_lost, outcome.least_corner_J = looked.least_corner_J;
+    outcome.newton_iterations = report.newton_iterations, outcome.cg_iterations = report.cg_iterations;
+    return outcome;
   }
 
   /// With another step the velocity half a step ago is another one: the step starts from the one now. Its momentum is another
@@ -381,6 +380,7 @@ class LatticeBody final : public BodyModel, private PendingStep {
   Sleep sleep_;
   MomentumAccount momentum_;
   GoodState<SavedState<Real>> saved_;
+  std::optional<MarkedState<Real>> marked_;         // only of a body that may be cut
   std::unique_ptr<ImplicitSolver<Real>> implicit_;  // only for backward_euler
   std::unique_ptr<AwakeRegion<Real>> region_;       // only of a body that is awake in parts
   int unknown_for_ = 2;    // steps: after a reset, at once and after the next, events of cuts tell nothing

@@ -91,6 +91,19 @@ MomentumAccount::Start measure_momenta(const Body& body, const Three<Real>& u,
 }
 
 template <class Real>
+MomentumAccount::Start measure_momenta(const Body& body, const LatticeState<Real>& state,
+                                       const Three<Real>& v) noexcept {
+  MomentumAccount::Start sum = measure_momenta(body, state.u, v);
+  if (state.dt_before > 0)
+    for (const Index node : state.fast.node) {
+      const Vec3 mv = node_mass(body, node) * state.fast.lead(node);
+      sum.momenta.linear += mv;
+      sum.momenta.angular += (body.rest_position(node) + vector_of(state.u, node)).cross(mv);
+    }
+  return sum;
+}
+
+template <class Real>
 BodyCounts measure_counts(const Body& body, const LatticeState<Real>& state) {
   BodyCounts counts;
   counts.elements = body.lattice.n_elements();
@@ -122,6 +135,10 @@ template Losses measure_losses(const LatticeState<double>&);
 template MomentumAccount::Start measure_momenta(const Body&, const Three<float>&,
                                                 const Three<float>&) noexcept;
 template MomentumAccount::Start measure_momenta(const Body&, const Three<double>&,
+                                                const Three<double>&) noexcept;
+template MomentumAccount::Start measure_momenta(const Body&, const LatticeState<float>&,
+                                                const Three<float>&) noexcept;
+template MomentumAccount::Start measure_momenta(const Body&, const LatticeState<double>&,
                                                 const Three<double>&) noexcept;
 template BodyCounts measure_counts(const Body&, const LatticeState<float>&);
 template BodyCounts measure_counts(const Body&, const LatticeState<double>&);

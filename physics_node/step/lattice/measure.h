@@ -42,6 +42,10 @@ Losses measure_losses(const LatticeState<Real>& state);
 /// Of all masses, held ones too, with velocities v. @return momenta, mass, and what the books of momentum begin with
 template <class Real>
 MomentumAccount::Start measure_momenta(const Body& body, const Three<Real>& u, const Three<Real>& v) noexcept;
+/// The same of a state, with what of a step nodes that are stepped on their own are ahead.
+template <class Real>
+MomentumAccount::Start measure_momenta(const Body& body, const LatticeState<Real>& state,
+                                       const Three<Real>& v) noexcept;
 
 /// All but the shape.
 template <class Real>

@@ -6,20 +6,6 @@
 namespace palpate::physics {
 namespace {
 
-template <class T>
-void copy_rows(const Body& body, const ZeroedArray<T>& from, ZeroedArray<T>& to) noexcept {
-  for (const RowSegment& row : body.lattice.rows)
-    std::copy_n(from.data() + row.first, row.count, to.data() + row.first);
-}
-
-/// Of all nodes, copies too.
-template <class T>
-void copy_nodes(const Body& body, const ZeroedArray<T>& from, ZeroedArray<T>& to) noexcept {
-  copy_rows(body, from, to);
-  if (const CellNet* net = body.cell_net())
-    std::copy_n(from.data() + net->n_loaded(), net->n_copies(), to.data() + net->n_loaded());
-}
-
 template <class Real>
 void copy_cells(const Body& body, const FailedCells<Real>& from, FailedCells<Real>& to) noexcept {
   for (std::size_t a = 0; a < from.arrays().size(); ++a) copy_rows(body, *from.arrays()[a], *to.arrays()[a]);

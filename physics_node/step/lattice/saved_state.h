@@ -1,11 +1,27 @@
 #pragma once
 // A state of a body to go back to, for the guard.
 
+#include <algorithm>
 #include <vector>
 
 #include "physics_node/step/lattice/state.h"
 
 namespace palpate::physics {
+
+/// Of all masses as loaded.
+template <class T>
+void copy_rows(const Body& body, const ZeroedArray<T>& from, ZeroedArray<T>& to) noexcept {
+  for (const RowSegment& row : body.lattice.rows)
+    std::copy_n(from.data() + row.first, row.count, to.data() + row.first);
+}
+
+/// Of all nodes, copies too.
+template <class T>
+void copy_nodes(const Body& body, const ZeroedArray<T>& from, ZeroedArray<T>& to) noexcept {
+  copy_rows(body, from, to);
+  if (const CellNet* net = body.cell_net())
+    std::copy_n(from.data() + net->n_loaded(), net->n_copies(), to.data() + net->n_loaded());
+}
 
 template <class Real>
 class SavedState {
