@@ -388,6 +388,7 @@ TEST(SessionRecord, RefusesAListThatNoSessionHasBeforeItIsRead) {
       for (const char* empty : {"hashes", "flushed", "commands"})
         file.write<std::uint64_t>(std::string("/session/") + empty, {0}, nullptr);
       file.write<double>("/session/command_values", {0}, nullptr);
+      file.write<std::uint8_t>("/session/command_names", {0, 64}, nullptr);
       const std::vector<std::uint8_t> blanks(n, ' ');
       file.write<std::uint8_t>(dataset, {n}, blanks.data());
     }
