@@ -156,7 +156,7 @@ void BladeTool::find_contact(double t) noexcept {
   const BladeFrame frame = frame_at(0);
   hand_ = tip_at(0);
   std::size_t most = 0;
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+  for (std::size_t b = 0; bites() && b < bodies_.size(); ++b) {
     if (blade_.bites() && b != touched_) continue;
     BladeLinks& links = bodies_[b].links;
     links.gather(frame, blade_.place(), t);
