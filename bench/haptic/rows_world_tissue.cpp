@@ -88,6 +88,8 @@ Row world_tissue_is_stable(Runs& runs) {
           world_figure(t), keeps_S2(t) && t.step_beyond_most <= world_step_limit};
 }
 
+/// At every frame. Of a swing that has but one frame a half of it or fewer, frames see what they happen to: world_tissue_swings() has
+/// these.
 Row world_tissue_is_true(Runs& runs) {
   double worst = 0, step = -1, surplus = 0;
   std::string figure;
@@ -95,6 +97,7 @@ Row world_tissue_is_true(Runs& runs) {
     figure += fmt::format("{}{}:", figure.empty() ? "" : "; ", age.name);
     for (const double frequency :
          runs.effort == Effort::full ? std::vector<double>{1, 5, 10, 20} : std::vector<double>{5}) {
+      if (2 * frequency >= age.rate_Hz) continue;
       double off = 0;
       for (const SlabModel* slab : elastic_slabs) {
         const Case c = slab_case(*slab, age);
