@@ -112,6 +112,9 @@ int node_main(int argc, char** argv, const char* name,
   app.add_option("--peers", peers, "other machines, by name or address, separated by commas");
   app.add_option("--seconds", options.seconds, "simulated time after which to stop")
       ->check(number_in({.lo = 0, .hi = run_seconds.hi}));
+  app.add_option("--from", options.from, "physics: record of the same scene to begin from");
+  app.add_option("--at", options.at, "simulated time of that record; else its end")
+      ->check(number_in(run_seconds));
   app.add_option("--device", options.device, "driver instead of the scene's");
   app.add_flag("--headless", options.headless, "frames to files instead of a window");
   app.add_flag("--require-rt", options.require_rt, "fail without real-time rights");
@@ -128,6 +131,7 @@ int node_main(int argc, char** argv, const char* name,
     install_stop_handlers();
     const Scene scene = load_scene(options.scene_path, options.settings);
     keep_as_private_as(files_of(scene));
+    if (!options.from.empty()) keep_as_private_as({options.from});
     const int code = run(options, scene);
     if (stopped_by() == "iox-roudi")
       log_warn("RouDi was stopped, and has told the programs that use its memory to end");

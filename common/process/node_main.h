@@ -2,6 +2,7 @@
 // What the main() of every node shares: its command line, and what becomes of an InputError.
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -12,17 +13,19 @@ namespace palpate {
 
 /// The command line of palpate-physics, palpate-haptic and palpate-render:
 ///   SCENE [--set table.key=value]... [--out DIR] [--domain N] [--seconds T] [--device DRIVER] [--headless] [--require-rt]
-///         [--interface NAME|ADDRESS] [--peers HOST,HOST]
+///         [--interface NAME|ADDRESS] [--peers HOST,HOST] [--from RECORD [--at T]]
 struct NodeOptions {
   std::string scene_path;
   std::vector<std::string> settings;
-  std::string out;          // folder for what this node leaves; empty: nothing is written
-  int domain = 0;           // DDS domain
-  Reach reach;              // which machines it talks to
-  double seconds = 0;       // stop after this much simulated time; 0: until told
-  std::string device;       // driver instead of the scene's; empty: the scene's
-  bool headless = false;    // render: frames to files, no window
-  bool require_rt = false;  // haptic: no real-time rights is fatal
+  std::string out;     // folder for what this node leaves; empty: nothing is written
+  int domain = 0;      // DDS domain
+  Reach reach;         // which machines it talks to
+  double seconds = 0;  // stop after this much simulated time; 0: until told
+  std::string device;  // driver instead of the scene's; empty: the scene's
+  std::string from;    // physics: a record to begin from; empty: the scene as it is loaded
+  double at = std::numeric_limits<double>::infinity();  // where in it [s]; infinite: its end
+  bool headless = false;                                // render: frames to files, no window
+  bool require_rt = false;                              // haptic: no real-time rights is fatal
 };
 
 /// How a node joins its session.

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <limits>
@@ -19,6 +20,7 @@
 #include "common/scene/device_spec.h"
 #include "common/scene/load_scene.h"
 #include "common/scene/near_miss.h"
+#include "common/scene/physics_spec.h"
 #include "common/scene/render_spec.h"
 #include "common/scene/scene.h"
 #include "common/scene/scene_source.h"
@@ -36,6 +38,7 @@
 #include "deploy/palpate/viewers.h"
 #include "haptic_node/device/driver_library.h"
 #include "physics_node/forecast/memory_need.h"
+#include "physics_node/record/catch_up.h"
 #include "physics_node/record/mend_record.h"
 #include "render_node/ui/window.h"
 
@@ -56,7 +59,9 @@ struct RunOptions {
   std::string interface;
   std::string peers;
   std::string bin;
-  double seconds = 0;  // 0: the scene's own
+  std::string from;  // a record to begin from; empty: the scene as it is loaded
+  double at = std::numeric_limits<double>::infinity();  // where in it [s]; infinite: its end
+  double seconds = 0;                                   // 0: the scene's own
   int domain = 0;
   bool headless = false;
   bool require_rt = false;
@@ -68,6 +73,8 @@ std::vector<std::string> node_arguments(const RunOptions& options, const fs::pat
                                         std::to_string(options.domain)};
   for (const auto& setting : options.settings) arguments.insert(arguments.end(), {"--set", setting});
   if (!options.device.empty()) arguments.insert(arguments.end(), {"--device", options.device});
+  if (!options.from.empty()) arguments.insert(arguments.end(), {"--from", options.from});
+  if (std::isfinite(options.at)) arguments.insert(arguments.end(), {"--at", fmt::format("{}", options.at)});
   if (options.headless) arguments.emplace_back("--headless");
   if (options.require_rt) arguments.emplace_back("--require-rt");
   if (!options.interface.empty()) arguments.insert(arguments.end(), {"--interface", options.interface});
@@ -117,6 +124,18 @@ void require_drivers(const Scene& scene, const RunOptions& options, const Sessio
   }
 }
 
+/// A record to begin from must be one, and outside the folder that this session writes to.
+void require_record(const Scene& scene, const RunOptions& options, const fs::path& out, bool physics_here) {
+  if (options.from.empty()) return;
+  if (!physics_here) throw InputError("--from: begins where physics is, which is not on this PC");
+  physics::time_in_record(options.from, options.at, 1 / scene.physics->frame_Hz);
+  std::error_code ignored;
+  if (fs::equivalent(out / "record.h5", options.from, ignored))
+    throw InputError(fmt::format(
+        "{}: holds the record that the session begins from; give another folder with --out", out.string()));
+  keep_as_private_as({options.from});
+}
+
 /// A node that was killed has not closed its record. What cannot be mended is left as it is: palpate info says why.
 void mend_left_record(const fs::path& record) {
   try {
@@ -144,8 +163,10 @@ int run(const RunOptions& options) {
   const Reach reach = {.interface = options.interface, .peers = comma_list(options.peers)};
   Share share = parse_share(options.deployment, options.side, options.nodes, !reach.local());
   if (scene.tools.empty()) share = without_hand(std::move(share));
-  if (std::find(share.here.begin(), share.here.end(), NodeKind::physics) != share.here.end())
-    physics::refuse_too_large(scene, physics::usable_memory());
+  const bool physics_here =
+      std::find(share.here.begin(), share.here.end(), NodeKind::physics) != share.here.end();
+  require_record(scene, options, out, physics_here);
+  if (physics_here) physics::refuse_too_large(scene, physics::usable_memory());
   const bool windowed = !options.headless && render::display_present() &&
                         std::find(share.here.begin(), share.here.end(), NodeKind::render) != share.here.end();
   std::optional<DiskReserve> room;
@@ -173,8 +194,7 @@ int run(const RunOptions& options) {
   if (alone) require_free_ports(options.domain);
   const HeldFolder held = prepare_out(out);
   // Physics would take it for that of this session before it was started again.
-  if (std::find(share.here.begin(), share.here.end(), NodeKind::physics) != share.here.end())
-    fs::remove(out / "record.h5");
+  if (physics_here) fs::remove(out / "record.h5");
   room.emplace(out);
 
   // 2. the session
@@ -213,6 +233,12 @@ void add_run(CLI::App& app, int& exit_code) {
                    "scene's length is simulated")
       ->check(number_in(run_seconds));
   command->add_option("--out", options->out, "folder for results (default: out/NAME_OF_SCENE)");
+  auto* from = command->add_option(
+      "--from", options->from,
+      "record.h5 of an earlier run of this scene: the tissue begins as it was at its end");
+  command->add_option("--at", options->at, "begin there in that record instead [s]")
+      ->check(number_in(run_seconds))
+      ->needs(from);
   command->add_option("--set", options->settings, "table.key=value over the scene; may be repeated")
       ->allow_extra_args(false);
   command->add_option("--device", options->device, "driver instead of the scene's");

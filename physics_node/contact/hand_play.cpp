@@ -1,6 +1,7 @@
 #include "physics_node/contact/hand_play.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/message/vec3.h"
 #include "physics_node/contact/low_pass.h"
@@ -42,8 +43,9 @@ bool HandPlay::take(const ToolState* state, double dt) noexcept {
   stood_ = 0;
   const Vec3 newest = vec(state->p_WT);
   turned_[1] = Eigen::Quaterniond(state->q_WT[0], state->q_WT[1], state->q_WT[2], state->q_WT[3]);
-  const bool goes_on = seen() && state->sample > last_;
-  if (!goes_on) {
+  const bool as_before = goes_on(*state);
+  stamp_ns_ = state->stamp_ns;
+  if (!as_before) {
     path_[0] = {newest, Vec3::Zero()};
     turned_[0] = turned_[1];
     begin_ = last_ = state->sample;
@@ -55,6 +57,13 @@ bool HandPlay::take(const ToolState* state, double dt) noexcept {
   }
   add(newest, state->sample);
   return true;
+}
+
+bool HandPlay::goes_on(const ToolState& state) const noexcept {
+  if (!seen() || state.sample <= last_) return false;
+  const double by_number = period_ * static_cast<double>(state.sample - last_);
+  const double by_stamp = 1e-9 * (static_cast<double>(state.stamp_ns) - static_cast<double>(stamp_ns_));
+  return std::abs(by_stamp - by_number) < may_differ;
 }
 
 HandPlay::Moment HandPlay::at(double share) const noexcept {

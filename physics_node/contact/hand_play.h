@@ -61,11 +61,17 @@ class HandPlay {
  private:
   void add(const Vec3& x, std::uint64_t number) noexcept;
 
+  /// Numbered on from the last sample, and by its stamp as old as its number says.
+  bool goes_on(const ToolState& state) const noexcept;
+
   static constexpr double may_be_late = 1.5;  // samples
+  // By which stamps and numbers of samples may differ [s]. Why: a hand that was stopped for half a second is the same hand.
+  static constexpr double may_differ = 1;
 
   double period_, share_;
   double stood_ = 0;                    // since a frame played something [s]
   std::uint64_t begin_ = 0, last_ = 0;  // samples at both ends of the frame
+  std::int64_t stamp_ns_ = 0;           // of last_
   std::uint64_t first_ = 0;             // of path_[1]: more than one after begin_ where some are lost
   std::size_t n_ = 1;
   std::array<Moment, max_told_samples + 2> path_{};

@@ -24,6 +24,7 @@
 #include "common/wire/heard_report.h"
 #include "common/wire/refusals.h"
 #include "common/wire/wire_report.h"
+#include "physics_node/record/catch_up.h"
 #include "physics_node/record/earlier_record.h"
 #include "physics_node/remarks/remarks.h"
 #include "physics_node/report/physics_summary.h"
@@ -80,6 +81,22 @@ PhysicsLoop::PhysicsLoop(const NodeOptions& options, const Scene& scene)
     log_warn("{}", remark);
     note(remark);
   }
+  if (!options_.from.empty()) go_on_from_record();
+}
+
+/// Nobody hears of the tissue meanwhile, and what people say waits.
+void PhysicsLoop::go_on_from_record() {
+  const std::int64_t begin = now_ns();
+  log_info("running {} again{}", options_.from,
+           std::isinf(options_.at) ? "" : fmt::format(" to {:.6g} s", options_.at));
+  if (recorder_) recorder_->set_when_behind(Recorder::WhenBehind::wait);
+  const CaughtUp caught_up =
+      catch_up(options_.from, options_.at, *world_, recorder_.get(), [] { return !stop_requested(); });
+  if (recorder_) recorder_->set_when_behind(Recorder::WhenBehind::drop);
+  began_t_ = last_status_t_ = caught_up.t;
+  last_status_frames_ = world_->report().frames;
+  log_info("{:.3f} s run again in {:.2f} s, {} states as recorded; the session goes on from there",
+           caught_up.t, seconds_from_ns(now_ns() - begin), caught_up.compared);
 }
 
 /// @return true if the hand has spoken since the last frame
@@ -298,7 +315,7 @@ bool PhysicsLoop::leave() {
     }
   };
   try_to([&] { recorder_->finish(*world_); });
-  auto part = physics_summary(*world_, recorder_.get(), wall);
+  auto part = physics_summary(*world_, recorder_.get(), wall, began_t_);
   part.update(wire_report("physics", wire_.participant, wire_.patches, wire_.wrenches, wire_.status,
                           wire_.eye.surfaces(), wire_.eye.changes(), wire_.eye.blocks()));
   part.update(surface_bytes_report(appearance_->surface_bytes()));

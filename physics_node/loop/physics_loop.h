@@ -22,6 +22,7 @@ class PhysicsLoop {
   int run();
 
  private:
+  void go_on_from_record();
   bool take_tools();
   void take_commands();
   void publish_hand();
@@ -52,6 +53,7 @@ class PhysicsLoop {
   bool record_failed_ = false;       // said so
   std::uint64_t watchers_ever_ = 0;  // of vertex blocks, at the last look
   std::int64_t start_ns_ = 0;
+  double began_t_ = 0;  // what a record was run again to [s]
 
   // status
   NodeStatus status_{};

@@ -40,6 +40,8 @@ class Recorder {
   /// Before the frame from which on it acts.
   void command(const World& world, const Command& command) noexcept { session_->command(world, command); }
   void status(const NodeStatus& status) noexcept { session_->status(status); }
+  /// From the next frame on.
+  void set_when_behind(WhenBehind when_behind) noexcept { when_behind_ = when_behind; }
   /// The disk took no more: what came since is lost, and finish() will say so.
   bool failed() const noexcept { return failed_; }
 

@@ -183,6 +183,9 @@ void SessionRecord::inputs(std::uint64_t frame, const std::vector<ToolSpec>& spe
     Track& track = tracks_[n];
     if (frame == 0) {
       const std::string base = "/session/inputs/" + specs[n].name;
+      if (!file_->has(base + "/index") || !file_->has(base + "/state"))
+        throw InputError(
+            fmt::format("{}: knows no tool \"{}\"; it is of another scene", path_, specs[n].name));
       track.n_rows = std::min(file_->shape(base + "/index").at(0), file_->shape(base + "/state").at(0));
       track.pressed_by_motion = file_->has(base + "/motion");
     }

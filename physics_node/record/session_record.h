@@ -48,6 +48,7 @@ class SessionRecord {
 
   /// What physics got from the hands in frame `frame`. Call it for frames in order, from 0 on.
   /// @param tools  of the scene, in order; out: the newest state of each, absent where its hand was silent
+  /// @throws InputError: a tool that the record has no hand of
   void inputs(std::uint64_t frame, const std::vector<ToolSpec>& specs,
               std::span<std::optional<ToolState>> tools);
 

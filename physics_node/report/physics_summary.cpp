@@ -144,7 +144,7 @@ const char* precision_name(Precision precision) {
 
 }  // namespace
 
-nlohmann::json physics_summary(const World& world, const Recorder* recorder, double wall_s) {
+nlohmann::json physics_summary(const World& world, const Recorder* recorder, double wall_s, double began_t) {
   const Scene& scene = world.scene();
   nlohmann::json part = {{"scene", scene.path},
                          {"title", scene.title},
@@ -157,11 +157,12 @@ nlohmann::json physics_summary(const World& world, const Recorder* recorder, dou
                          {"integrator", integrator_name(scene.physics->integrator)},
                          {"simulated_s", world.t()},
                          {"wall_s", wall_s},
-                         {"real_time_factor", wall_s > 0 ? world.t() / wall_s : 0.0},
+                         {"real_time_factor", wall_s > 0 ? (world.t() - began_t) / wall_s : 0.0},
                          {"steps", world.report().steps},
                          {"dt_s", world.step_seconds()},
                          {"state_hash", hex_of(world.state_hash())},
                          {"stages", stages_part(world.report())}};
+  if (began_t > 0) part["began_s"] = began_t;
   if (std::isfinite(world.stable_step_seconds())) part["stable_dt_s"] = world.stable_step_seconds();
   std::optional<InsideOthers> inside;
   if (world.inside_others() != nullptr) {

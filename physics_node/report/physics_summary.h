@@ -9,6 +9,8 @@
 namespace palpate::physics {
 
 /// @param recorder  for the tools' peaks and traces; null where nothing was recorded
-nlohmann::json physics_summary(const World& world, const Recorder* recorder, double wall_s);
+/// @param began_t  what a record was run again to before `wall_s` began [s]
+nlohmann::json physics_summary(const World& world, const Recorder* recorder, double wall_s,
+                               double began_t = 0);
 
 }  // namespace palpate::physics

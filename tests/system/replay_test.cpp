@@ -81,6 +81,31 @@ TEST_F(ReplayTest, UndoesAgainWhatAPersonUndid) {
   EXPECT_EQ(again["strokes"], live["strokes"]);
 }
 
+TEST_F(ReplayTest, GoesOnWhereASessionWas) {
+  ASSERT_EQ(run("scalpel.toml", "--seconds 6"), 0) << log;
+  const std::string record = out("live/record.h5");
+  const auto from = [&](const std::string& more) {
+    return "--seconds 2 --from " + test::quoted(record) + more;
+  };
+  EXPECT_EQ(run("scalpel.toml", from("")), 2) << "would write over what it begins from";
+  EXPECT_NE(log.find("give another folder with --out"), std::string::npos) << log;
+  EXPECT_EQ(run("scalpel.toml", from(" --at 60"), "second"), 2);
+  EXPECT_NE(log.find("cannot begin at 60 s"), std::string::npos) << log;
+  EXPECT_EQ(run("scalpel.toml", from(" --set material.soft.modulus_kPa=390"), "second"), 2);
+  EXPECT_NE(log.find("scalpel.toml: another state than that of"), std::string::npos) << log;
+  const double live_s = read_json(out("live/summary.json"))["simulated_s"];
+  const double at = std::floor(0.8 * live_s * 1000) / 1000;  // half cut
+  ASSERT_EQ(run("scalpel.toml", from(fmt::format(" --at {:.3f}", at)), "second"), 0) << log;
+  const auto second = read_json(out("second/summary.json"));
+  EXPECT_NEAR(second["began_s"], at, 0.003);
+  EXPECT_GT(second["simulated_s"].get<double>(), second["began_s"].get<double>() + 0.1);
+  ASSERT_EQ(
+      palpate("replay " + test::quoted(out("second/record.h5")) + " --out " + test::quoted(out("again"))), 0)
+      << log;
+  EXPECT_NE(log.find("all as recorded"), std::string::npos) << log;
+  EXPECT_EQ(read_json(out("again/summary.json"))["state_hash"], second["state_hash"]);
+}
+
 TEST_F(ReplayTest, RunsALiveSessionWithBreaksAgain) {
   ASSERT_EQ(run("knife_breaks.toml", "--seconds 2"), 0) << log;
   const auto live = read_json(out("live/summary.json"));

@@ -64,6 +64,18 @@ TEST(HandPlay, GoesStraightThroughWhatIsForgotten) {
   EXPECT_LT((play.at(1).x - swing(h * 201)).norm(), 1e-12);
 }
 
+/// Of two hands that number their samples on, or of one that was somewhere else for long: not a way between them.
+TEST(HandPlay, BeginsAnewWhereStampsSayThatItIsAnotherHand) {
+  for (const double off : {-1e4, -1.1, -0.9, 0.0, 0.9, 1.1, 1e4}) {
+    HandPlay play = played(10, 12);
+    ToolState state = at_sample(2012);
+    state.stamp_ns = static_cast<std::int64_t>(1e9 * (2 + off));
+    EXPECT_EQ(play.take(&state, h), std::abs(off) < 1) << off;
+    EXPECT_EQ(play.sample(), 2012u);
+    EXPECT_NEAR(play.way(), std::abs(off) < 1 ? (swing(h * 2012) - swing(h * 12)).norm() : 0.0, 1e-12) << off;
+  }
+}
+
 TEST(HandPlay, StandsWhereNothingNewComes) {
   HandPlay play = played(10, 12);
   const ToolState state = at_sample(12);

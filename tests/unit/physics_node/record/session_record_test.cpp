@@ -25,8 +25,8 @@
 #include "physics_node/record/recorder.h"
 #include "physics_node/record/replay.h"
 #include "tests/support/image/scratch_folder.h"
-#include "tests/support/physics/recorded_hand.h"
 #include "tests/support/physics/small_worlds.h"
+#include "tests/unit/physics_node/record/cut_block.h"
 #include "tests/unit/physics_node/record/viewer.h"
 
 namespace palpate::physics {
@@ -147,49 +147,12 @@ TEST(SessionRecord, RunsAgainBitForBitOnAnyThreads) {
   }
 }
 
-/// A blade into the block at 0.4 m/s, and out of it again.
-ToolState led_blade(int frame) {
-  ToolState state = test::recorded_hand(
-      [](double t) { return Vec3(0.014 - 0.4 * std::max(0.03 - std::abs(t - 0.15), 0.0), 0.0003, -0.010); },
-      static_cast<std::uint64_t>(frame) + 1);
-  state.stiffness = 1000;
-  return state;
-}
-
 TEST(SessionRecord, UndoesAgainWhatWasUndone) {
   const ScratchFolder folder;
   std::uint64_t hash = 0;
   std::int64_t cut = 0;
   {
-    const SceneSource source = write_scene(folder / "scene.toml", R"(
-gravity_m_per_s2 = [0, 0, 0]
-[physics]
-precision = "double"
-frame_Hz = 1000
-[[body]]
-name = "block"
-shape = "box"
-size_mm = [16, 16, 10]
-lattice = "fcc"
-spacing_mm = 2
-material = "m"
-fixed = ["-y", "+y"]
-[material.m]
-density_kg_per_m3 = 1000
-modulus_kPa = 200
-viscosity_Pa_s = 5
-cut_toughness_J_per_m2 = 190
-[[tool]]
-name = "blade"
-shape = "scalpel"
-length_mm = 20
-edge_deg = 0
-stiffness_N_per_m = 1000
-device = "hand"
-[device.hand]
-driver = "simulated"
-waypoints = [[0, 60, 0, 0], [1, 50, 0, 0]]
-)");
+    const SceneSource source = write_scene(folder / "scene.toml", test::cut_block("lattice = \"fcc\""));
     World world(load_scene(folder / "scene.toml"));
     Recorder recorder(world, source, folder.path(), Recorder::WhenBehind::wait);
     for (int n = 0; n < 240; ++n) {
@@ -200,7 +163,7 @@ waypoints = [[0, 60, 0, 0], [1, 50, 0, 0]]
         recorder.command(world, undo);
         EXPECT_TRUE(world.undo());
       }
-      const std::optional<ToolState> state = led_blade(n);
+      const std::optional<ToolState> state = test::led_blade(n);
       world.frame(std::span(&state, 1));
       recorder.frame(world, std::span(&state, 1));
     }

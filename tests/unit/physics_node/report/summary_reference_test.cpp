@@ -31,7 +31,8 @@ void add_keys(Keys& keys, const json& part, const std::string& at) {
 }
 
 void add_keys(Keys& keys, const World& world, const Recorder* recorder) {
-  add_keys(keys, physics_summary(world, recorder, 1.0), "");
+  constexpr double began_t = 0.001;  // as if a record had been gone on from
+  add_keys(keys, physics_summary(world, recorder, 1.0, began_t), "");
 }
 
 /// A voxel slab pressed by a tool and recorded.
