@@ -31,8 +31,7 @@ void add_keys(Keys& keys, const json& part, const std::string& at) {
 }
 
 void add_keys(Keys& keys, const World& world, const Recorder* recorder) {
-  constexpr double began_t = 0.001;  // as if a record had been gone on from
-  add_keys(keys, physics_summary(world, recorder, 1.0, began_t), "");
+  add_keys(keys, physics_summary(world, recorder, 1.0), "");
 }
 
 /// A voxel slab pressed by a tool and recorded.
@@ -82,6 +81,7 @@ void add_implicit(Keys& keys) {
   add_keys(keys, world, nullptr);
 }
 
+/// A session that goes on where another was.
 void add_of_finite_elements(Keys& keys) {
   Recipe recipe;
   recipe.lattice = "voxel";
@@ -89,7 +89,8 @@ void add_of_finite_elements(Keys& keys) {
   recipe.body = "model = \"fem\"";
   World world(scene_of(recipe));
   world.frame({});
-  add_keys(keys, world, nullptr);
+  constexpr double began_t = 0.001;  // as if a record had been gone on from
+  add_keys(keys, physics_summary(world, nullptr, 1.0, began_t), "");
 }
 
 /// Two bodies, what joins them, and a scalpel that goes through one of them.
