@@ -5,6 +5,10 @@
 namespace palpate::physics {
 
 void Tool::note(const ToolState& state) noexcept {
+  // Why: of a longer way nobody knows what was felt on it. Another hand, or that of another day, has other ticks and stamps.
+  constexpr double one_way_ns = 1e9;
+  const double since_ns = static_cast<double>(state.stamp_ns) - static_cast<double>(stamp_ns_);
+  if (state.tick < tick_ || since_ns < 0 || since_ns > one_way_ns) book_.lose_hand();
   tick_ = state.tick;
   stamp_ns_ = state.stamp_ns;
   p_WT_ = state.p_WT;

@@ -95,8 +95,9 @@ void PhysicsLoop::go_on_from_record() {
   if (recorder_) recorder_->set_when_behind(Recorder::WhenBehind::drop);
   began_t_ = last_status_t_ = caught_up.t;
   last_status_frames_ = world_->report().frames;
-  log_info("{:.3f} s run again in {:.2f} s, {} states as recorded; the session goes on from there",
-           caught_up.t, seconds_from_ns(now_ns() - begin), caught_up.compared);
+  log_info("{:.3f} s run again in {:.2f} s, {} states as recorded{}", caught_up.t,
+           seconds_from_ns(now_ns() - begin), caught_up.compared,
+           stop_requested() ? "; told to stop" : "; the session goes on from there");
 }
 
 /// @return true if the hand has spoken since the last frame

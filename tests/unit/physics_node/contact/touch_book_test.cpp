@@ -51,6 +51,32 @@ TEST(TouchBook, BooksTheWorkOfATurn) {
   EXPECT_NEAR(book.hand_work(), 0.5 * spring, 1e-12);
 }
 
+/// A tool that another hand takes, or one that nobody has heard of for long, has not gone from one to the other under force.
+TEST(TouchBook, BooksNoWayFromOneHandToTheNext) {
+  constexpr std::int64_t ms = 1'000'000;
+  struct Next {
+    std::uint64_t tick;
+    std::int64_t stamp_ns;
+    bool same;
+  };
+  for (const Next next : {Next{3, 3 * ms, true}, Next{900, 900 * ms, true}, Next{1, 3 * ms, false},
+                          Next{3, 1, false}, Next{3, 2000 * ms, false}}) {
+    World world(pressed_slab());
+    const auto frame = [&world](double z, std::uint64_t tick, std::int64_t stamp_ns) {
+      std::optional<ToolState> state = state_of_hand({0, 0, z}, {0, 0, 1});
+      state->tick = tick, state->stamp_ns = stamp_ns;
+      world.frame(std::span(&state, 1));
+    };
+    frame(0.010, 1, ms);
+    frame(0.009, 2, 2 * ms);
+    EXPECT_NEAR(world.tool(0).book().hand_work(), 1e-3, 1e-12);
+    frame(0.030, next.tick, next.stamp_ns);
+    EXPECT_NEAR(world.tool(0).book().hand_work(), next.same ? -20e-3 : 1e-3, 1e-12) << next.tick;
+    frame(0.029, next.tick + 1, next.stamp_ns + ms);
+    EXPECT_NEAR(world.tool(0).book().hand_work(), next.same ? -19e-3 : 2e-3, 1e-12) << next.tick;
+  }
+}
+
 TEST(TouchBook, BooksNothingOfAHandWithoutForces) {
   TouchBook book;
   for (int i = 0; i <= 10; ++i) {
